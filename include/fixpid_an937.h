@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// fixpid_an937: the PID controller of Microchip's application note AN937,
+// "Implementing a PID Controller Using a PIC18 MCU".
+//
+//   output = (kp * error + ki * accumulated + kd * delta) / 16      (Equation
+//   4)
+//
+// error is setpoint - measurement, any int16_t; the note works in -4000..4000.
+// Gains are Q4.4: 16 means 1.0, 255 means 15.9375. The sum is limited to a
+// 24-bit magnitude and divided by 16 toward zero: -1048575..1048575.
+//
+// Two rates. Call fixpid_an937_tick once per timer tick; the tick sets the rate
+// of I and D (the note's motor: 1 ms). Call fixpid_an937_step as often as there
+// is a fresh error: P follows every step, while I and D move with the first
+// step after a tick and keep their values between ticks.
+//
+// Any number of controllers work side by side. Functions of one controller must
+// not interrupt each other, except that fixpid_an937_tick may interrupt all of
+// them where the compiler's code is re-entrant (never on a PIC16 under SDCC).
+//
+// Departures from the firmware that Microchip shipped with the note:
+// 1. Derivative sign: delta is error - previous error, as the note's text says;
+//    the firmware pushes the wrong way when the error shrinks.
+// 2. Error zero: a step with error 0 is computed like any other; the firmware
+//    holds its old output and accumulates nothing.
+#ifndef FIXPID_AN937_H
+#define FIXPID_AN937_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fixpid.h"
+
+FIXPID_C_BEGIN
+
+// A gain from its real value, folded at compile time: FIXPID_AN937_GAIN(6.0)
+// is 96. Rounds to the nearest 1/16; a constant outside 0..15.9375 (after
+// rounding) does not compile. No floating-point code is generated.
+#define FIXPID_AN937_GAIN(gain)                                                \
+    ((uint8_t)FIXPID_CHECKED((gain)*16.0 + 0.5,                                \
+                             (gain) >= 0.0 && (gain)*16.0 < 255.5))
+
+struct fixpid_an937_config {
+    uint8_t kp_q4; // proportional gain x 16; the note's motor: 96
+    uint8_t ki_q4; // integral gain x 16, per tick; 80, later 144
+    uint8_t kd_q4; // derivative gain x 16, per derivative sample; 16
+
+    // Anti-windup: the accumulated error stays within +-this. 1..65535, in
+    // error counts times ticks; the note's value is 4000.
+    uint16_t accumulated_error_limit;
+
+    // Ticks per derivative sample, the note's derivative counter. 1..255; the
+    // note's motor samples every 4 ms: 4.
+    uint8_t derivative_period_ticks;
+};
+
+// Private: open only so that the application can allocate it.
+struct fixpid_an937 {
+    uint8_t kp_q4, ki_q4, kd_q4;
+    uint8_t derivative_period_ticks;
+    uint16_t accumulated_error_limit; // 0: refused, gains are 0
+    volatile uint8_t tick_pending;
+    volatile uint8_t tick_overrun;
+    uint8_t derivative_countdown;
+    uint8_t step_flags;
+    // Signed 17-bit values as magnitude and sign; a sign may stand by a zero.
+    uint16_t error_magnitude;       // AN937 error
+    uint16_t accumulated_magnitude; // AN937 a_error
+    uint16_t delta_magnitude;       // AN937 d_error
+    int16_t previous_error;         // AN937 p_error
+    uint8_t error_negative;
+    uint8_t accumulated_negative;
+    uint8_t delta_negative;
+    uint8_t sum_negative;
+};
+
+// Bits of fixpid_an937_flags. The first two describe the last step: the value
+// before the limit lay beyond it. The overrun stays until it is cleared.
+#define FIXPID_AN937_SUM_SATURATED 0x01u
+#define FIXPID_AN937_ACCUMULATED_ERROR_LIMITED 0x02u
+#define FIXPID_AN937_TICK_OVERRUN 0x04u // a tick came before the last was used
+
+// Bits of fixpid_an937_status (the note's Register 1, pid_stat1) and of
+// fixpid_an937_status2 (Register 2, pid_stat2). A sign bit is 1 for positive
+// and for zero. The note's bit 5, `mag`, belongs to its sign-magnitude
+// routines and is always 0 here.
+#define FIXPID_AN937_PID_SIGN 0x80u   // the 24-bit sum, before the division
+#define FIXPID_AN937_D_ERR_SIGN 0x40u // the derivative term
+#define FIXPID_AN937_P_ERR_SIGN 0x10u // the error of the last derivative sample
+#define FIXPID_AN937_A_ERR_SIGN 0x08u // the accumulated error
+#define FIXPID_AN937_ERR_SIGN 0x04u   // the error
+#define FIXPID_AN937_A_ERR_ZERO 0x02u
+#define FIXPID_AN937_ERR_ZERO 0x01u
+#define FIXPID_AN937_D_ERR_Z 0x04u // status2: delta is zero
+
+// Object mode, for firmware with one controller: compile the application and
+// fixpid_an937.c with -DFIXPID_AN937_OBJECT=name, and define that object at
+// file scope, not static. Calls stay as they are; the pointer is ignored.
+// FIXPID_AN937_PLACE may put it at an address (PIC18 access RAM: __at(0x20)).
+#ifdef FIXPID_AN937_OBJECT
+#ifndef FIXPID_AN937_PLACE
+#define FIXPID_AN937_PLACE
+#endif
+extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
+#endif
+
+// Starts from rest: no accumulated error, no pending tick, and the first tick
+// takes a derivative sample. A limit or a period of 0 is refused: the result is
+// false and the controller outputs 0 on every step, and its setters return
+// false, until a good init. An all-zero object is such a controller.
+bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
+                       const struct fixpid_an937_config *config);
+
+// Back to rest, as after init; gains, limit and period stay.
+void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self);
+
+// New gains for the next step; every value is legal. The accumulated error does
+// not jump, so the output jumps by the change of ki times it. False, and
+// nothing changed, if the controller was refused.
+bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
+                            uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4);
+
+// A new anti-windup limit, 1..65535, used from the next tick on. False, and
+// nothing changed, for 0 or if the controller was refused.
+bool fixpid_an937_set_accumulated_error_limit(
+    FIXPID_DATA struct fixpid_an937 *self, uint16_t limit);
+
+// A new derivative period, 1..255 ticks, used when the running countdown ends.
+// False, and nothing changed, for 0 or if the controller was refused.
+bool fixpid_an937_set_derivative_period(FIXPID_DATA struct fixpid_an937 *self,
+                                        uint8_t ticks);
+
+// Once per timer tick, from the loop that counted it. The next step accumulates
+// the error once; a tick that finds another still waiting is not added twice
+// but sets FIXPID_AN937_TICK_OVERRUN, because the loop is too slow.
+void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self);
+
+// One step; returns -1048575..1048575. With a tick pending:
+//   accumulated = clamp(accumulated + error, -limit, limit)   (Equation 2)
+//   and every derivative period: delta = error - previous     (Equation 3)
+// The sum of the three terms beyond +-(2^24 - 1) is limited there and sets
+// FIXPID_AN937_SUM_SATURATED; each term fits 24 bits by itself.
+int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error);
+
+// The note's 8-bit mode: an error of -100..100 % (clamped) counts 40 per
+// percent, and the output is divided by 1600 toward zero and limited to
+// -100..100 %. It divides: not for the hot path.
+int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
+                                 int8_t error_percent);
+
+// The terms of Equations 1 to 3 with their signs, before the division by 16:
+// within +-16711425. They are products of the last step's values with the
+// present gains: read them before the gains change.
+int32_t fixpid_an937_proportional(FIXPID_DATA struct fixpid_an937 *self);
+int32_t fixpid_an937_integral(FIXPID_DATA struct fixpid_an937 *self);
+int32_t fixpid_an937_derivative(FIXPID_DATA struct fixpid_an937 *self);
+
+// AN937 a_error, within +-accumulated_error_limit.
+int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self);
+
+// The note's two status registers, bit by bit as above.
+uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self);
+uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self);
+
+// What was limited and whether ticks were lost; clear_flags sets all to 0.
+uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self);
+void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self);
+
+FIXPID_C_END
+
+#endif

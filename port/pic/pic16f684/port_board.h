@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The pendulum's board, as in AN964: PIC16F684, 8 MHz internal oscillator.
+#ifndef PORT_BOARD_H
+#define PORT_BOARD_H
+
+#define PORT_TICKS_PER_SECOND 256u
+
+// Full bridge at 31.25 kHz (PR2 = 0x3F).
+#define PORT_DRIVE_FULL 256
+
+// Analog inputs AN0, AN2, AN4 and AN5.
+#define PORT_ANGLE 0u // half scale is upright; 1024 counts are 60 degrees
+#define PORT_KP 2u
+#define PORT_KI 4u
+#define PORT_KD 5u
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The board of the motor and the oven: PIC18F4520 at 40 MHz.
+#ifndef PORT_BOARD_H
+#define PORT_BOARD_H
+
+#define PORT_TICKS_PER_SECOND 1000u
+
+// PWM at 39 kHz (PR2 = 0xFF) and a direction pin.
+#define PORT_DRIVE_FULL 1023
+
+// Analog inputs AN0, AN1 and AN2.
+#define PORT_SETPOINT 0u
+#define PORT_TACHOMETER 1u
+#define PORT_TEMPERATURE 2u
+
+#endif

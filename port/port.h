@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The whole hardware an application sees: a timer tick, an A/D converter and a
+// drive with a sign. Six functions, bound by the linker: one application, one
+// port. Nothing here knows a controller.
+//
+// A port's folder supplies port_board.h with what its board fixes:
+//   PORT_TICKS_PER_SECOND  the nominal tick rate
+//   PORT_DRIVE_FULL        the duty count of full drive
+//   PORT_...               one A/D channel name per sensor or potentiometer
+#ifndef PORT_H
+#define PORT_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "port_board.h"
+
+// Starts clock, timer and A/D converter, and leaves the drive off.
+void port_init(void);
+
+// True on a chip, always; on the host until the scenario ends.
+bool port_running(void);
+
+// Timer ticks since the last call to this or to port_wait_tick, saturating at
+// 255; 0 if there was none. Feeds the watchdog when there was one.
+uint8_t port_ticks(void);
+
+// The same, but waits for a tick: at least 1. More than 1 says that the loop
+// takes longer than a tick.
+uint8_t port_wait_tick(void);
+
+// One conversion of a channel, 0..1023 over the converter's reference.
+uint16_t port_read(uint8_t channel);
+
+// Sets the drive: the sign is the direction and the magnitude the duty, limited
+// to PORT_DRIVE_FULL. Takes effect at once; 0 is off.
+void port_drive(int16_t duty);
+
+#endif
