@@ -155,7 +155,7 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self,
     if (SELF.tick_pending != 0u) {
         SELF.tick_pending = 0;
         accumulate(self);
-        SELF.derivative_countdown--;
+        SELF.derivative_countdown = (uint8_t)(SELF.derivative_countdown - 1);
         if (SELF.derivative_countdown == 0u) {
             SELF.derivative_countdown = SELF.derivative_period_ticks;
             differentiate(self, error);

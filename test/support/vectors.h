@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Rows of a recorded file under test/vectors/, in order: read from the file on
+// the host, from a table made of the same file where there are no files.
+#ifndef VECTORS_H
+#define VECTORS_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#define VECTORS_COLUMNS_MAX 20
+
+// The first row comes next. `name` is the file's, without folder and ending.
+void vectors_open(const char *name);
+
+// The next row's columns; false after the last one. A file that is missing or
+// a row that is not all numbers fails the test.
+bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX]);
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Several controllers side by side: pointer mode only.
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+#include "fixpid_an964_8bit.h"
+#include "numbers.h"
+#include "reference.h"
+#include "unity.h"
+
+TEST_SOURCE_FILE("src/fixpid_an937.c")
+TEST_SOURCE_FILE("src/fixpid_an964.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
+
+#define COUNT 5
+
+void setUp(void) {
+    numbers_seed(5);
+}
+
+void tearDown(void) {
+}
+
+void test_an937_several_instances_keep_their_own_state(void) {
+    struct fixpid_an937 controllers[COUNT];
+    struct reference_an937 references[COUNT];
+
+    for (unsigned i = 0; i < COUNT; i++) {
+        const struct fixpid_an937_config config = {
+            (uint8_t)(40 * i), (uint8_t)(50 * i), (uint8_t)(60 * i),
+            (uint16_t)(1000 * (i + 1)), (uint8_t)(i + 1)};
+
+        TEST_ASSERT_TRUE(fixpid_an937_init(&controllers[i], &config));
+        reference_an937_init(&references[i], config.kp_q4, config.ki_q4,
+                             config.kd_q4, config.accumulated_error_limit,
+                             config.derivative_period_ticks);
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(COUNT);
+        const int16_t error = numbers_int16();
+
+        fixpid_an937_tick(&controllers[i]);
+        reference_an937_tick(&references[i]);
+        TEST_ASSERT_EQUAL_INT32(reference_an937_step(&references[i], error),
+                                fixpid_an937_step(&controllers[i], error));
+    }
+}
+
+void test_an964_several_instances_keep_their_own_state(void) {
+    struct fixpid_an964 controllers[COUNT];
+    struct reference_an964 references[COUNT];
+
+    for (unsigned i = 0; i < COUNT; i++) {
+        const struct fixpid_an964_gains gains = {
+            (uint16_t)(200 * i), (uint16_t)(100 * i), (uint16_t)(250 * i)};
+
+        TEST_ASSERT_TRUE(fixpid_an964_init(&controllers[i], &gains));
+        references[i] =
+            (struct reference_an964){.form = reference_an964_10bit(),
+                                     .kp = gains.kp,
+                                     .ki = gains.ki,
+                                     .kd = gains.kd};
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(COUNT);
+        const int16_t error = (int16_t)(numbers_int16() / 32);
+
+        TEST_ASSERT_EQUAL_INT16(reference_an964_step(&references[i], error),
+                                fixpid_an964_step(&controllers[i], error));
+    }
+}
+
+void test_an964_8bit_several_instances_keep_their_own_state(void) {
+    struct fixpid_an964_8bit controllers[COUNT];
+    struct reference_an964 references[COUNT];
+
+    for (unsigned i = 0; i < COUNT; i++) {
+        const struct fixpid_an964_8bit_gains gains = {
+            (uint8_t)(25 * i), (uint8_t)(12 * i), (uint8_t)(31 * i)};
+
+        TEST_ASSERT_TRUE(fixpid_an964_8bit_init(&controllers[i], &gains));
+        references[i] = (struct reference_an964){.form = reference_an964_8bit(),
+                                                 .kp = gains.kp,
+                                                 .ki = gains.ki,
+                                                 .kd = gains.kd};
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(COUNT);
+        const int8_t error = (int8_t)((int32_t)numbers_below(256) - 128);
+
+        TEST_ASSERT_EQUAL_INT16(reference_an964_step(&references[i], error),
+                                fixpid_an964_8bit_step(&controllers[i], error));
+    }
+}
