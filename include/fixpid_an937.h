@@ -55,7 +55,9 @@ struct fixpid_an937_config {
 
 // Private: open only so that the application can allocate it.
 struct fixpid_an937 {
-    uint8_t kp_q4, ki_q4, kd_q4;
+    uint8_t kp_q4;
+    uint8_t ki_q4;
+    uint8_t kd_q4;
     uint8_t derivative_period_ticks;
     uint16_t accumulated_error_limit; // 0: refused, gains are 0
     volatile uint8_t tick_pending;

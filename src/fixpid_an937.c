@@ -17,7 +17,8 @@
 #define OUTPUT_PER_PERCENT 1600
 
 bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
-                       const struct fixpid_an937_config *config) {
+                       const struct fixpid_an937_config *config)
+{
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
     SELF.kp_q4 = 0;
@@ -35,7 +36,8 @@ bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
                                   config->kd_q4);
 }
 
-void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self) {
+void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     SELF.tick_pending = 0;
     SELF.derivative_countdown = 1;
@@ -51,7 +53,8 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self) {
 }
 
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
-                            uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4) {
+                            uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4)
+{
     FIXPID_ASSERT(VALID(self));
     if (SELF.accumulated_error_limit == 0u) {
         return false;
@@ -63,9 +66,13 @@ bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
 }
 
 bool fixpid_an937_set_accumulated_error_limit(
-    FIXPID_DATA struct fixpid_an937 *self, uint16_t limit) {
+    FIXPID_DATA struct fixpid_an937 *self, uint16_t limit)
+{
     FIXPID_ASSERT(VALID(self));
-    if (SELF.accumulated_error_limit == 0u || limit == 0u) {
+    if (SELF.accumulated_error_limit == 0u) {
+        return false;
+    }
+    if (limit == 0u) {
         return false;
     }
     SELF.accumulated_error_limit = limit;
@@ -73,16 +80,21 @@ bool fixpid_an937_set_accumulated_error_limit(
 }
 
 bool fixpid_an937_set_derivative_period(FIXPID_DATA struct fixpid_an937 *self,
-                                        uint8_t ticks) {
+                                        uint8_t ticks)
+{
     FIXPID_ASSERT(VALID(self));
-    if (SELF.accumulated_error_limit == 0u || ticks == 0u) {
+    if (SELF.accumulated_error_limit == 0u) {
+        return false;
+    }
+    if (ticks == 0u) {
         return false;
     }
     SELF.derivative_period_ticks = ticks;
     return true;
 }
 
-void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self) {
+void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     if (SELF.tick_pending != 0u) {
         SELF.tick_overrun = 1;
@@ -92,7 +104,8 @@ void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self) {
 
 // Equation 2: accumulated = clamp(accumulated + error, -limit, limit). Unlike
 // signs subtract the smaller magnitude from the larger, whose sign stays.
-static void accumulate(FIXPID_DATA struct fixpid_an937 *self) {
+static void accumulate(FIXPID_DATA struct fixpid_an937 *self)
+{
     const uint16_t error = SELF.error_magnitude;
     uint16_t accumulated = SELF.accumulated_magnitude;
     bool beyond = false;
@@ -118,8 +131,8 @@ static void accumulate(FIXPID_DATA struct fixpid_an937 *self) {
 }
 
 // Equation 3: delta = error - previous error, within +-65535.
-static void differentiate(FIXPID_DATA struct fixpid_an937 *self,
-                          int16_t error) {
+static void differentiate(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
+{
     const int16_t previous = SELF.previous_error;
 
     FIXPID_ASSERT(VALID(self));
@@ -133,15 +146,16 @@ static void differentiate(FIXPID_DATA struct fixpid_an937 *self,
 }
 
 // gain * magnitude with its sign: |term| <= 255 * 65535 < 2^24.
-static int32_t term(uint8_t gain, uint16_t magnitude, uint8_t negative) {
+static int32_t term(uint8_t gain, uint16_t magnitude, uint8_t negative)
+{
     uint32_t product;
 
     FIXPID_GAIN_PRODUCT(product, gain, magnitude);
-    return negative != 0u ? -(int32_t)product : (int32_t)product;
+    return (negative != 0u) ? -(int32_t)product : (int32_t)product;
 }
 
-int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self,
-                          int16_t error) {
+int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
+{
     int32_t sum;
 
     FIXPID_ASSERT(VALID(self));
@@ -155,8 +169,9 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self,
     if (SELF.tick_pending != 0u) {
         SELF.tick_pending = 0;
         accumulate(self);
-        SELF.derivative_countdown = (uint8_t)(SELF.derivative_countdown - 1);
-        if (SELF.derivative_countdown == 0u) {
+        if (SELF.derivative_countdown > 1u) {
+            SELF.derivative_countdown--;
+        } else {
             SELF.derivative_countdown = SELF.derivative_period_ticks;
             differentiate(self, error);
         }
@@ -175,11 +190,12 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self,
         SELF.step_flags |= FIXPID_AN937_SUM_SATURATED;
     }
     sum >>= 4;
-    return SELF.sum_negative != 0u ? -sum : sum;
+    return (SELF.sum_negative != 0u) ? -sum : sum;
 }
 
 int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
-                                 int8_t error_percent) {
+                                 int8_t error_percent)
+{
     int32_t percent = error_percent;
 
     if (percent > PERCENT_MAX) {
@@ -199,32 +215,38 @@ int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
     return (int8_t)percent;
 }
 
-int32_t fixpid_an937_proportional(FIXPID_DATA struct fixpid_an937 *self) {
+int32_t fixpid_an937_proportional(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return term(SELF.kp_q4, SELF.error_magnitude, SELF.error_negative);
 }
 
-int32_t fixpid_an937_integral(FIXPID_DATA struct fixpid_an937 *self) {
+int32_t fixpid_an937_integral(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return term(SELF.ki_q4, SELF.accumulated_magnitude,
                 SELF.accumulated_negative);
 }
 
-int32_t fixpid_an937_derivative(FIXPID_DATA struct fixpid_an937 *self) {
+int32_t fixpid_an937_derivative(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return term(SELF.kd_q4, SELF.delta_magnitude, SELF.delta_negative);
 }
 
-int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self) {
+int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return term(1u, SELF.accumulated_magnitude, SELF.accumulated_negative);
 }
 
-static uint8_t bit_if(bool condition, uint8_t bit) {
+static uint8_t bit_if(bool condition, uint8_t bit)
+{
     return condition ? bit : (uint8_t)0;
 }
 
-uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self) {
+uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return (uint8_t)(bit_if(SELF.sum_negative == 0u, FIXPID_AN937_PID_SIGN) |
                      bit_if(fixpid_an937_derivative(self) >= 0,
@@ -238,19 +260,21 @@ uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self) {
                      bit_if(SELF.error_magnitude == 0u, FIXPID_AN937_ERR_ZERO));
 }
 
-uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self) {
+uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     return bit_if(SELF.delta_magnitude == 0u, FIXPID_AN937_D_ERR_Z);
 }
 
-uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self) {
+uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
-    return (
-        uint8_t)(SELF.step_flags |
-                 (SELF.tick_overrun != 0u ? FIXPID_AN937_TICK_OVERRUN : 0u));
+    return (uint8_t)(SELF.step_flags | bit_if(SELF.tick_overrun != 0u,
+                                              FIXPID_AN937_TICK_OVERRUN));
 }
 
-void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self) {
+void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self)
+{
     FIXPID_ASSERT(VALID(self));
     SELF.step_flags = 0;
     SELF.tick_overrun = 0;

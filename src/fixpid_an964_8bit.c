@@ -12,10 +12,13 @@
 #endif
 
 #define GAIN_MAX 127u
-#define BYTE_MAX 127 // what an 8 x 8 signed product takes
+#define SUM_LIMIT ((uint16_t)FIXPID_AN964_8BIT_SUM_LIMIT)
+#define TERM_LIMIT ((uint16_t)FIXPID_AN964_8BIT_TERM_LIMIT)
+#define BYTE_MAX 127u // what an 8 x 8 signed product takes
 
 bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
-                            const struct fixpid_an964_8bit_gains *gains) {
+                            const struct fixpid_an964_8bit_gains *gains)
+{
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(gains != 0);
     fixpid_an964_8bit_reset(self);
@@ -29,7 +32,8 @@ bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
     return SELF.ready != 0u;
 }
 
-void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self) {
+void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self)
+{
     FIXPID_ASSERT(VALID(self));
     SELF.sum = 0;
     SELF.error[0] = 0;
@@ -41,7 +45,8 @@ void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self) {
 }
 
 bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
-                                 uint8_t kp, uint8_t ki, uint8_t kd) {
+                                 uint8_t kp, uint8_t ki, uint8_t kd)
+{
     FIXPID_ASSERT(VALID(self));
     if (SELF.ready == 0u) {
         return false;
@@ -56,57 +61,62 @@ bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
 }
 
 // The sum of errors, and I = ki * sum / 512 in two divisions toward zero.
-static void integrate(FIXPID_DATA struct fixpid_an964_8bit *self,
-                      int8_t error) {
+static void integrate(FIXPID_DATA struct fixpid_an964_8bit *self, int8_t error)
+{
     const int16_t sum = (int16_t)(SELF.sum + error); // |sum| <= 8191 + 128
     const bool negative = sum < 0;
-    uint16_t magnitude = (uint16_t)(negative ? -sum : sum);
+    uint16_t magnitude = FIXPID_MAGNITUDE(negative, sum);
     uint16_t gain = SELF.gains.ki;
     uint16_t product;
     uint8_t high;
 
     FIXPID_ASSERT(VALID(self));
-    if (magnitude > FIXPID_AN964_8BIT_SUM_LIMIT) {
-        magnitude = FIXPID_AN964_8BIT_SUM_LIMIT;
+    if (magnitude > SUM_LIMIT) {
+        magnitude = SUM_LIMIT;
         SELF.flags = FIXPID_AN964_8BIT_SUM_LIMITED;
     }
-    SELF.sum = (int16_t)(negative ? -(int16_t)magnitude : (int16_t)magnitude);
+    SELF.sum = FIXPID_WITH_SIGN(negative, magnitude);
 
     // |sum| / 64 <= 127 < 2^7, so the product is at most 127 * 127 / 8 = 2016
     high = (uint8_t)(magnitude >> 6);
-    FIXPID_SCALED_PRODUCT(product, gain, high, 0u, 3, 7);
+    FIXPID_SCALED_PRODUCT(product, gain, high, 0u, 3u, 4u);
     if (product > BYTE_MAX) {
         product = BYTE_MAX;
     }
-    SELF.integral = (int8_t)(negative ? -(int16_t)product : (int16_t)product);
+    SELF.integral = (int8_t)FIXPID_WITH_SIGN(negative, product);
 }
 
 // D = kd * (E(n) - E(n-3)) / 4, rounded down.
 static void differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
-                          int8_t error) {
+                          int8_t error)
+{
     const int16_t change = (int16_t)(error - SELF.error[2]); // within +-255
     const bool falling = change < 0;
     const uint8_t bias = falling ? 3u : 0u;
-    uint16_t magnitude = (uint16_t)(falling ? -change : change);
+    uint16_t magnitude = FIXPID_MAGNITUDE(falling, change);
     uint16_t gain = SELF.gains.kd;
     uint16_t product;
 
     FIXPID_ASSERT(VALID(self));
-    if (magnitude > FIXPID_AN964_8BIT_TERM_LIMIT) {
-        magnitude = FIXPID_AN964_8BIT_TERM_LIMIT;
+    if (magnitude > TERM_LIMIT) {
+        magnitude = TERM_LIMIT;
     }
     // 127 * 127 / 4 = 4032
-    FIXPID_SCALED_PRODUCT(product, gain, magnitude, bias, 2, 7);
-    if (product > FIXPID_AN964_8BIT_TERM_LIMIT) {
-        product = FIXPID_AN964_8BIT_TERM_LIMIT;
+    FIXPID_SCALED_PRODUCT(product, gain, magnitude, bias, 2u, 5u);
+    if (product > TERM_LIMIT) {
+        product = TERM_LIMIT;
     }
-    SELF.derivative = (int8_t)(falling ? -(int16_t)product : (int16_t)product);
+    SELF.derivative = (int8_t)FIXPID_WITH_SIGN(falling, product);
 }
 
 int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
-                               int8_t error) {
+                               int8_t error)
+{
     int16_t sum_of_terms;
-    uint16_t magnitude, gain, output;
+    bool negative;
+    uint16_t magnitude;
+    uint16_t gain;
+    uint16_t output;
 
     FIXPID_ASSERT(VALID(self));
     SELF.flags = 0;
@@ -117,34 +127,38 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
     SELF.error[0] = error;
 
     sum_of_terms = (int16_t)(error + SELF.integral + SELF.derivative);
-    magnitude = (uint16_t)(sum_of_terms < 0 ? -sum_of_terms : sum_of_terms);
+    negative = sum_of_terms < 0;
+    magnitude = FIXPID_MAGNITUDE(negative, sum_of_terms);
     if (magnitude > BYTE_MAX) { // at most 128 + 127 + 127
         magnitude = BYTE_MAX;
         SELF.flags |= FIXPID_AN964_8BIT_OUTPUT_LIMITED;
     }
     gain = SELF.gains.kp;
-    FIXPID_SCALED_PRODUCT(output, magnitude, gain, 0u, 5, 7); // <= 504
-    return (int16_t)(sum_of_terms < 0 ? -(int16_t)output : (int16_t)output);
+    FIXPID_SCALED_PRODUCT(output, magnitude, gain, 0u, 5u, 2u); // <= 504
+    return FIXPID_WITH_SIGN(negative, output);
 }
 
 int16_t fixpid_an964_8bit_proportional(
-    FIXPID_DATA struct fixpid_an964_8bit *self) {
+    FIXPID_DATA struct fixpid_an964_8bit *self)
+{
     FIXPID_ASSERT(VALID(self));
     return SELF.error[0];
 }
 
-int16_t fixpid_an964_8bit_integral(FIXPID_DATA struct fixpid_an964_8bit *self) {
+int16_t fixpid_an964_8bit_integral(FIXPID_DATA struct fixpid_an964_8bit *self)
+{
     FIXPID_ASSERT(VALID(self));
     return SELF.integral;
 }
 
-int16_t fixpid_an964_8bit_derivative(
-    FIXPID_DATA struct fixpid_an964_8bit *self) {
+int16_t fixpid_an964_8bit_derivative(FIXPID_DATA struct fixpid_an964_8bit *self)
+{
     FIXPID_ASSERT(VALID(self));
     return SELF.derivative;
 }
 
-uint8_t fixpid_an964_8bit_flags(FIXPID_DATA struct fixpid_an964_8bit *self) {
+uint8_t fixpid_an964_8bit_flags(FIXPID_DATA struct fixpid_an964_8bit *self)
+{
     FIXPID_ASSERT(VALID(self));
     return SELF.flags;
 }

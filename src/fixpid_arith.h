@@ -28,6 +28,13 @@
 // pre: bits != 0; post: 1..32768 for a negative value.
 #define FIXPID_NEGATED(bits) ((uint16_t)((uint16_t) ~(uint16_t)(bits) + 1u))
 
+// An int16_t from its magnitude and sign, and the magnitude of one.
+// pre: magnitude <= 32767, value >= -32767.
+#define FIXPID_WITH_SIGN(negative, magnitude)                                  \
+    ((int16_t)((negative) ? (-(int16_t)(magnitude)) : ((int16_t)(magnitude))))
+#define FIXPID_MAGNITUDE(negative, value)                                      \
+    ((uint16_t)((negative) ? (-(value)) : (value)))
+
 // a * b of two uint8_t variables, at most 65025. SDCC's pic16 port finds its
 // multiply instruction only without a cast, and does not trap on overflow.
 #if defined(__SDCC_pic16)
@@ -40,21 +47,21 @@
 // floor of a negative quotient is its magnitude rounded up.
 //
 // result and x are uint16_t variables, k is a uint8_t or uint16_t variable, and
-// x and k are used up. n and turns are constants.
-// pre:  k < 2^turns, n <= turns <= 10, x * 2^(turns - n) < 2^14, bias < 2^n
+// x and k are used up. n and more are unsigned constants: k has n + more bits.
+// pre:  k < 2^(n + more), n + more <= 10, x * 2^more < 2^14, bias < 2^n
 // post: result <= (x * k + bias) / 2^n < 2^14 + 1
-#define FIXPID_SCALED_MULTIPLY(result, x, k, bias, n, turns)                   \
+#define FIXPID_SCALED_MULTIPLY(result, x, k, bias, n, more)                    \
     do {                                                                       \
-        (result) = (uint16_t)(((uint32_t)(x) * (k) + (bias)) >> (n));          \
+        (result) = (uint16_t)((((uint32_t)(x) * (k)) + (bias)) >> (n));        \
     } while (0)
 
-// Four 8 x 8 products; the two in the middle are at most 16320 + 765.
-#define FIXPID_SCALED_BYTES(result, x, k, bias, n, turns)                      \
+// Four 8 x 8 products; the two in the middle are at most 16065 + 765.
+#define FIXPID_SCALED_BYTES(result, x, k, bias, n, more)                       \
     do {                                                                       \
         const uint8_t x_low_ = (uint8_t)((x)&0xFFu);                           \
         const uint8_t x_high_ = (uint8_t)((x) >> 8);                           \
         const uint8_t k_low_ = (uint8_t)((k)&0xFFu);                           \
-        const uint8_t k_high_ = (uint8_t)((k) >> 8);                           \
+        const uint8_t k_high_ = (uint8_t)((uint16_t)(k) >> 8);                 \
         const uint16_t low_ = FIXPID_BYTE_PRODUCT(x_low_, k_low_);             \
         const uint16_t high_ = FIXPID_BYTE_PRODUCT(x_high_, k_high_);          \
         uint16_t middle_ = FIXPID_BYTE_PRODUCT(x_high_, k_low_);               \
@@ -65,12 +72,12 @@
     } while (0)
 
 // The classic multiplication of an 8-bit machine: the sum moves right once per
-// bit of k. Before each shift it is below 2^turns + 2 * 2^14 < 2^16.
-#define FIXPID_SCALED_SHIFT(result, x, k, bias, n, turns)                      \
+// bit of k. Before each shift it is below 2^10 + 2 * 2^14 < 2^16.
+#define FIXPID_SCALED_SHIFT(result, x, k, bias, n, more)                       \
     do {                                                                       \
-        uint8_t turn_ = (turns);                                               \
-        (x) = (uint16_t)((x) << ((turns) - (n)));                              \
-        (result) = (uint16_t)((uint16_t)(bias) << ((turns) - (n)));            \
+        uint8_t turn_ = (uint8_t)((n) + (more));                               \
+        (x) = (uint16_t)((x) << (more));                                       \
+        (result) = (uint16_t)((uint16_t)(bias) << (more));                     \
         do {                                                                   \
             if (((k)&1u) != 0u) {                                              \
                 (result) = (uint16_t)((result) + (x));                         \

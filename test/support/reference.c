@@ -6,35 +6,37 @@
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 
-int64_t reference_clamp(int64_t value, int64_t low, int64_t high) {
+int64_t reference_clamp(int64_t value, int64_t low, int64_t high)
+{
     return value < low ? low : value > high ? high : value;
 }
 
-int64_t reference_floor_divide(int64_t dividend, int64_t divisor) {
+int64_t reference_floor_divide(int64_t dividend, int64_t divisor)
+{
     const int64_t remainder = dividend % divisor;
     return dividend / divisor - (remainder < 0 ? 1 : 0);
 }
 
 void reference_an937_init(struct reference_an937 *self, int64_t kp, int64_t ki,
-                          int64_t kd, int64_t limit, int64_t period) {
+                          int64_t kd, int64_t limit, int64_t period)
+{
     memset(self, 0, sizeof *self);
     self->countdown = 1;
-    self->refused = limit == 0 || period == 0;
-    if (!self->refused) {
-        self->kp = kp;
-        self->ki = ki;
-        self->kd = kd;
-        self->limit = limit;
-        self->period = period;
-    }
+    self->kp = kp;
+    self->ki = ki;
+    self->kd = kd;
+    self->limit = limit;
+    self->period = period;
 }
 
-void reference_an937_tick(struct reference_an937 *self) {
+void reference_an937_tick(struct reference_an937 *self)
+{
     self->overrun = self->overrun || self->pending;
     self->pending = true;
 }
 
-int64_t reference_an937_step(struct reference_an937 *self, int64_t error) {
+int64_t reference_an937_step(struct reference_an937 *self, int64_t error)
+{
     const int64_t most = (INT64_C(1) << 24) - 1;
     int64_t total;
 
@@ -62,7 +64,8 @@ int64_t reference_an937_step(struct reference_an937 *self, int64_t error) {
     return self->sum / 16;
 }
 
-uint8_t reference_an937_status(const struct reference_an937 *self) {
+uint8_t reference_an937_status(const struct reference_an937 *self)
+{
     return (uint8_t)((self->sum >= 0 ? 0x80 : 0) |
                      (self->derivative >= 0 ? 0x40 : 0) |
                      (self->previous >= 0 ? 0x10 : 0) |
@@ -72,7 +75,8 @@ uint8_t reference_an937_status(const struct reference_an937 *self) {
                      (self->error == 0 ? 0x01 : 0));
 }
 
-struct reference_an964_form reference_an964_10bit(void) {
+struct reference_an964_form reference_an964_10bit(void)
+{
     const struct reference_an964_form form = {
         .error_limit = 1023,
         .sum_low = 1 - FIXPID_AN964_SUM_LIMIT,
@@ -89,7 +93,8 @@ struct reference_an964_form reference_an964_10bit(void) {
     return form;
 }
 
-struct reference_an964_form reference_an964_8bit(void) {
+struct reference_an964_form reference_an964_8bit(void)
+{
     const struct reference_an964_form form = {
         .error_limit = INT32_MAX,
         .sum_low = -FIXPID_AN964_8BIT_SUM_LIMIT,
@@ -106,7 +111,8 @@ struct reference_an964_form reference_an964_8bit(void) {
     return form;
 }
 
-int64_t reference_an964_step(struct reference_an964 *self, int64_t error) {
+int64_t reference_an964_step(struct reference_an964 *self, int64_t error)
+{
     const struct reference_an964_form *const form = &self->form;
     const int64_t e =
         reference_clamp(error, -form->error_limit, form->error_limit);

@@ -9,7 +9,7 @@
 
 struct reference_an937 {
     int64_t kp, ki, kd, limit, period;
-    bool refused, pending, overrun, limited, saturated;
+    bool pending, overrun, limited, saturated;
     int64_t error, accumulated, delta, previous, countdown;
     int64_t proportional, integral, derivative, sum;
 };

@@ -14,7 +14,8 @@ TEST_SOURCE_FILE("src/fixpid_an964.c")
 FIXPID_DATA struct fixpid_an964 an964_controller;
 static struct reference_an964 reference;
 
-static void start(uint16_t kp, uint16_t ki, uint16_t kd) {
+static void start(uint16_t kp, uint16_t ki, uint16_t kd)
+{
     const struct fixpid_an964_gains gains = {kp, ki, kd};
 
     fixpid_an964_init(&an964_controller, &gains);
@@ -23,7 +24,8 @@ static void start(uint16_t kp, uint16_t ki, uint16_t kd) {
 }
 
 // One step of both, everything compared.
-static int16_t step(int16_t error) {
+static int16_t step(int16_t error)
+{
     const int64_t expected = reference_an964_step(&reference, error);
     const int16_t output = fixpid_an964_step(&an964_controller, error);
 
@@ -41,21 +43,25 @@ static int16_t step(int16_t error) {
     return output;
 }
 
-static void steps(unsigned count, int16_t error) {
+static void steps(unsigned count, int16_t error)
+{
     for (unsigned i = 0; i < count; i++) {
         step(error);
     }
 }
 
-void setUp(void) {
+void setUp(void)
+{
     numbers_seed(964);
     start(600, 40, 100);
 }
 
-void tearDown(void) {
+void tearDown(void)
+{
 }
 
-void test_step_recorded_rows_match_the_firmware(void) {
+void test_step_recorded_rows_match_the_firmware(void)
+{
     enum { RUN, KP, KI, KD, ERROR, SUM, INTEGRAL, DERIVATIVE, OUT };
     int32_t row[VECTORS_COLUMNS_MAX];
     int32_t run = -1;
@@ -86,7 +92,8 @@ void test_step_recorded_rows_match_the_firmware(void) {
 }
 
 // Equation 9: with kp = 1024 / 1024 out of reach, 1023 loses one count.
-void test_step_proportional_alone_is_error_times_kp_over_1024(void) {
+void test_step_proportional_alone_is_error_times_kp_over_1024(void)
+{
     start(512, 0, 0);
     TEST_ASSERT_EQUAL_INT16(50, step(100));
     TEST_ASSERT_EQUAL_INT16(-50, step(-101));
@@ -95,14 +102,16 @@ void test_step_proportional_alone_is_error_times_kp_over_1024(void) {
 }
 
 // The angle limit of the note: 20 degrees are 341 counts of 0.0586 degrees.
-void test_step_twenty_degrees_at_full_gain_stays_below_the_output_limit(void) {
+void test_step_twenty_degrees_at_full_gain_stays_below_the_output_limit(void)
+{
     start(1023, 0, 1023);
     TEST_ASSERT_EQUAL_INT16(INT32_C(461) * 1023 / 1024, step(341));
 }
 
 // Figure 6: the difference is clamped to +-120, multiplied, shifted by 5, and
 // the term is clamped to +-120 again; both lower clamps work (departure 3).
-void test_step_derivative_of_figure_6_is_clamped_twice_on_both_sides(void) {
+void test_step_derivative_of_figure_6_is_clamped_twice_on_both_sides(void)
+{
     start(1023, 0, 16);
     step(500);
     TEST_ASSERT_EQUAL_INT16(120 * 16 / 32,
@@ -122,7 +131,8 @@ void test_step_derivative_of_figure_6_is_clamped_twice_on_both_sides(void) {
     TEST_ASSERT_EQUAL_INT16(-4, fixpid_an964_derivative(&an964_controller));
 }
 
-void test_step_derivative_is_rounded_down_and_integral_toward_zero(void) {
+void test_step_derivative_is_rounded_down_and_integral_toward_zero(void)
+{
     start(1023, 0, 1);
     step(-1);
     TEST_ASSERT_EQUAL_INT16(-1, fixpid_an964_derivative(&an964_controller));
@@ -137,7 +147,8 @@ void test_step_derivative_is_rounded_down_and_integral_toward_zero(void) {
 }
 
 // Equation 8: the difference is taken over three steps.
-void test_step_derivative_looks_back_three_steps(void) {
+void test_step_derivative_looks_back_three_steps(void)
+{
     start(1023, 0, 32);
     step(10);
     step(25);
@@ -149,7 +160,8 @@ void test_step_derivative_looks_back_three_steps(void) {
     TEST_ASSERT_EQUAL_INT16(45, fixpid_an964_derivative(&an964_controller));
 }
 
-void test_step_sum_is_clamped_at_both_ends(void) {
+void test_step_sum_is_clamped_at_both_ends(void)
+{
     start(1, 16, 0);
     steps(29, 1023);
     TEST_ASSERT_EQUAL_INT16(29667, an964_controller.sum);
@@ -173,7 +185,8 @@ void test_step_sum_is_clamped_at_both_ends(void) {
     TEST_ASSERT_EQUAL_INT16(-29999, an964_controller.sum);
 }
 
-void test_step_output_is_clamped_at_both_ends(void) {
+void test_step_output_is_clamped_at_both_ends(void)
+{
     start(1023, 0, 0);
     TEST_ASSERT_EQUAL_INT16(1000, step(1001));
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
@@ -188,14 +201,16 @@ void test_step_output_is_clamped_at_both_ends(void) {
 }
 
 // Departure 1: the program keeps the error in a signed char.
-void test_step_error_beyond_a_byte_does_not_wrap(void) {
+void test_step_error_beyond_a_byte_does_not_wrap(void)
+{
     start(1023, 0, 0);
     TEST_ASSERT_EQUAL_INT16(179, step(180));
     TEST_ASSERT_EQUAL_INT16(-179, step(-180));
 }
 
 // Departure 2: 117 * 281 and 120 * 274 do not fit the program's 16 bits.
-void test_step_products_beyond_16_bits_are_exact(void) {
+void test_step_products_beyond_16_bits_are_exact(void)
+{
     start(16, 281, 0);
     steps(40, 1023);
     TEST_ASSERT_EQUAL_INT16(INT32_C(117) * 281 / 16,
@@ -211,7 +226,8 @@ void test_step_products_beyond_16_bits_are_exact(void) {
     TEST_ASSERT_EQUAL_INT16(-120, fixpid_an964_derivative(&an964_controller));
 }
 
-void test_step_error_of_any_size_is_limited_to_ten_bits(void) {
+void test_step_error_of_any_size_is_limited_to_ten_bits(void)
+{
     start(512, 0, 0);
     TEST_ASSERT_EQUAL_INT16(511, step(INT16_MAX));
     TEST_ASSERT_EQUAL_INT16(1023, fixpid_an964_proportional(&an964_controller));
@@ -223,7 +239,8 @@ void test_step_error_of_any_size_is_limited_to_ten_bits(void) {
 }
 
 // kp multiplies all terms: halving the supply and doubling kp cancel.
-void test_set_gains_kp_on_the_fly_scales_the_output_without_a_transient(void) {
+void test_set_gains_kp_on_the_fly_scales_the_output_without_a_transient(void)
+{
     int16_t before;
 
     start(400, 160, 100);
@@ -234,7 +251,8 @@ void test_set_gains_kp_on_the_fly_scales_the_output_without_a_transient(void) {
     TEST_ASSERT_INT16_WITHIN(2, 2 * before, step(100));
 }
 
-void test_step_nasty_errors_crossed_match_the_reference(void) {
+void test_step_nasty_errors_crossed_match_the_reference(void)
+{
     static const uint16_t gains[] = {0, 1, 31, 280, 512, 1022, 1023};
 
     for (unsigned i = 0; i < NASTY_COUNT; i++) {
@@ -249,7 +267,8 @@ void test_step_nasty_errors_crossed_match_the_reference(void) {
     }
 }
 
-void test_step_random_runs_match_the_reference(void) {
+void test_step_random_runs_match_the_reference(void)
+{
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
         if (numbers_below(300) == 0) {
             start((uint16_t)numbers_below(1024), (uint16_t)numbers_below(1024),
@@ -260,7 +279,8 @@ void test_step_random_runs_match_the_reference(void) {
     }
 }
 
-void test_set_gains_at_every_step_matches_the_reference(void) {
+void test_set_gains_at_every_step_matches_the_reference(void)
+{
     for (unsigned i = 0; i < 2000; i++) {
         const uint16_t kp = (uint16_t)numbers_below(1024);
         const uint16_t ki = (uint16_t)numbers_below(1024);
@@ -274,7 +294,8 @@ void test_set_gains_at_every_step_matches_the_reference(void) {
     }
 }
 
-void test_set_gains_one_beyond_is_refused_and_changes_nothing(void) {
+void test_set_gains_one_beyond_is_refused_and_changes_nothing(void)
+{
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 1024, 1, 1));
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 1, 1024, 1));
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 1, 1, 1024));
@@ -286,7 +307,8 @@ void test_set_gains_one_beyond_is_refused_and_changes_nothing(void) {
     TEST_ASSERT_TRUE(fixpid_an964_set_gains(&an964_controller, 0, 0, 0));
 }
 
-static void assert_refused(void) {
+static void assert_refused(void)
+{
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, 1000));
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, INT16_MIN));
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 600, 40, 100));
@@ -297,7 +319,8 @@ static void assert_refused(void) {
     steps(10, 77);
 }
 
-void test_init_each_gain_one_beyond_is_refused(void) {
+void test_init_each_gain_one_beyond_is_refused(void)
+{
     static const struct fixpid_an964_gains bad[] = {
         {1024, 0, 0}, {0, 1024, 0}, {0, 0, 1024}, {65535, 65535, 65535}};
 
@@ -307,7 +330,8 @@ void test_init_each_gain_one_beyond_is_refused(void) {
     }
 }
 
-void test_init_each_gain_at_its_limits_is_accepted(void) {
+void test_init_each_gain_at_its_limits_is_accepted(void)
+{
     static const struct fixpid_an964_gains good[] = {{0, 0, 0},
                                                      {1023, 0, 0},
                                                      {0, 1023, 0},
@@ -319,14 +343,16 @@ void test_init_each_gain_at_its_limits_is_accepted(void) {
     }
 }
 
-void test_step_all_zero_object_outputs_zero(void) {
+void test_step_all_zero_object_outputs_zero(void)
+{
     static const struct fixpid_an964 nothing;
 
     an964_controller = nothing;
     assert_refused();
 }
 
-void test_reset_clears_the_state_and_keeps_the_gains(void) {
+void test_reset_clears_the_state_and_keeps_the_gains(void)
+{
     steps(40, 1000);
     fixpid_an964_reset(&an964_controller);
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_proportional(&an964_controller));
@@ -338,7 +364,8 @@ void test_reset_clears_the_state_and_keeps_the_gains(void) {
     steps(5, 321);
 }
 
-void test_init_starts_from_rest(void) {
+void test_init_starts_from_rest(void)
+{
     steps(40, 1000);
     start(1023, 1023, 1023);
     steps(5, -3);

@@ -16,7 +16,8 @@ TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
 FIXPID_DATA struct fixpid_an964_8bit an964_8bit_controller;
 static struct reference_an964 reference;
 
-static void start(uint8_t kp, uint8_t ki, uint8_t kd) {
+static void start(uint8_t kp, uint8_t ki, uint8_t kd)
+{
     const struct fixpid_an964_8bit_gains gains = {kp, ki, kd};
 
     fixpid_an964_8bit_init(&an964_8bit_controller, &gains);
@@ -25,7 +26,8 @@ static void start(uint8_t kp, uint8_t ki, uint8_t kd) {
 }
 
 // One step of both, everything compared.
-static int16_t step(int8_t error) {
+static int16_t step(int8_t error)
+{
     const int64_t expected = reference_an964_step(&reference, error);
     const int16_t output =
         fixpid_an964_8bit_step(&an964_8bit_controller, error);
@@ -45,21 +47,25 @@ static int16_t step(int8_t error) {
     return output;
 }
 
-static void steps(unsigned count, int8_t error) {
+static void steps(unsigned count, int8_t error)
+{
     for (unsigned i = 0; i < count; i++) {
         step(error);
     }
 }
 
-void setUp(void) {
+void setUp(void)
+{
     numbers_seed(8);
     start(75, 5, 12);
 }
 
-void tearDown(void) {
+void tearDown(void)
+{
 }
 
-void test_step_sum_of_terms_times_kp_whole_domain(void) {
+void test_step_sum_of_terms_times_kp_whole_domain(void)
+{
     for (unsigned kp = 0; kp <= 127; kp += TEST_STRIDE) {
         start((uint8_t)kp, 0, 0);
         for (int error = -128; error <= 127; error++) {
@@ -68,7 +74,8 @@ void test_step_sum_of_terms_times_kp_whole_domain(void) {
     }
 }
 
-void test_step_integral_whole_domain(void) {
+void test_step_integral_whole_domain(void)
+{
     for (unsigned ki = 0; ki <= 127; ki += TEST_STRIDE) {
         start(32, (uint8_t)ki, 0);
         for (int sum = -FIXPID_AN964_8BIT_SUM_LIMIT;
@@ -80,7 +87,8 @@ void test_step_integral_whole_domain(void) {
     }
 }
 
-void test_step_derivative_whole_domain(void) {
+void test_step_derivative_whole_domain(void)
+{
     for (unsigned kd = 0; kd <= 127; kd += TEST_STRIDE) {
         start(32, 0, (uint8_t)kd);
         for (int change = -255; change <= 255; change++) {
@@ -93,7 +101,8 @@ void test_step_derivative_whole_domain(void) {
 }
 
 // The note's assembly program: 8 x 8 products, so S and I stop at 127.
-void test_step_output_at_full_gain_is_504_duty_counts(void) {
+void test_step_output_at_full_gain_is_504_duty_counts(void)
+{
     start(127, 0, 0);
     TEST_ASSERT_EQUAL_INT16(504, step(127));
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_8bit_flags(&an964_8bit_controller));
@@ -104,7 +113,8 @@ void test_step_output_at_full_gain_is_504_duty_counts(void) {
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_8bit_flags(&an964_8bit_controller));
 }
 
-void test_step_integral_is_limited_to_a_byte_on_both_sides(void) {
+void test_step_integral_is_limited_to_a_byte_on_both_sides(void)
+{
     start(32, 127, 0);
     steps(60, 127);
     TEST_ASSERT_EQUAL_INT16(127,
@@ -115,7 +125,8 @@ void test_step_integral_is_limited_to_a_byte_on_both_sides(void) {
                             fixpid_an964_8bit_integral(&an964_8bit_controller));
 }
 
-void test_step_sum_is_clamped_at_both_ends(void) {
+void test_step_sum_is_clamped_at_both_ends(void)
+{
     start(1, 8, 0);
     steps(59, 127);
     step(7);
@@ -135,7 +146,8 @@ void test_step_sum_is_clamped_at_both_ends(void) {
                            fixpid_an964_8bit_flags(&an964_8bit_controller));
 }
 
-void test_step_derivative_is_rounded_down_and_integral_toward_zero(void) {
+void test_step_derivative_is_rounded_down_and_integral_toward_zero(void)
+{
     start(32, 1, 1);
     step(-1);
     TEST_ASSERT_EQUAL_INT16(
@@ -148,7 +160,8 @@ void test_step_derivative_is_rounded_down_and_integral_toward_zero(void) {
         0, fixpid_an964_8bit_derivative(&an964_8bit_controller));
 }
 
-void test_step_derivative_is_clamped_twice_on_both_sides(void) {
+void test_step_derivative_is_clamped_twice_on_both_sides(void)
+{
     start(32, 0, 2);
     step(100);
     TEST_ASSERT_EQUAL_INT16(
@@ -167,7 +180,8 @@ void test_step_derivative_is_clamped_twice_on_both_sides(void) {
         -30, fixpid_an964_8bit_derivative(&an964_8bit_controller));
 }
 
-void test_step_derivative_looks_back_three_steps(void) {
+void test_step_derivative_looks_back_three_steps(void)
+{
     start(32, 0, 4);
     step(3);
     step(8);
@@ -179,7 +193,8 @@ void test_step_derivative_looks_back_three_steps(void) {
         18, fixpid_an964_8bit_derivative(&an964_8bit_controller));
 }
 
-void test_step_all_errors_crossed_match_the_reference(void) {
+void test_step_all_errors_crossed_match_the_reference(void)
+{
     for (int first = -128; first <= 127; first += TEST_STRIDE) {
         for (int second = -128; second <= 127; second += TEST_STRIDE) {
             start((uint8_t)(first & 127), (uint8_t)(second & 127),
@@ -192,7 +207,8 @@ void test_step_all_errors_crossed_match_the_reference(void) {
     }
 }
 
-void test_step_random_runs_match_the_reference(void) {
+void test_step_random_runs_match_the_reference(void)
+{
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
         if (numbers_below(300) == 0) {
             start((uint8_t)numbers_below(128), (uint8_t)numbers_below(128),
@@ -202,7 +218,8 @@ void test_step_random_runs_match_the_reference(void) {
     }
 }
 
-void test_set_gains_at_every_step_matches_the_reference(void) {
+void test_set_gains_at_every_step_matches_the_reference(void)
+{
     for (unsigned i = 0; i < 2000; i++) {
         const uint8_t kp = (uint8_t)numbers_below(128);
         const uint8_t ki = (uint8_t)numbers_below(128);
@@ -217,7 +234,8 @@ void test_set_gains_at_every_step_matches_the_reference(void) {
     }
 }
 
-void test_set_gains_one_beyond_is_refused_and_changes_nothing(void) {
+void test_set_gains_one_beyond_is_refused_and_changes_nothing(void)
+{
     TEST_ASSERT_FALSE(
         fixpid_an964_8bit_set_gains(&an964_8bit_controller, 128, 1, 1));
     TEST_ASSERT_FALSE(
@@ -233,7 +251,8 @@ void test_set_gains_one_beyond_is_refused_and_changes_nothing(void) {
         fixpid_an964_8bit_set_gains(&an964_8bit_controller, 0, 0, 0));
 }
 
-static void assert_refused(void) {
+static void assert_refused(void)
+{
     TEST_ASSERT_EQUAL_INT16(
         0, fixpid_an964_8bit_step(&an964_8bit_controller, 127));
     TEST_ASSERT_EQUAL_INT16(
@@ -249,7 +268,8 @@ static void assert_refused(void) {
     steps(10, 77);
 }
 
-void test_init_each_gain_one_beyond_is_refused(void) {
+void test_init_each_gain_one_beyond_is_refused(void)
+{
     static const struct fixpid_an964_8bit_gains bad[] = {
         {128, 0, 0}, {0, 128, 0}, {0, 0, 128}, {255, 255, 255}};
 
@@ -260,7 +280,8 @@ void test_init_each_gain_one_beyond_is_refused(void) {
     }
 }
 
-void test_init_each_gain_at_its_limits_is_accepted(void) {
+void test_init_each_gain_at_its_limits_is_accepted(void)
+{
     static const struct fixpid_an964_8bit_gains good[] = {
         {0, 0, 0}, {127, 0, 0}, {0, 127, 0}, {0, 0, 127}, {127, 127, 127}};
 
@@ -270,14 +291,16 @@ void test_init_each_gain_at_its_limits_is_accepted(void) {
     }
 }
 
-void test_step_all_zero_object_outputs_zero(void) {
+void test_step_all_zero_object_outputs_zero(void)
+{
     static const struct fixpid_an964_8bit nothing;
 
     an964_8bit_controller = nothing;
     assert_refused();
 }
 
-void test_reset_clears_the_state_and_keeps_the_gains(void) {
+void test_reset_clears_the_state_and_keeps_the_gains(void)
+{
     steps(60, 127);
     fixpid_an964_8bit_reset(&an964_8bit_controller);
     TEST_ASSERT_EQUAL_INT16(
@@ -292,7 +315,8 @@ void test_reset_clears_the_state_and_keeps_the_gains(void) {
     steps(5, 32);
 }
 
-void test_init_starts_from_rest(void) {
+void test_init_starts_from_rest(void)
+{
     steps(60, 127);
     start(127, 127, 127);
     steps(5, -3);

@@ -13,14 +13,17 @@ TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
 
 #define COUNT 5
 
-void setUp(void) {
+void setUp(void)
+{
     numbers_seed(5);
 }
 
-void tearDown(void) {
+void tearDown(void)
+{
 }
 
-void test_an937_several_instances_keep_their_own_state(void) {
+void test_an937_several_instances_keep_their_own_state(void)
+{
     struct fixpid_an937 controllers[COUNT];
     struct reference_an937 references[COUNT];
 
@@ -45,7 +48,8 @@ void test_an937_several_instances_keep_their_own_state(void) {
     }
 }
 
-void test_an964_several_instances_keep_their_own_state(void) {
+void test_an964_several_instances_keep_their_own_state(void)
+{
     struct fixpid_an964 controllers[COUNT];
     struct reference_an964 references[COUNT];
 
@@ -69,7 +73,8 @@ void test_an964_several_instances_keep_their_own_state(void) {
     }
 }
 
-void test_an964_8bit_several_instances_keep_their_own_state(void) {
+void test_an964_8bit_several_instances_keep_their_own_state(void)
+{
     struct fixpid_an964_8bit controllers[COUNT];
     struct reference_an964 references[COUNT];
 

@@ -18,14 +18,17 @@ FIXPID_DATA struct fixpid_an964 an964_controller;
 FIXPID_DATA struct fixpid_an964_8bit an964_8bit_controller;
 static struct reference_an964 reference;
 
-void setUp(void) {
+void setUp(void)
+{
     numbers_seed(1);
 }
 
-void tearDown(void) {
+void tearDown(void)
+{
 }
 
-static void start_10bit(uint16_t kp, uint16_t ki, uint16_t kd) {
+static void start_10bit(uint16_t kp, uint16_t ki, uint16_t kd)
+{
     const struct fixpid_an964_gains gains = {kp, ki, kd};
 
     fixpid_an964_init(&an964_controller, &gains);
@@ -33,7 +36,8 @@ static void start_10bit(uint16_t kp, uint16_t ki, uint16_t kd) {
         .form = reference_an964_10bit(), .kp = kp, .ki = ki, .kd = kd};
 }
 
-static int16_t step_10bit(int16_t error) {
+static int16_t step_10bit(int16_t error)
+{
     const int64_t expected = reference_an964_step(&reference, error);
     const int16_t output = fixpid_an964_step(&an964_controller, error);
 
@@ -45,7 +49,8 @@ static int16_t step_10bit(int16_t error) {
     return output;
 }
 
-static void start_8bit(uint8_t kp, uint8_t ki, uint8_t kd) {
+static void start_8bit(uint8_t kp, uint8_t ki, uint8_t kd)
+{
     const struct fixpid_an964_8bit_gains gains = {kp, ki, kd};
 
     fixpid_an964_8bit_init(&an964_8bit_controller, &gains);
@@ -53,7 +58,8 @@ static void start_8bit(uint8_t kp, uint8_t ki, uint8_t kd) {
         .form = reference_an964_8bit(), .kp = kp, .ki = ki, .kd = kd};
 }
 
-static void step_8bit(int8_t error) {
+static void step_8bit(int8_t error)
+{
     const int64_t expected = reference_an964_step(&reference, error);
 
     TEST_ASSERT_EQUAL_INT16(
@@ -64,7 +70,8 @@ static void step_8bit(int8_t error) {
                                                       &an964_8bit_controller));
 }
 
-void test_an964_step_reaches_and_keeps_every_limit_on_both_sides(void) {
+void test_an964_step_reaches_and_keeps_every_limit_on_both_sides(void)
+{
     start_10bit(1023, 1023, 1023);
     for (int i = 0; i < 60; i++) {
         step_10bit(1023);
@@ -86,7 +93,8 @@ void test_an964_step_reaches_and_keeps_every_limit_on_both_sides(void) {
     TEST_ASSERT_EQUAL_INT16(-FIXPID_AN964_OUTPUT_LIMIT, step_10bit(-1023));
 }
 
-void test_an964_step_random_runs_match_the_reference(void) {
+void test_an964_step_random_runs_match_the_reference(void)
+{
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS / 10; i++) {
         if (numbers_below(100) == 0) {
             start_10bit((uint16_t)numbers_below(1024),
@@ -97,7 +105,8 @@ void test_an964_step_random_runs_match_the_reference(void) {
     }
 }
 
-void test_an964_8bit_step_reaches_and_keeps_every_limit_on_both_sides(void) {
+void test_an964_8bit_step_reaches_and_keeps_every_limit_on_both_sides(void)
+{
     start_8bit(127, 127, 127);
     step_8bit(127);
     TEST_ASSERT_EQUAL_INT16(
@@ -120,7 +129,8 @@ void test_an964_8bit_step_reaches_and_keeps_every_limit_on_both_sides(void) {
                             an964_8bit_controller.sum);
 }
 
-void test_an964_8bit_step_random_runs_match_the_reference(void) {
+void test_an964_8bit_step_random_runs_match_the_reference(void)
+{
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS / 10; i++) {
         if (numbers_below(100) == 0) {
             start_8bit((uint8_t)numbers_below(128), (uint8_t)numbers_below(128),

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+# Static checks of the C sources; prints what it finds and exits with 1. The
+# house rules behind them are in CONTRIBUTING.md.
+require 'open3'
+
+STRICT = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
+            -Wundef -Wstrict-prototypes -Wmissing-prototypes -Wredundant-decls -Werror].freeze
+OBJECT_MODE = %w[AN937 AN964 AN964_8BIT].map { |name| "-DFIXPID_#{name}_OBJECT=#{name.downcase}_controller" }.freeze
+BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven/ }.freeze
+LINES_MAX = 40
+COMPLEXITY_MAX = 8
+
+def tracked(*patterns)
+  `git ls-files -- #{patterns.map { |pattern| "'#{pattern}'" }.join(' ')}`.split
+end
+
+# The include path and the definitions that a source is compiled with: those of
+# its board, or of both boards in turn.
+def includes(file)
+  base = %w[-Iinclude -Isrc -Iport -Iport/host]
+  return [base] if file.start_with?('src/', 'include/')
+
+  boards = BOARDS.select { |_, names| file =~ names }.keys
+  boards = BOARDS.keys if boards.empty?
+  boards.map { |board| base + ["-Iport/pic/#{board}"] }
+end
+
+@failures = 0
+
+def run(*command)
+  output, status = Open3.capture2e(*command)
+  [output, status.success?]
+end
+
+def expect_clean(*command)
+  output, good = run(*command)
+  return if good && output.empty?
+
+  @failures += 1
+  puts command.join(' '), output.lines.first(20)
+end
+
+def warnings(file)
+  includes(file).each do |paths|
+    %w[gcc clang].each do |compiler|
+      expect_clean(compiler, *STRICT, *paths, '-c', file, '-o', '/dev/null')
+    end
+    expect_clean('gcc', '-std=c99', '-O1', '-fanalyzer', '-Werror', *paths, '-c', file, '-o', '/dev/null')
+  end
+end
+
+def modes_and_leaves(file)
+  [[], OBJECT_MODE].product([1, 2, 3]).each do |mode, leaf|
+    %w[gcc clang].each do |compiler|
+      expect_clean(compiler, *STRICT, '-Iinclude', *mode, "-DFIXPID_PRODUCT=#{leaf}",
+                   '-c', file, '-o', '/dev/null')
+    end
+  end
+end
+
+# clang-tidy counts the warnings it hid on its standard error.
+def tidy(file)
+  includes(file).each do |paths|
+    output, status = Open3.capture2('clang-tidy', '--quiet', file, '--', '-std=c99', *paths, err: File::NULL)
+    next if status.success? && output.empty?
+
+    @failures += 1
+    puts "clang-tidy #{file}", output.lines.first(20)
+  end
+end
+
+# `path:line:...[rule]`, unless the line or the one above explains it.
+def explained?(finding)
+  path, line, rule = finding.match(/^([^:\s]+):(\d+):.*\[(?:misra-c2012-)?([\w.]+)\]$/)&.captures
+  return false unless path
+
+  lines = File.readlines(path)
+  [line.to_i - 1, line.to_i - 2].any? { |at| at >= 0 && lines[at].include?("Deviation #{rule}:") }
+end
+
+def misra(directory, files, defines)
+  paths = files.flat_map { |file| includes(file).first }.uniq
+  output, good = run('cppcheck', '--quiet', '--std=c99', '--addon=misra',
+                     '--enable=warning,style,performance,portability', '--error-exitcode=0',
+                     '--suppressions-list=tools/lib/cppcheck.txt', '--suppress=missingIncludeSystem',
+                     '--suppress=unmatchedSuppression', *defines, *paths, *files)
+  findings = output.lines(chomp: true).grep(/\[[\w.-]+\]$/).reject { |finding| explained?(finding) }
+  return if good && findings.empty?
+
+  @failures += 1
+  puts "cppcheck #{directory}", good ? findings.first(20) : output
+end
+
+def shape(files)
+  output, = run('pmccabe', *files)
+  output.lines.each do |line|
+    complexity, _, _, _, lines, place, name = line.split("\t").flat_map(&:split)
+    next if complexity.to_i <= COMPLEXITY_MAX && lines.to_i <= LINES_MAX
+
+    @failures += 1
+    puts "#{place} #{name}: #{lines} lines (at most #{LINES_MAX}), " \
+         "complexity #{complexity} (at most #{COMPLEXITY_MAX})"
+  end
+end
+
+# With one condition in each decision, branch coverage is MC/DC.
+def single_conditions(files)
+  files.each do |file|
+    File.readlines(file).each_with_index do |line, index|
+      next if line =~ /^\s*#/ || line.sub(%r{//.*}, '') !~ /&&|\|\|/
+
+      @failures += 1
+      puts "#{file}:#{index + 1}: two conditions in one decision"
+    end
+  end
+end
+
+library = tracked('src/*.c')
+programs = tracked('port/*.c', 'examples/*.c', 'tools/probe/*.c')
+(library + programs).each { |file| warnings(file) }
+library.each { |file| modes_and_leaves(file) }
+(library + programs).each { |file| tidy(file) }
+[[], OBJECT_MODE].product([1, 2, 3]).each do |mode, leaf|
+  misra('src', library, mode + ["-DFIXPID_PRODUCT=#{leaf}"])
+end
+programs.group_by { |file| File.dirname(file) }.each do |directory, files|
+  misra(directory, files, directory.start_with?('tools/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : [])
+end
+shape(library + programs)
+single_conditions(library)
+exit(@failures.zero? ? 0 : 1)
