@@ -52,7 +52,7 @@ struct fixpid_an964_8bit {
     int8_t integral;
     int8_t derivative;
     uint8_t flags;
-    uint8_t ready; // 0: refused, gains are 0
+    uint8_t ready; // 0: refused, kp is 0
 };
 
 // Bits of fixpid_an964_8bit_flags, of the last step: the value before the limit

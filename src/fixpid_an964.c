@@ -31,9 +31,7 @@ bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
     fixpid_an964_reset(self);
     SELF.ready = 1;
     if (!fixpid_an964_set_gains(self, gains->kp, gains->ki, gains->kd)) {
-        SELF.gains.kp = 0;
-        SELF.gains.ki = 0;
-        SELF.gains.kd = 0;
+        SELF.gains.kp = 0; // it multiplies all terms
         SELF.ready = 0;
     }
     return SELF.ready != 0u;

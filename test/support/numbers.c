@@ -11,22 +11,26 @@ const int16_t nasty[NASTY_COUNT] = {
 
 static uint32_t state = 1;
 
-void numbers_seed(uint32_t seed) {
+void numbers_seed(uint32_t seed)
+{
     state = seed * UINT32_C(2654435761) + 1u;
 }
 
-uint32_t numbers_next(void) {
+uint32_t numbers_next(void)
+{
     state ^= state << 13;
     state ^= state >> 17;
     state ^= state << 5;
     return state;
 }
 
-uint32_t numbers_below(uint32_t count) {
+uint32_t numbers_below(uint32_t count)
+{
     return numbers_next() % count;
 }
 
-int16_t numbers_int16(void) {
+int16_t numbers_int16(void)
+{
     if ((numbers_next() & 1u) != 0u) {
         return nasty[numbers_below(NASTY_COUNT)];
     }

@@ -8,7 +8,8 @@
 
 static FILE *file;
 
-void vectors_open(const char *name) {
+void vectors_open(const char *name)
+{
     char path[128];
     char header[512];
 
@@ -21,7 +22,8 @@ void vectors_open(const char *name) {
     TEST_ASSERT_NOT_NULL_MESSAGE(fgets(header, sizeof header, file), path);
 }
 
-bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX]) {
+bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX])
+{
     char line[512];
     char *rest = line;
 

@@ -612,6 +612,18 @@ void test_step_percent_output_is_limited_on_both_sides(void)
                            fixpid_an937_step_percent(&an937_controller, -128));
 }
 
+// (2 * 4000 + 255 * 10002) / 16 = 159906, just below 100 * 1600
+void test_step_percent_just_below_full_is_99(void)
+{
+    start(2, 255, 0, 10002, 1);
+    for (int i = 0; i < 4; i++) {
+        fixpid_an937_tick(&an937_controller);
+        fixpid_an937_step_percent(&an937_controller, 100);
+    }
+    TEST_ASSERT_EQUAL_INT8(99,
+                           fixpid_an937_step_percent(&an937_controller, 100));
+}
+
 void test_gain_macro_rounds_to_a_sixteenth(void)
 {
     static const uint8_t gains[] = {

@@ -309,8 +309,9 @@ void test_set_gains_one_beyond_is_refused_and_changes_nothing(void)
 
 static void assert_refused(void)
 {
-    TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, 1000));
-    TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, INT16_MIN));
+    for (int i = 0; i < 90; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, 1023));
+    }
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 600, 40, 100));
     fixpid_an964_reset(&an964_controller);
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 600, 40, 100));
@@ -325,6 +326,7 @@ void test_init_each_gain_one_beyond_is_refused(void)
         {1024, 0, 0}, {0, 1024, 0}, {0, 0, 1024}, {65535, 65535, 65535}};
 
     for (unsigned i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        start(1023, 1023, 1023);
         TEST_ASSERT_FALSE(fixpid_an964_init(&an964_controller, &bad[i]));
         assert_refused();
     }
@@ -353,14 +355,17 @@ void test_step_all_zero_object_outputs_zero(void)
 
 void test_reset_clears_the_state_and_keeps_the_gains(void)
 {
-    steps(40, 1000);
+    start(1023, 1023, 1023);
+    steps(2, 1023);
+    TEST_ASSERT_NOT_EQUAL(0, fixpid_an964_derivative(&an964_controller));
+    TEST_ASSERT_NOT_EQUAL(0, fixpid_an964_flags(&an964_controller));
     fixpid_an964_reset(&an964_controller);
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_proportional(&an964_controller));
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_integral(&an964_controller));
     TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_derivative(&an964_controller));
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
     reference = (struct reference_an964){
-        .form = reference_an964_10bit(), .kp = 600, .ki = 40, .kd = 100};
+        .form = reference_an964_10bit(), .kp = 1023, .ki = 1023, .kd = 1023};
     steps(5, 321);
 }
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// With FIXPID_ASSERT as assert: every function of every controller stops a
+// caller whose pointer is wrong, and no other caller. Wrong is a null pointer,
+// or, in object mode, any controller but the program's one.
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+#include "fixpid_an964_8bit.h"
+
+struct fixpid_an937 an937;
+struct fixpid_an964 an964;
+struct fixpid_an964_8bit an964_8bit;
+
+#ifdef FIXPID_AN937_OBJECT
+static struct fixpid_an937 second_an937;
+static struct fixpid_an964 second_an964;
+static struct fixpid_an964_8bit second_an964_8bit;
+#define WRONG(controller) (&second_##controller)
+#else
+#define WRONG(controller) NULL
+#endif
+
+static const struct fixpid_an937_config config = {96, 80, 16, 4000, 4};
+static const struct fixpid_an964_gains gains = {600, 40, 100};
+static const struct fixpid_an964_8bit_gains gains_8bit = {75, 5, 12};
+
+#define CALLS 33
+
+static void call(int number, bool wrong)
+{
+    struct fixpid_an937 *const a = wrong ? WRONG(an937) : &an937;
+    struct fixpid_an964 *const b = wrong ? WRONG(an964) : &an964;
+    struct fixpid_an964_8bit *const c = wrong ? WRONG(an964_8bit) : &an964_8bit;
+
+    // clang-format off
+    switch (number) {
+    case 0: fixpid_an937_init(a, &config); break;
+    case 1: fixpid_an937_reset(a); break;
+    case 2: fixpid_an937_set_gains(a, 1, 2, 3); break;
+    case 3: fixpid_an937_set_accumulated_error_limit(a, 1); break;
+    case 4: fixpid_an937_set_derivative_period(a, 1); break;
+    case 5: fixpid_an937_tick(a); break;
+    case 6: fixpid_an937_step(a, 1); break;
+    case 7: fixpid_an937_step_percent(a, 1); break;
+    case 8: fixpid_an937_proportional(a); break;
+    case 9: fixpid_an937_integral(a); break;
+    case 10: fixpid_an937_derivative(a); break;
+    case 11: fixpid_an937_accumulated_error(a); break;
+    case 12: fixpid_an937_status(a); break;
+    case 13: fixpid_an937_status2(a); break;
+    case 14: fixpid_an937_flags(a); break;
+    case 15: fixpid_an937_clear_flags(a); break;
+    case 16: fixpid_an964_init(b, &gains); break;
+    case 17: fixpid_an964_reset(b); break;
+    case 18: fixpid_an964_set_gains(b, 1, 2, 3); break;
+    case 19: fixpid_an964_step(b, 1); break;
+    case 20: fixpid_an964_proportional(b); break;
+    case 21: fixpid_an964_integral(b); break;
+    case 22: fixpid_an964_derivative(b); break;
+    case 23: fixpid_an964_flags(b); break;
+    case 24: fixpid_an964_8bit_init(c, &gains_8bit); break;
+    case 25: fixpid_an964_8bit_reset(c); break;
+    case 26: fixpid_an964_8bit_set_gains(c, 1, 2, 3); break;
+    case 27: fixpid_an964_8bit_step(c, 1); break;
+    case 28: fixpid_an964_8bit_proportional(c); break;
+    case 29: fixpid_an964_8bit_integral(c); break;
+    case 30: fixpid_an964_8bit_derivative(c); break;
+    case 31: fixpid_an964_8bit_flags(c); break;
+    case 32: // a missing configuration instead of a wrong controller
+        fixpid_an937_init(&an937, wrong ? NULL : &config);
+        break;
+    default: exit(1);
+    }
+    // clang-format on
+}
+
+// How a process ends that makes this one call: its wait status.
+static int outcome(int number, bool wrong)
+{
+    int status = -1;
+    const pid_t child = fork();
+
+    if (child == 0) {
+        call(number, wrong);
+        _exit(0);
+    }
+    if (child < 0 || waitpid(child, &status, 0) != child) {
+        perror("assert");
+        exit(1);
+    }
+    return status;
+}
+
+int main(void)
+{
+    int failed = 0;
+
+    for (int number = 0; number < CALLS; number++) {
+        const int right = outcome(number, false);
+        const int wrong = outcome(number, true);
+
+        if (!WIFEXITED(right) || WEXITSTATUS(right) != 0) {
+            printf("call %d stops a caller that is right\n", number);
+            failed++;
+        }
+        if (!WIFSIGNALED(wrong) || WTERMSIG(wrong) != SIGABRT) {
+            printf("call %d does not stop a caller that is wrong\n", number);
+            failed++;
+        }
+    }
+    return failed == 0 ? 0 : 1;
+}

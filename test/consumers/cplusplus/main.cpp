@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A user's program in C++: the headers, the gain as a constant of the language
+// and the linkage of every controller.
+#include <cstdint>
+
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+#include "fixpid_an964_8bit.h"
+
+static constexpr std::uint8_t kp_q4 = FIXPID_AN937_GAIN(6.0);
+static_assert(kp_q4 == 96, "6.0 x 16");
+static_assert(FIXPID_AN937_GAIN(0.0) == 0, "the least gain");
+static_assert(FIXPID_AN937_GAIN(15.9375) == 255, "the greatest gain");
+
+static const fixpid_an937_config motor = {kp_q4, FIXPID_AN937_GAIN(5.0),
+                                          FIXPID_AN937_GAIN(1.0), 4000, 4};
+
+int main()
+{
+    const fixpid_an964_gains gains = {1023, 0, 0};
+    const fixpid_an964_8bit_gains gains_8bit = {32, 0, 0};
+    fixpid_an937 an937;
+    fixpid_an964 an964;
+    fixpid_an964_8bit an964_8bit;
+
+    if (!fixpid_an937_init(&an937, &motor) ||
+        !fixpid_an964_init(&an964, &gains) ||
+        !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit)) {
+        return 1;
+    }
+    fixpid_an937_tick(&an937);
+    return fixpid_an937_step(&an937, 240) == 2880 &&
+                   fixpid_an964_step(&an964, 100) == 99 &&
+                   fixpid_an964_8bit_step(&an964_8bit, 100) == 100
+               ? 0
+               : 1;
+}

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Replays a recorded file of test/vectors/ through the public interface:
+//
+//   replay an937 FILE
+//   replay an964 FILE
+//
+// Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
+// 77 the library was built with other limits than the recording.
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+
+#define ROWS 2000
+#define REPORTED_MAX 10 // differing values; the rest is only counted
+#define EXIT_WRONG_FILE 2
+#define EXIT_SKIPPED 77
+
+// Columns of an937_firmware.csv; the terms are magnitudes.
+enum {
+    AN937_RUN,
+    AN937_KP,
+    AN937_KI,
+    AN937_KD,
+    AN937_ERROR,
+    AN937_TICK,
+    AN937_PID_OUT,
+    AN937_A_ERROR,
+    AN937_D_ERROR,
+    AN937_PROP,
+    AN937_INTEG,
+    AN937_DERIV,
+    AN937_COLUMNS = AN937_DERIV + 3 // two more: the firmware's own cost
+};
+
+// Columns of an964_firmware.csv.
+enum {
+    AN964_RUN,
+    AN964_KP,
+    AN964_KI,
+    AN964_KD,
+    AN964_ERROR,
+    AN964_SUM,
+    AN964_INTEGRAL,
+    AN964_DERIVATIVE,
+    AN964_OUT,
+    AN964_COLUMNS
+};
+
+static const char *path;
+static int row, reported; // the header is row 0
+
+static void stop(const char *why)
+{
+    fprintf(stderr, "replay: %s, row %d: %s\n", path, row, why);
+    exit(EXIT_WRONG_FILE);
+}
+
+// `count` numbers between commas and nothing else; any line ending.
+static void parse(char *line, int32_t columns[], int count)
+{
+    const char *text = line;
+
+    line[strcspn(line, "\r\n")] = '\0';
+    for (int column = 0; column < count; column++) {
+        char *end;
+        const long value = strtol(text, &end, 10);
+
+        if (end == text || *end != (column + 1 < count ? ',' : '\0')) {
+            stop("does not have the columns of this recording");
+        }
+        columns[column] = (int32_t)value;
+        text = end + 1;
+    }
+}
+
+// True if equal; else says what differs.
+static bool same(const char *what, int32_t recorded, int32_t computed)
+{
+    if (recorded == computed) {
+        return true;
+    }
+    if (reported < REPORTED_MAX) {
+        printf("row %d: %s: recorded %" PRId32 ", computed %" PRId32 "\n", row,
+               what, recorded, computed);
+        reported++;
+    }
+    return false;
+}
+
+static bool an937_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_an937 pid;
+    const struct fixpid_an937_config config = {
+        .kp_q4 = (uint8_t)at[AN937_KP],
+        .ki_q4 = (uint8_t)at[AN937_KI],
+        .kd_q4 = (uint8_t)at[AN937_KD],
+        .accumulated_error_limit = 4000,
+        .derivative_period_ticks = 4,
+    };
+    const int32_t error = at[AN937_ERROR];
+    const int32_t a_error = at[AN937_A_ERROR];
+    const int32_t d_error = at[AN937_D_ERROR];
+    bool equal = true;
+
+    if (fresh) {
+        equal &= same("init", true, fixpid_an937_init(&pid, &config));
+    }
+    if (at[AN937_TICK] != 0) {
+        fixpid_an937_tick(&pid);
+    }
+    equal &= same("pid_out", at[AN937_PID_OUT],
+                  fixpid_an937_step(&pid, (int16_t)error));
+    equal &= same("a_error", a_error, fixpid_an937_accumulated_error(&pid));
+    equal &= same("d_error * kd", d_error * at[AN937_KD],
+                  fixpid_an937_derivative(&pid));
+    equal &= same("prop", error < 0 ? -at[AN937_PROP] : at[AN937_PROP],
+                  fixpid_an937_proportional(&pid));
+    equal &= same("integ", a_error < 0 ? -at[AN937_INTEG] : at[AN937_INTEG],
+                  fixpid_an937_integral(&pid));
+    equal &= same("deriv", d_error < 0 ? -at[AN937_DERIV] : at[AN937_DERIV],
+                  fixpid_an937_derivative(&pid));
+    return equal;
+}
+
+static bool an964_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_an964 pid;
+    const struct fixpid_an964_gains gains = {
+        .kp = (uint16_t)at[AN964_KP],
+        .ki = (uint16_t)at[AN964_KI],
+        .kd = (uint16_t)at[AN964_KD],
+    };
+    bool equal = true;
+
+    if (fresh) {
+        equal &= same("init", true, fixpid_an964_init(&pid, &gains));
+    }
+    equal &= same("out", at[AN964_OUT],
+                  fixpid_an964_step(&pid, (int16_t)at[AN964_ERROR]));
+    equal &= same("error", at[AN964_ERROR], fixpid_an964_proportional(&pid));
+    // The sum itself has no getter: it shows in the integral term.
+    equal &=
+        same("sum / 256 * ki / 16", at[AN964_SUM] / 256 * at[AN964_KI] / 16,
+             fixpid_an964_integral(&pid));
+    equal &= same("integral", at[AN964_INTEGRAL], fixpid_an964_integral(&pid));
+    equal &=
+        same("derivative", at[AN964_DERIVATIVE], fixpid_an964_derivative(&pid));
+    return equal;
+}
+
+static int replay(const char *name, int columns,
+                  bool (*row_is_same)(const int32_t at[], bool fresh))
+{
+    FILE *const file = fopen(path, "r");
+    char line[256];
+    int32_t at[AN937_COLUMNS]; // AN964 has fewer
+    int32_t run = -1;
+    int different = 0;
+
+    if (file == NULL || fgets(line, sizeof line, file) == NULL) {
+        stop("cannot be read");
+    }
+    while (fgets(line, sizeof line, file) != NULL) {
+        row++;
+        parse(line, at, columns);
+        different += row_is_same(at, at[0] != run) ? 0 : 1;
+        run = at[0];
+    }
+    fclose(file);
+    if (row != ROWS) {
+        stop("is the last one; exactly 2000 are expected");
+    }
+    printf("%d rows of %s: %d different\n", row, name, different);
+    return different == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+int main(int argc, char *argv[])
+{
+    const bool limits_of_the_note = FIXPID_AN964_SUM_LIMIT == 30000 &&
+                                    FIXPID_AN964_TERM_LIMIT == 120 &&
+                                    FIXPID_AN964_OUTPUT_LIMIT == 1000;
+
+    path = argc == 3 ? argv[2] : "";
+    if (argc == 3 && strcmp(argv[1], "an937") == 0) {
+        return replay("an937", AN937_COLUMNS, an937_row_is_same);
+    }
+    if (argc == 3 && strcmp(argv[1], "an964") == 0) {
+        if (limits_of_the_note) {
+            return replay("an964", AN964_COLUMNS, an964_row_is_same);
+        }
+        printf("an964: skipped, recorded with other limits\n");
+        return EXIT_SKIPPED;
+    }
+    fprintf(stderr, "usage: replay an937|an964 FILE\n");
+    return EXIT_WRONG_FILE;
+}

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# A recorded run: rows of numbers with named columns.
+class Trace
+  attr_reader :path
+
+  def initialize(path)
+    @path = path
+    File.open(path) do |file|
+      @names = file.gets.chomp.split(',')
+      @rows = file.map { |line| line.split(',').map(&:to_f) }
+    end
+  end
+
+  # The values of a column while from <= time < to.
+  def values(name, from = -Float::INFINITY, to = Float::INFINITY)
+    column = @names.index(name) or raise Host::Failure, "no column #{name}"
+    @rows.select { |row| row[0] >= from && row[0] < to }
+         .map { |row| row[column] }
+  end
+
+  def times(from = -Float::INFINITY, to = Float::INFINITY)
+    values('time_s', from, to)
+  end
+
+  # Largest magnitude of a column.
+  def peak(name, from = -Float::INFINITY, to = Float::INFINITY)
+    values(name, from, to).map(&:abs).max || 0.0
+  end
+
+  def mean(name, from, to)
+    found = values(name, from, to)
+    found.sum / found.size
+  end
+
+  # Largest minus smallest.
+  def swing(name, from, to)
+    low, high = values(name, from, to).minmax
+    high - low
+  end
+
+  # Seconds after `from` when the column was last more than `band` from
+  # `target`; 0 if it never was.
+  def settling(name, target, band, from = 0.0, to = Float::INFINITY)
+    outside = times(from, to).zip(values(name, from, to))
+                             .select { |_, v| (v - target).abs > band }
+    outside.empty? ? 0.0 : outside.last[0] - from
+  end
+
+  # Changes of sign, zeros ignored.
+  def reversals(name, from, to)
+    signs = values(name, from, to).map { |v| v <=> 0.0 }.reject(&:zero?)
+    signs.each_cons(2).count { |a, b| a != b }
+  end
+end
+
+# The built examples and the programs that draw.
+module Host
+  class Failure < StandardError; end
+
+  class << self
+    attr_reader :folder
+
+    def setup(root)
+      @programs = "#{root}/build/host-examples/examples"
+      @folder = "#{root}/build/demo"
+    end
+
+    # Runs a program to its end; none is left behind when we are stopped.
+    def execute(*command, **options)
+      pid = Process.spawn(*command, **options)
+      _, status = Process.wait2(pid)
+      pid = nil
+      status.success? or raise Failure, "#{File.basename(command[0])} failed"
+    ensure
+      stop(pid) if pid
+    end
+
+    # A run of an example, recorded as build/demo/<name>.csv.
+    def run(program, name, every: nil, **scenario)
+      csv = "#{folder}/#{name}.csv"
+      options = ['--csv', csv]
+      options += ['--every', every.to_s] if every
+      scenario.each { |key, value| options += ['--set', "#{key}=#{value}"] }
+      execute("#{@programs}/#{program}", *options)
+      Trace.new(csv)
+    end
+
+    private
+
+    def stop(pid)
+      Process.kill('TERM', pid)
+      Process.wait(pid)
+    rescue SystemCallError
+      nil # it has ended by itself
+    end
+  end
+end
+
+# How far two runs of the same length are apart, up to a time.
+def largest_difference(one, other, column, to = Float::INFINITY)
+  pairs = one.values(column, 0.0, to).zip(other.values(column, 0.0, to))
+  pairs.map { |a, b| (a - b).abs }.max
+end

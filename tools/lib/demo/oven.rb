@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+P_GAINS = [16, 32, 64, 96].freeze
+OVEN_SET_C = 80.0
+OVEN_STEP_C = 60.0
+BAND_C = 0.02 * OVEN_STEP_C
+
+def oven
+  p_only = P_GAINS.to_h do |kp|
+    [kp, Host.run("oven_p_#{kp}", "oven-p_#{kp}", every: 0.02)]
+  end
+  pi = Host.run('oven_pi', 'oven-pi', every: 0.02)
+  pid = Host.run('oven', 'oven', every: 0.02)
+  check_p_only(p_only)
+  check_pi_and_pid(pi, pid)
+  check_oven_integration(pid)
+  draw_oven(p_only, pi, pid)
+end
+
+def offset_c(run)
+  OVEN_SET_C - run.mean('temperature_c', 25.0, 30.0)
+end
+
+def oven_settling(run)
+  run.settling('temperature_c', OVEN_SET_C, BAND_C)
+end
+
+def oven_overshoot(run)
+  (run.values('temperature_c').max - OVEN_SET_C) * 100.0 / OVEN_STEP_C
+end
+
+def check_p_only(p_only)
+  p_only.each do |kp, run|
+    Report.at_least("P only, kp #{kp}: settles with an offset", offset_c(run),
+                    BAND_C, 'C')
+    Report.at_most("P only, kp #{kp}: swing over the last 5 s",
+                   run.swing('temperature_c', 25.0, 30.0), 1.0, 'C')
+  end
+end
+
+def check_pi_and_pid(pi, pid)
+  { 'PI' => pi, 'PID' => pid }.each do |name, run|
+    Report.at_most("#{name}: remaining offset", offset_c(run).abs, 0.5, 'C')
+    Report.at_most("#{name}: overshoot", oven_overshoot(run), 5.0, '%')
+    Report.number("#{name.downcase}_settling_s", oven_settling(run))
+  end
+  Report.at_most('PI: settles within 2 % after', oven_settling(pi), 15.0, 's')
+  Report.at_most('PID: settles within 2 % after (0.6 of PI)',
+                 oven_settling(pid), 0.6 * oven_settling(pi), 's')
+end
+
+def check_oven_integration(pid)
+  half = Host.run('oven', 'oven-half_step', every: 0.02, plant_step: 0.5e-3)
+  difference = largest_difference(pid, half, 'temperature_c')
+  Report.at_most('half the integrator\'s step changes the temperature by',
+                 difference, 0.001, 'C')
+end
+
+# The note's three figures, and the inside of the last.
+def draw_oven(p_only, pi, pid)
+  plot = Plot.new('oven', 'Oven, AN937: P only, PI and PID', width: 1100,
+                  columns: [1.0, 1.0, 1.0], rows: [1.6, 1.1, 1.1],
+                  gap_x: 0.05)
+  temperature_panel(plot, 0, 'P only: an offset stays (Figure 5)',
+                    p_only_curves(p_only))
+  { 1 => ['PI 48/3/0: no offset (Figure 6)', pi],
+    2 => ['PID 136/6/205: sooner (Figure 7)', pid] }
+    .each do |column, (title, run)|
+      settled = format('within 2 %% after %.1f s', oven_settling(run))
+      temperature_panel(plot, column, title,
+                        [Plot.curve(run, 'temperature_c', settled, Plot::BLUE)])
+    end
+  [p_only[64], pi, pid].each_with_index do |run, column|
+    oven_terms_panel(plot, column, run)
+    oven_drive_panel(plot, column, run)
+  end
+  plot.draw
+end
+
+def p_only_curves(p_only)
+  colors = [Plot::GREEN, Plot::PURPLE, Plot::BLUE, Plot::RED]
+  p_only.zip(colors).map do |(kp, run), color|
+    Plot.curve(run, 'temperature_c', "kp #{kp}", color)
+  end
+end
+
+def temperature_panel(plot, column, title, curves)
+  setpoint = "#{OVEN_SET_C} title 'setpoint' linecolor '#{Plot::BLACK}' " \
+             'dashtype 2'
+  plot.panel(0, column, [*curves, setpoint],
+             ['set xrange [0:15]', "set title '#{title}'", "set format x ''",
+              'set yrange [0:100]', 'set key bottom right maxrows 2',
+              *y_label(column, 'temperature, C')])
+end
+
+def oven_terms_panel(plot, column, run)
+  curves = [['derivative', 'D', Plot::GREEN], ['proportional', 'P', Plot::BLUE],
+            ['integral', 'I', Plot::RED]].map do |name, title, color|
+    Plot.curve(run, name, title, color, width: 1.2)
+  end
+  plot.panel(1, column, curves,
+             ['set xrange [0:15]', "set format x ''", 'set yrange [-4000:15000]',
+              *(column.zero? ? ["set key title 'kp 64'"] : []),
+              *y_label(column, 'terms, counts')])
+end
+
+def oven_drive_panel(plot, column, run)
+  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
+                       Plot::PURPLE, width: 1.2)]
+  plot.panel(2, column, curves,
+             ['set xrange [0:15]', "set xlabel 'time, s'", 'set yrange [0:110]',
+              *y_label(column, 'drive, %')])
+end

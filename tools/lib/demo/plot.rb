@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# Pictures of several panels, drawn by gnuplot as PNG and SVG.
+class Plot
+  BLUE = '#0072B2'
+  RED = '#D55E00'
+  GREEN = '#009E73'
+  PURPLE = '#CC79A7'
+  GREY = '#888888'
+  BLACK = '#222222'
+
+  FONT = 'DejaVu Sans,Arial,sans-serif'
+  MARGINS = { left: 0.085, right: 0.975, top: 0.90, bottom: 0.075 }.freeze
+  GAP_X = 0.055
+  GAP_Y = 0.035
+
+  Curve = Struct.new(:data, :title)
+
+  def initialize(name, title, width: 1000, height: 800, columns: [1.0],
+                 rows: [1.0], gap_x: GAP_X, gap_y: GAP_Y, margins: {})
+    @name = name
+    @title = title
+    @size = [width, height]
+    @x = spans(columns, margin(margins, :left), margin(margins, :right), gap_x)
+    @y = spans(rows.reverse, margin(margins, :bottom), margin(margins, :top),
+               gap_y).reverse
+    @panels = []
+  end
+
+  # `curves` are gnuplot's plot elements, `settings` its commands.
+  def panel(row, column, curves, settings)
+    place = ["set lmargin at screen #{@x[column][0]}",
+             "set rmargin at screen #{@x[column][1]}",
+             "set bmargin at screen #{@y[row][0]}",
+             "set tmargin at screen #{@y[row][1]}"]
+    @panels << [*place, *settings, "plot #{curves.join(", \\\n     ")}"]
+  end
+
+  # A column of a trace over time.
+  def self.curve(trace, column, title, color, every: 1, width: 1.6, style: '')
+    "'#{trace.path}' using 'time_s':#{expression(column)} every #{every} " \
+      "with lines linewidth #{width} linecolor '#{color}' #{style} " +
+      (title ? "title '#{title}'" : 'notitle')
+  end
+
+  def self.expression(column)
+    column.include?('(') ? column : "'#{column}'"
+  end
+
+  def draw
+    base = "#{Host.folder}/#{@name}"
+    make("#{base}.png", "pngcairo font '#{FONT.split(',')[0]},10'")
+    make("#{base}.svg", "svg dynamic font '#{FONT},12' background 'white'")
+  end
+
+  private
+
+  def margin(margins, side)
+    margins.fetch(side, MARGINS[side])
+  end
+
+  # Parts of low..high in proportion to `weights`, with gaps.
+  def spans(weights, low, high, gap)
+    unit = (high - low - gap * (weights.size - 1)) / weights.sum
+    at = low
+    weights.map do |weight|
+      span = [at.round(4), (at + unit * weight).round(4)]
+      at += unit * weight + gap
+      span
+    end
+  end
+
+  def script(path, terminal)
+    head = ["set terminal #{terminal} size #{@size.join(',')}",
+            "set output '#{path}'",
+            "set datafile separator ','",
+            "set multiplot title \"#{@title}\" font ',13'"]
+    panels = @panels.flat_map { |lines| ['reset', *style, *lines] }
+    [*head, *panels, 'unset multiplot', 'unset output', ''].join("\n")
+  end
+
+  def style
+    ["set datafile separator ','",
+     "set grid linecolor '#dddddd' linetype 1 linewidth 0.7",
+     "set border 3 linecolor '#444444'",
+     'set tics nomirror out scale 0.6',
+     'set key top right horizontal samplen 1.5 noenhanced width 1']
+  end
+
+  # Drawn beside its place and moved there when it is complete.
+  def make(path, terminal)
+    gnuplot = "#{Host.folder}/#{@name}.gp"
+    File.write(gnuplot, script("#{path}.new", terminal))
+    Host.execute('gnuplot', gnuplot)
+    File.rename("#{path}.new", path)
+  end
+end
