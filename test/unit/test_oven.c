@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The logic of examples/oven/ with the port mocked.
+#include "mock_port.h"
+#include "unity.h"
+
+TEST_SOURCE_FILE("src/fixpid_an937.c")
+TEST_INCLUDE_PATH("port/pic/pic18f4520")
+TEST_INCLUDE_PATH("examples/oven")
+
+int application_main(void);
+#define main application_main
+#define OVEN_KP_Q4 16
+#define OVEN_KI_Q4 16
+#define OVEN_KD_Q4 0
+#include "oven.c"
+#undef main
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+// A pass that sees these ticks and temperatures and must lead to this duty.
+static void expect_pass(uint8_t ticks, uint16_t setpoint, uint16_t temperature,
+                        int16_t duty)
+{
+    port_running_ExpectAndReturn(true);
+    port_wait_tick_ExpectAndReturn(ticks);
+    port_read_ExpectAndReturn(PORT_SETPOINT, setpoint);
+    for (int i = 0; i < 4; i++) {
+        port_read_ExpectAndReturn(PORT_TEMPERATURE, temperature);
+    }
+    port_drive_Expect(duty);
+}
+
+static void run(void)
+{
+    port_running_ExpectAndReturn(false);
+    TEST_ASSERT_EQUAL_INT(0, application_main());
+}
+
+void test_main_heater_gets_half_a_duty_count_per_count_of_error(void)
+{
+    port_init_Expect();
+    expect_pass(1, 500, 400, 400 / 8);
+    expect_pass(1, 500, 499, 0);
+    run();
+}
+
+void test_main_heater_never_cools(void)
+{
+    port_init_Expect();
+    expect_pass(1, 400, 500, 0);
+    expect_pass(1, 0, 1023, 0);
+    run();
+}
+
+void test_main_temperatures_are_averaged_over_four_conversions(void)
+{
+    port_init_Expect();
+    port_running_ExpectAndReturn(true);
+    port_wait_tick_ExpectAndReturn(1);
+    port_read_ExpectAndReturn(PORT_SETPOINT, 500);
+    for (uint16_t i = 0; i < 4; i++) {
+        port_read_ExpectAndReturn(PORT_TEMPERATURE, (uint16_t)(400 + 8 * i));
+    }
+    port_drive_Expect((100 + 92 + 84 + 76) / 8);
+    run();
+}
+
+void test_main_integral_moves_once_in_the_slow_tick(void)
+{
+    do {
+        count_milliseconds(1); // to the end of a slow tick
+    } while (oven.tick_pending == 0);
+    port_init_Expect();
+    expect_pass(200, 500, 498, 1);
+    expect_pass(199, 500, 498, 1);
+    expect_pass(1, 500, 498, 2);
+    expect_pass(255, 500, 498, 2);
+    expect_pass(144, 500, 498, 2);
+    expect_pass(2, 500, 498, 3);
+    run();
+}
+
+void test_main_drive_is_limited_to_full(void)
+{
+    port_init_Expect();
+    expect_pass(255, 1023, 0, 4092 / 8);
+    expect_pass(255, 1023, 0, PORT_DRIVE_FULL);
+    run();
+}
