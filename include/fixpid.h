@@ -34,16 +34,16 @@
 // condition, is false.
 #ifdef __cplusplus
 #define FIXPID_CHECKED(value, legal)                                           \
-    ((unsigned)(value) + 0u * sizeof(char[(legal) ? 1 : -1]))
+    ((unsigned)(value) + (0u * sizeof(char[(legal) ? 1 : -1])))
 #elif defined(__GNUC__)
 #define FIXPID_CHECKED(value, legal)                                           \
     ((unsigned)(value) +                                                       \
-     __extension__(                                                            \
-         0u * sizeof(struct { unsigned out_of_range : (legal) ? 1 : -1; })))
+     (__extension__(                                                           \
+         0u * sizeof(struct { unsigned out_of_range : (legal) ? 1 : -1; }))))
 #else
 #define FIXPID_CHECKED(value, legal)                                           \
     ((unsigned)(value) +                                                       \
-     0u * sizeof(struct { unsigned out_of_range : (legal) ? 1 : -1; }))
+     (0u * sizeof(struct { unsigned out_of_range : (legal) ? 1 : -1; })))
 #endif
 
 #ifdef __cplusplus

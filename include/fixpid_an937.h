@@ -36,8 +36,8 @@ FIXPID_C_BEGIN
 // is 96. Rounds to the nearest 1/16; a constant outside 0..15.9375 (after
 // rounding) does not compile. No floating-point code is generated.
 #define FIXPID_AN937_GAIN(gain)                                                \
-    ((uint8_t)FIXPID_CHECKED((gain)*16.0 + 0.5,                                \
-                             (gain) >= 0.0 && (gain)*16.0 < 255.5))
+    ((uint8_t)FIXPID_CHECKED(((gain)*16.0) + 0.5,                              \
+                             ((gain) >= 0.0) && (((gain)*16.0) < 255.5)))
 
 struct fixpid_an937_config {
     uint8_t kp_q4; // proportional gain x 16; the note's motor: 96

@@ -106,7 +106,7 @@ static void differentiate(FIXPID_DATA struct fixpid_an964 *self, int16_t error)
     if (magnitude > TERM_LIMIT) {
         magnitude = TERM_LIMIT;
     }
-    // 255 * 1023 / 32 = 8152
+    // at most (255 * 1023 + 31) / 32 = 8153
     FIXPID_SCALED_PRODUCT(product, gain, magnitude, bias, 5u, TERM_BITS - 5u);
     if (product > TERM_LIMIT) {
         product = TERM_LIMIT;

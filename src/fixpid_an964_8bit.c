@@ -99,7 +99,7 @@ static void differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
     if (magnitude > TERM_LIMIT) {
         magnitude = TERM_LIMIT;
     }
-    // 127 * 127 / 4 = 4032
+    // at most (127 * 127 + 3) / 4 = 4033
     FIXPID_SCALED_PRODUCT(product, gain, magnitude, bias, 2u, 5u);
     if (product > TERM_LIMIT) {
         product = TERM_LIMIT;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Shows the host's trace the terms of the application's controller, which the
-// build names: -DPROBE_OBJECT=pendulum.
+// build names, as in -DHOST_PROBE_OBJECT=pendulum.
 #include "fixpid_an964_8bit.h"
 #include "host.h"
 
-extern FIXPID_DATA struct fixpid_an964_8bit PROBE_OBJECT;
+// Deviation 8.5: an application has no header.
+extern FIXPID_DATA struct fixpid_an964_8bit HOST_PROBE_OBJECT;
 
 void host_probe(struct host_terms *terms)
 {
-    terms->proportional = (double)fixpid_an964_8bit_proportional(&PROBE_OBJECT);
-    terms->integral = (double)fixpid_an964_8bit_integral(&PROBE_OBJECT);
-    terms->derivative = (double)fixpid_an964_8bit_derivative(&PROBE_OBJECT);
-    terms->accumulated_error = (double)PROBE_OBJECT.sum;
+    terms->proportional =
+        (double)fixpid_an964_8bit_proportional(&HOST_PROBE_OBJECT);
+    terms->integral = (double)fixpid_an964_8bit_integral(&HOST_PROBE_OBJECT);
+    terms->derivative =
+        (double)fixpid_an964_8bit_derivative(&HOST_PROBE_OBJECT);
+    terms->accumulated_error = (double)HOST_PROBE_OBJECT.sum;
 }

@@ -68,8 +68,8 @@ module Host
     end
 
     # Runs a program to its end; none is left behind when we are stopped.
-    def execute(*command, **options)
-      pid = Process.spawn(*command, **options)
+    def execute(environment, *command)
+      pid = Process.spawn(environment, *command)
       _, status = Process.wait2(pid)
       pid = nil
       status.success? or raise Failure, "#{File.basename(command[0])} failed"
@@ -83,7 +83,7 @@ module Host
       options = ['--csv', csv]
       options += ['--every', every.to_s] if every
       scenario.each { |key, value| options += ['--set', "#{key}=#{value}"] }
-      execute("#{@programs}/#{program}", *options)
+      execute({}, "#{@programs}/#{program}", *options)
       Trace.new(csv)
     end
 
@@ -102,4 +102,11 @@ end
 def largest_difference(one, other, column, to = Float::INFINITY)
   pairs = one.values(column, 0.0, to).zip(other.values(column, 0.0, to))
   pairs.map { |a, b| (a - b).abs }.max
+end
+
+# A range for gnuplot that holds these columns and leaves room for the key.
+def range_with_headroom(run, columns, from, to)
+  low, high = columns.flat_map { |name| run.values(name, from, to) }.minmax
+  room = high - low
+  "set yrange [#{(low - 0.05 * room).round}:#{(high + 0.35 * room).round}]"
 end

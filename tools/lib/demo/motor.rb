@@ -83,20 +83,21 @@ def check_motor_integration(run)
 end
 
 def draw_motor(run, without)
-  plot = Plot.new('motor', 'Motor speed, AN937: 96/80/16, then ki 144 in flight',
+  plot = Plot.new('motor', 'Motor speed, AN937: 96/80/16, ki 144 in flight',
                   columns: [1.0, 1.0], rows: [1.5, 1.1, 1.1])
-  [['[0:0.2]', 'power-on, with and without the anti-windup limit'],
-   ['[0.2:1.2]', 'ki 80 to 144, load on and off']]
-    .each_with_index do |(range, title), column|
-      motor_panels(plot, column, run, without, range, title)
+  [[0.0, 0.2, 'power-on, with and without the anti-windup limit'],
+   [0.2, 1.2, 'ki 80 to 144, load on and off']]
+    .each_with_index do |(from, to, title), column|
+      motor_panels(plot, column, run, without, from, to, title)
     end
   plot.draw
 end
 
-def motor_panels(plot, column, run, without, range, title)
-  x_range = ["set xrange #{range}"]
+def motor_panels(plot, column, run, without, from, to, title)
+  x_range = ["set xrange [#{from}:#{to}]"]
   speed_panel(plot, column, run, without, [*x_range, "set title '#{title}'"])
-  motor_terms_panel(plot, column, run, x_range)
+  motor_terms_panel(plot, column, run,
+                    [*x_range, range_with_headroom(run, TERMS, from, to)])
   motor_drive_panel(plot, column, run, without, x_range)
 end
 
@@ -105,9 +106,9 @@ def speed_panel(plot, column, run, without, settings)
             Plot.curve(run, 'setpoint_rad_s', 'setpoint', Plot::BLACK,
                        style: 'dashtype 2', width: 1.2)]
   if column.zero?
-    curves << Plot.curve(without, 'speed_rad_s', 'without limit', Plot::RED)
+    curves << Plot.curve(without, 'speed_rad_s', 'no limit', Plot::RED)
   end
-  range = ['set yrange [0:560]', 'set yrange [350:372]'][column]
+  range = ['set yrange [0:600]', 'set yrange [350:372]'][column]
   plot.panel(0, column, curves,
              [*settings, "set format x ''", range,
               *y_label(column, 'speed, rad/s')])
@@ -128,7 +129,7 @@ def motor_drive_panel(plot, column, run, without, x_range)
                        Plot::PURPLE, width: 1.2)]
   if column.zero?
     curves << Plot.curve(without, "(column('drive_counts')/10.23)",
-                         'without limit', Plot::RED, width: 1.2)
+                         'no limit', Plot::RED, width: 1.2)
   end
   plot.panel(2, column, curves,
              [*x_range, "set xlabel 'time, s'", 'set yrange [-115:155]',

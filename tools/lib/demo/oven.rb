@@ -91,7 +91,7 @@ def temperature_panel(plot, column, title, curves)
   plot.panel(0, column, [*curves, setpoint],
              ['set xrange [0:15]', "set title '#{title}'", "set format x ''",
               'set yrange [0:100]', 'set key bottom right maxrows 2',
-              *y_label(column, 'temperature, C')])
+              *y_label(column, 'temperature, °C')])
 end
 
 def oven_terms_panel(plot, column, run)

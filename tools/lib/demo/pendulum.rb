@@ -5,6 +5,7 @@
 # half. Multiples of 8, so that both forms have exactly the same gains.
 POTENTIOMETERS = { kp: 600, ki: 96, kd: 400 }.freeze
 LIMIT_DEGREES = 1.0
+TERMS = %w[proportional integral derivative].freeze
 SHOVE_S = 5.0
 END_S = 60.0
 
@@ -59,16 +60,17 @@ def draw_pendulum(name, form, run, without)
   plot = Plot.new(name, "Inverted pendulum, #{form}: KP #{values[0]}, " \
                         "KI #{values[1]}, KD #{values[2]}",
                   height: 860, columns: [1.0, 1.0], rows: [1.5, 1.1, 1.1, 1.1])
-  [['[0:8]', 2], ['[8:60]', 8]].each_with_index do |(range, every), column|
+  [[0, 8, 2], [8, 60, 8]].each_with_index do |(from, to, every), column|
     pendulum_panels(plot, column, run, without, every,
-                    ["set xrange #{range}"])
+                    ["set xrange [#{from}:#{to}]"],
+                    range_with_headroom(run, TERMS, from, to))
   end
   plot.draw
 end
 
-def pendulum_panels(plot, column, run, without, every, x_range)
+def pendulum_panels(plot, column, run, without, every, x_range, terms_range)
   angle_panel(plot, column, run, every, x_range)
-  terms_panel(plot, 1, column, run, every, x_range)
+  terms_panel(plot, 1, column, run, every, [*x_range, terms_range])
   drive_panel(plot, 2, column, run, every, x_range, 256)
   base_panel(plot, column, run, without, every, x_range)
 end
@@ -91,13 +93,13 @@ def angle_panel(plot, column, run, every, x_range)
               *y_label(column, 'angle, degrees')])
 end
 
-def terms_panel(plot, row, column, run, every, x_range)
+def terms_panel(plot, row, column, run, every, ranges)
   curves = [['derivative', 'D', Plot::GREEN], ['proportional', 'P', Plot::BLUE],
             ['integral', 'I', Plot::RED]].map do |name, title, color|
     Plot.curve(run, name, title, color, every: every, width: 1.2)
   end
   plot.panel(row, column, curves,
-             [*x_range, "set format x ''", *y_label(column, 'terms, counts')])
+             [*ranges, "set format x ''", *y_label(column, 'terms, counts')])
 end
 
 def drive_panel(plot, row, column, run, every, x_range, full)
@@ -108,8 +110,8 @@ def drive_panel(plot, row, column, run, every, x_range, full)
                          every: every)
   end
   plot.panel(row, column, curves,
-             [*x_range, "set format x ''", 'set yrange [-115:155]',
-              'set ytics -100,50,100', *y_label(column, 'drive, %')])
+             [*x_range, "set format x ''", 'set yrange [-50:150]',
+              'set ytics -50,50,100', *y_label(column, 'drive, %')])
 end
 
 BASE_AXIS = [["set ytics 0.5", "set yrange [-1.6:0.6]"],

@@ -74,7 +74,7 @@ class Plot
   def script(path, terminal)
     head = ["set terminal #{terminal} size #{@size.join(',')}",
             "set output '#{path}'",
-            "set datafile separator ','",
+            "set datafile separator ','", 'set encoding utf8',
             "set multiplot title \"#{@title}\" font ',13'"]
     panels = @panels.flat_map { |lines| ['reset', *style, *lines] }
     [*head, *panels, 'unset multiplot', 'unset output', ''].join("\n")
@@ -92,7 +92,8 @@ class Plot
   def make(path, terminal)
     gnuplot = "#{Host.folder}/#{@name}.gp"
     File.write(gnuplot, script("#{path}.new", terminal))
-    Host.execute('gnuplot', gnuplot)
+    # Without a UTF-8 locale gnuplot loses the degree sign.
+    Host.execute({ 'LC_ALL' => 'C.UTF-8' }, 'gnuplot', gnuplot)
     File.rename("#{path}.new", path)
   end
 end

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// AN937's motor: a speed held by a tachometer, with the note's gains and the
+// note's change of the integral gain once the motor runs.
+#include "fixpid_an937.h"
+#include "port.h"
+
+// Anti-windup limit of the accumulated error, 1..65535. The note's value is
+// 4000; 65535 is as good as none.
+#ifndef MOTOR_ACCUMULATED_ERROR_LIMIT
+#define MOTOR_ACCUMULATED_ERROR_LIMIT 4000
+#endif
+#if MOTOR_ACCUMULATED_ERROR_LIMIT < 1 || MOTOR_ACCUMULATED_ERROR_LIMIT > 65535
+#error "MOTOR_ACCUMULATED_ERROR_LIMIT: 1..65535"
+#endif
+
+#define KP_Q4 96u
+#define KI_START_Q4 80u
+#define KI_RUNNING_Q4 144u
+#define KD_Q4 16u
+#define DERIVATIVE_PERIOD_TICKS 4u
+
+#define ERROR_PER_COUNT 4  // 1023 counts are the note's 4000
+#define CLOSE_ERROR 80     // 2 % of the note's range
+#define RUNNING_TICKS 250u // this long close to the set speed
+
+// Deviation 8.4: the application's one controller, found by its name.
+FIXPID_DATA struct fixpid_an937 motor;
+
+static int16_t limited_to_full_drive(int32_t output)
+{
+    if (output > PORT_DRIVE_FULL) {
+        return PORT_DRIVE_FULL;
+    }
+    if (output < -PORT_DRIVE_FULL) {
+        return -PORT_DRIVE_FULL;
+    }
+    return (int16_t)output;
+}
+
+// Once the motor first runs close to its set speed, it gets the higher integral
+// gain, for good. A motor that is to stand still does not count as running.
+static void follow_schedule(int16_t setpoint, int16_t error)
+{
+    static uint8_t close_ticks = 0;
+
+    if (close_ticks == RUNNING_TICKS) {
+        return;
+    }
+    if (((setpoint * ERROR_PER_COUNT) <= CLOSE_ERROR) ||
+        (error > CLOSE_ERROR) || (error < -CLOSE_ERROR)) {
+        close_ticks = 0;
+        return;
+    }
+    close_ticks++;
+    if (close_ticks == RUNNING_TICKS) {
+        (void)fixpid_an937_set_gains(&motor, KP_Q4, KI_RUNNING_Q4, KD_Q4);
+    }
+}
+
+// P acts on every pass, I and D on the passes after a tick.
+static void control(uint8_t ticks)
+{
+    const int16_t setpoint = (int16_t)port_read(PORT_SETPOINT);
+    const int16_t speed = (int16_t)port_read(PORT_TACHOMETER);
+    const int16_t error = (int16_t)((setpoint - speed) * ERROR_PER_COUNT);
+
+    for (uint8_t i = 0; i < ticks; i++) {
+        fixpid_an937_tick(&motor);
+        follow_schedule(setpoint, error);
+    }
+    port_drive(limited_to_full_drive(fixpid_an937_step(&motor, error)));
+}
+
+int main(void)
+{
+    static const struct fixpid_an937_config config = {
+        KP_Q4, KI_START_Q4, KD_Q4, MOTOR_ACCUMULATED_ERROR_LIMIT,
+        DERIVATIVE_PERIOD_TICKS};
+
+    port_init();
+    (void)fixpid_an937_init(&motor, &config);
+    while (port_running()) {
+        control(port_ticks());
+    }
+    return 0;
+}

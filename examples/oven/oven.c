@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// AN937 holding the temperature of a small oven: P on every millisecond, I and
+// D on a slower tick that the application makes by counting the port's.
+#include "fixpid_an937.h"
+#include "port.h"
+
+// The gains x 16, each 0..255.
+#ifndef OVEN_KP_Q4
+#define OVEN_KP_Q4 136
+#endif
+#ifndef OVEN_KI_Q4
+#define OVEN_KI_Q4 6
+#endif
+#ifndef OVEN_KD_Q4
+#define OVEN_KD_Q4 205
+#endif
+#if OVEN_KP_Q4 < 0 || OVEN_KP_Q4 > 255
+#error "OVEN_KP_Q4: 0..255"
+#endif
+#if OVEN_KI_Q4 < 0 || OVEN_KI_Q4 > 255
+#error "OVEN_KI_Q4: 0..255"
+#endif
+#if OVEN_KD_Q4 < 0 || OVEN_KD_Q4 > 255
+#error "OVEN_KD_Q4: 0..255"
+#endif
+
+#define CONTROL_TICK_MS 400u
+#define DERIVATIVE_PERIOD_TICKS 1u
+#define OUTPUT_PER_DUTY 8 // so that the gains use their range
+
+// With this limit the integral term alone can just reach full drive (or as near
+// as the limit goes).
+#if OVEN_KI_Q4 > 1
+#define ACCUMULATED_ERROR_LIMIT                                                \
+    (16L * OUTPUT_PER_DUTY * PORT_DRIVE_FULL / OVEN_KI_Q4)
+#else
+#define ACCUMULATED_ERROR_LIMIT 65535
+#endif
+
+// Deviation 8.4: the application's one controller, found by its name.
+FIXPID_DATA struct fixpid_an937 oven;
+
+// Four times the difference in counts: 1023 counts are the note's 4000. The
+// four conversions of the temperature average their noise.
+static int16_t temperature_error(void)
+{
+    const int16_t setpoint = (int16_t)port_read(PORT_SETPOINT);
+    int16_t sum = 0;
+    for (uint8_t i = 0; i < 4u; i++) {
+        sum = (int16_t)(sum + setpoint - (int16_t)port_read(PORT_TEMPERATURE));
+    }
+    return sum;
+}
+
+// A heater cannot cool: 0..PORT_DRIVE_FULL.
+static int16_t heater_duty(int32_t output)
+{
+    if (output <= 0) {
+        return 0;
+    }
+    if (output >= (int32_t)PORT_DRIVE_FULL * OUTPUT_PER_DUTY) {
+        return PORT_DRIVE_FULL;
+    }
+    return (int16_t)(output / OUTPUT_PER_DUTY);
+}
+
+static void count_milliseconds(uint8_t ticks)
+{
+    static uint16_t waited_ms = 0;
+
+    for (uint8_t i = 0; i < ticks; i++) {
+        waited_ms++;
+        if (waited_ms == CONTROL_TICK_MS) {
+            waited_ms = 0;
+            fixpid_an937_tick(&oven);
+        }
+    }
+}
+
+int main(void)
+{
+    static const struct fixpid_an937_config config = {
+        OVEN_KP_Q4, OVEN_KI_Q4, OVEN_KD_Q4, ACCUMULATED_ERROR_LIMIT,
+        DERIVATIVE_PERIOD_TICKS};
+
+    port_init();
+    (void)fixpid_an937_init(&oven, &config);
+    while (port_running()) {
+        count_milliseconds(port_wait_tick());
+        const int16_t error = temperature_error();
+        port_drive(heater_duty(fixpid_an937_step(&oven, error)));
+    }
+    return 0;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The host port's other door: what its main program starts and records. The
+// application sees port.h only.
+#ifndef HOST_H
+#define HOST_H
+#include <stdbool.h>
+#include <stdint.h>
+
+// A controller's terms at one instant, to record beside the plant.
+struct host_terms {
+    double proportional;
+    double integral;
+    double derivative;
+    double accumulated_error; // the sum behind the integral term
+};
+
+// Bound by the linker: the program's probe looks at its controller, so that the
+// port need not know it.
+void host_probe(struct host_terms *terms);
+
+// The application's `main`, renamed by the build.
+int application_main(void);
+
+// Opens the trace; false when it cannot be written. One row each `period_s`.
+bool host_trace_open(const char *path, double period_s);
+
+// False when the trace is not complete, for instance on a full disk.
+bool host_trace_close(void);
+
+// The seed of the world's noise, before application_main.
+void host_seed(uint32_t seed);
+
+#endif

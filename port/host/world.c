@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "world.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scene.h"
+
+#define SCENE_PERIOD_S 1e-3
+#define LENGTH 0u // the option that ends the scenario
+
+static double now_s;
+static double scene_count; // updates of the scene so far
+static double drive;
+static uint32_t noise_state;
+
+// Marsaglia's xorshift of 32 bits. pre: noise_state != 0.
+static double uniform(void)
+{
+    noise_state ^= noise_state << 13;
+    noise_state ^= noise_state >> 17;
+    noise_state ^= noise_state << 5;
+    return (double)noise_state / 4294967296.0;
+}
+
+// Standard deviation 1, nearly normal: a sum of twelve has variance 1.
+static double normal(void)
+{
+    double sum = -6.0;
+    for (int i = 0; i < 12; i++) {
+        sum += uniform();
+    }
+    return sum;
+}
+
+const struct world_option *world_options(size_t *count)
+{
+    *count = scene_option_count;
+    return scene_options;
+}
+
+enum world_result world_set(const char *name, double value)
+{
+    enum world_result result = WORLD_NO_SUCH_OPTION;
+    for (size_t i = 0; i < scene_option_count; i++) {
+        if (strcmp(scene_options[i].name, name) == 0) {
+            result = WORLD_OUT_OF_RANGE;
+            // Written so that a value that is not a number is refused.
+            if ((value >= scene_options[i].low) &&
+                (value <= scene_options[i].high)) {
+                scene_options[i].value = value;
+                result = WORLD_OK;
+            }
+        }
+    }
+    return result;
+}
+
+void world_start(uint32_t seed)
+{
+    now_s = 0.0;
+    scene_count = 0.0;
+    drive = 0.0;
+    // An odd multiplier maps seeds one to one.
+    const uint32_t mixed = seed * 2654435769u;
+    noise_state = (mixed != 0u) ? mixed : 1u;
+    scene_start();
+}
+
+void world_advance(double seconds)
+{
+    const double end_s = now_s + seconds;
+    // Deviation 14.1: simulated time decides, and it is not an integer.
+    while (now_s < end_s) {
+        if (now_s >= (scene_count * SCENE_PERIOD_S)) {
+            scene_update(scene_count * SCENE_PERIOD_S);
+            scene_count += 1.0;
+        }
+        const double until_s = fmin(end_s, scene_count * SCENE_PERIOD_S);
+        scene_advance(drive, until_s - now_s);
+        now_s = until_s;
+    }
+}
+
+double world_time_s(void)
+{
+    return now_s;
+}
+
+bool world_running(void)
+{
+    return now_s < scene_options[LENGTH].value;
+}
+
+double world_voltage(uint8_t channel)
+{
+    double noise = 0.0;
+    const double clean = scene_voltage(channel, &noise);
+    return fmin(fmax(clean + (noise * normal()), 0.0), 1.0);
+}
+
+void world_drive(double fraction)
+{
+    drive = fmin(fmax(fraction, -1.0), 1.0);
+}
+
+const char *const *world_trace_names(size_t *count)
+{
+    *count = scene_trace_count;
+    return scene_trace_names;
+}
+
+void world_trace(double *values)
+{
+    scene_trace(values);
+}

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+# Checks what the documents say: parts that are made from the code, tests they
+# name, links, and sums that are written out, in comments of the code too. With
+# --update it renews the parts first.
+require 'fileutils'
+require 'open3'
+
+@failures = []
+
+# Replaces what stands between two markers.
+def part(text, name, content)
+  text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" }
+end
+
+def quick_start_output
+  FileUtils.mkdir_p('build/test')
+  program = 'build/test/quick_start'
+  output, status = Open3.capture2e('cc', '-std=c99', '-Wall', '-Wextra', '-Werror', '-Iinclude',
+                                   *Dir['src/*.c'], 'examples/quick_start.c', '-o', program)
+  abort output unless status.success?
+  output, status = Open3.capture2e(program)
+  abort "#{program} failed" unless status.success?
+  output
+end
+
+def rounded_up(product, divisor)
+  (product + divisor - 1) / divisor
+end
+
+# [controller, value, bound, type that holds it]
+def bounds
+  gain = 255
+  error = 32_768
+  wide = 65_535
+  sum_high = 30_000 / 256
+  an964_i = sum_high * 1023 / 16
+  an964_total = 1023 + an964_i + 255
+  [['AN937', 'magnitude of accumulated, delta', wide, 'uint16_t'],
+   ['AN937', 'kp * error', gain * error, '24-bit magnitude'],
+   ['AN937', 'ki * accumulated, kd * delta', gain * wide, '24-bit magnitude'],
+   ['AN937', 'sum before its limit', gain * (error + wide + wide), 'int32_t'],
+   ['AN937', 'output', (2**24 - 1) / 16, 'int32_t'],
+   ['AN964', 'sum before its limit', 30_000 + 1023, 'int16_t'],
+   ['AN964', 'sum / 256', sum_high, '7 bits'],
+   ['AN964', 'sum / 256 * ki', sum_high * 1023, 'uint32_t'],
+   ['AN964', 'I', an964_i, 'int16_t'],
+   ['AN964', 'e(n) - e(n-3)', 2 * 1023, 'int16_t'],
+   ['AN964', 'd * kd / 32 before its limit', rounded_up(255 * 1023, 32), '2^14'],
+   ['AN964', 'e + I + D', an964_total, '2^14'],
+   ['AN964', '(e + I + D) * kp / 1024 before its limit', an964_total * 1023 / 1024, '2^14'],
+   ['AN964 8-bit', 'sum before its limit', 8191 + 128, 'int16_t'],
+   ['AN964 8-bit', 'sum / 64', 8191 / 64, '7 bits'],
+   ['AN964 8-bit', 'I before its limit', 127 * 127 / 8, '2^14'],
+   ['AN964 8-bit', 'd * kd / 4 before its limit', rounded_up(127 * 127, 4), '2^14'],
+   ['AN964 8-bit', 'e + I + D', 128 + 127 + 127, 'int16_t'],
+   ['AN964 8-bit', 'output', 127 * 127 / 32, 'int16_t']]
+end
+
+LIMITS = { '7 bits' => 2**7 - 1, '2^14' => 2**14 - 1, 'int16_t' => 2**15 - 1, 'uint16_t' => 2**16 - 1,
+           '24-bit magnitude' => 2**24 - 1, 'int32_t' => 2**31 - 1, 'uint32_t' => 2**32 - 1 }.freeze
+
+def bounds_table
+  rows = bounds.map do |controller, value, bound, type|
+    @failures << "#{controller} #{value}: #{bound} does not fit #{type}" if bound > LIMITS.fetch(type)
+    "| #{controller} | `#{value}` | #{bound} | #{type} |\n"
+  end
+  "| | value | magnitude at most | fits |\n|---|---|---|---|\n#{rows.join}"
+end
+
+def renewed(path, text)
+  case path
+  when 'README.md'
+    text = part(text, 'quick_start', "```c\n#{File.read('examples/quick_start.c')}```\n")
+    part(text, 'quick_start_output', "```\n#{quick_start_output.lines.last(3).join}```\n")
+  when 'docs/arithmetic.md'
+    part(text, 'bounds', bounds_table)
+  else
+    text
+  end
+end
+
+def check_links(path, text)
+  text.scan(/\]\(([^)#\s]+)[^)]*\)/).flatten.grep_v(/\A[a-z]+:/).each do |link|
+    target = File.expand_path(link, File.dirname(path))
+    @failures << "#{path}: no #{link}" unless File.exist?(target)
+  end
+end
+
+def check_named_tests(path, text, tests)
+  text.scan(/`(test_\w+)`/).flatten.each do |test|
+    @failures << "#{path}: no test #{test}" unless tests.include?(test)
+  end
+end
+
+OPERATORS = { '=' => :==, '<' => :<, '<=' => :<= }.freeze
+NUMBER = /\(?\d+(?:\^\d+)?\)?/.freeze
+SUM = %r{#{NUMBER}(?: [-+*/] #{NUMBER})*}.freeze
+
+# `117 * 1023 / 16 = 7480 < 2^14` in a comment or a document: every sum that is
+# written out must be right. Integers, so a quotient is rounded toward zero.
+def check_sums(path, text)
+  text.scan(%r{(?<![\w.^(/]|[-+*/] )(?=(#{SUM}) (=|<=|<) (#{SUM}))}).each do |left, operator, right|
+    # Only digits and operators passed the patterns above.
+    values = [left, right].map { |sum| eval(sum.gsub('^', '**')) }
+    next if values[0].public_send(OPERATORS.fetch(operator), values[1])
+
+    @failures << "#{path}: #{left} #{operator} #{right} is wrong"
+  end
+end
+
+documents = Dir['*.md', 'docs/*.md']
+tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
+documents.each do |path|
+  text = File.read(path)
+  new_text = renewed(path, text)
+  if ARGV == ['--update']
+    File.write(path, new_text)
+  elsif new_text != text
+    @failures << "#{path} is stale: ruby tools/lib/check_docs.rb --update"
+  end
+  check_links(path, new_text)
+  check_named_tests(path, new_text, tests)
+  check_sums(path, new_text)
+end
+Dir['{src,include,port,examples,test}/**/*.[ch]'].each do |path|
+  check_sums(path, File.read(path).scan(%r{//.*}).join("\n"))
+end
+lines = File.readlines('examples/quick_start.c').size
+@failures << "the quick start has #{lines} lines" if lines > 20
+puts @failures
+exit(@failures.empty? ? 0 : 1)
