@@ -11,10 +11,6 @@ BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven/ }.freeze
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
 
-def tracked(*patterns)
-  `git ls-files -- #{patterns.map { |pattern| "'#{pattern}'" }.join(' ')}`.split
-end
-
 # The include path and the definitions that a source is compiled with: those of
 # its board, or of both boards in turn.
 def includes(file)
@@ -117,8 +113,8 @@ def single_conditions(files)
 end
 
 FileUtils.mkdir_p('build/cppcheck')
-library = tracked('src/*.c')
-programs = tracked('port/*.c', 'examples/*.c', 'tools/probe/*.c')
+library = Dir['src/*.c'].sort
+programs = Dir['{port,examples,tools/probe}/**/*.c'].sort
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_leaves(file) }
 (library + programs).each { |file| tidy(file) }

@@ -34,16 +34,16 @@ need() {
         die "missing:$missing; not root, so please run: $how"
     fi
     say "installing$missing (Debian packages)"
-    log=$(mktemp)
+    install_log=$(mktemp)
     # shellcheck disable=SC2086 # a list of package names
     if ! { apt-get update -qq &&
         DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
-            --no-install-recommends $missing; } >"$log" 2>&1 </dev/null; then
-        tail -n 5 "$log" >&2
-        rm -f "$log"
+            --no-install-recommends $missing; } >"$install_log" 2>&1 </dev/null; then
+        tail -n 5 "$install_log" >&2
+        rm -f "$install_log"
         die "could not install$missing; is there a network? By hand: $how"
     fi
-    rm -f "$log"
+    rm -f "$install_log"
 }
 
 # The Ceedling gem, in the system's or in the user's own gem folder.
@@ -56,8 +56,8 @@ need_ceedling() {
     [ "$(id -u)" -eq 0 ] || where=--user-install
     gem="gem install --no-document --conservative $where ceedling -v '>= 1.0.1, < 2'"
     say "installing ceedling (Ruby gem)"
-    if ! log=$(eval "$gem" 2>&1 </dev/null); then
-        printf '%s\n' "$log" | tail -n 5 >&2
+    if ! printed=$(eval "$gem" 2>&1 </dev/null); then
+        printf '%s\n' "$printed" | tail -n 5 >&2
         die "could not install ceedling; is there a network? By hand: $gem"
     fi
 }
