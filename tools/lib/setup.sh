@@ -49,8 +49,7 @@ need() {
 # The Ceedling gem, in the system's or in the user's own gem folder.
 need_ceedling() {
     need ruby
-    user_bin=$(ruby -e 'print Gem.user_dir')/bin
-    PATH=$PATH:$user_bin
+    PATH=$PATH:$(ruby -e 'print Gem.bindir, ":", Gem.user_dir, "/bin"')
     command -v ceedling >/dev/null 2>&1 && return 0
     where=
     [ "$(id -u)" -eq 0 ] || where=--user-install
@@ -60,4 +59,6 @@ need_ceedling() {
         printf '%s\n' "$printed" | tail -n 5 >&2
         die "could not install ceedling; is there a network? By hand: $gem"
     fi
+    command -v ceedling >/dev/null 2>&1 ||
+        die "ceedling was installed, but it is in no folder of PATH"
 }
