@@ -21,8 +21,8 @@
 //    kd = 273.
 // 3. Lower clamp: Figure 6 prints the derivative term's as `> -120`; it is
 //    `< -120`.
-// 4. Duty bits: the program clears the two low duty bits with XOR; the ports of
-//    fixpid clear them with AND.
+// 4. Duty bits: the program sets the two low duty bits with XOR where AND was
+//    meant; through port_drive every duty count reaches the bridge.
 #ifndef FIXPID_AN964_H
 #define FIXPID_AN964_H
 #include <stdbool.h>
