@@ -3,9 +3,10 @@
 #ifndef PORT_BOARD_H
 #define PORT_BOARD_H
 
+// Timer0 makes it 255.95.
 #define PORT_TICKS_PER_SECOND 256u
 
-// Full bridge at 31.25 kHz (PR2 = 0x3F).
+// Full bridge on P1A to P1D at 31.25 kHz (PR2 = 0x3F).
 #define PORT_DRIVE_FULL 256
 
 // Analog inputs AN0, AN2, AN4 and AN5.

@@ -5,7 +5,7 @@
 
 #define PORT_TICKS_PER_SECOND 1000u
 
-// PWM at 39 kHz (PR2 = 0xFF) and a direction pin.
+// PWM at 39 kHz (PR2 = 0xFF) on RC2, and the direction on RC0: 1 is negative.
 #define PORT_DRIVE_FULL 1023
 
 // Analog inputs AN0, AN1 and AN2.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// This program's own registers, and its configuration with the watchdog off.
+#ifndef CHIP_H
+#define CHIP_H
+#include <stdint.h>
+
+#ifdef __SDCC_pic14
+__sfr __at(0x05) PORTA;
+__sfr __at(0x07) PORTC;
+static __code uint16_t __at(0x2007) configuration_word = 0x33E4;
+#else
+__sfr __at(0xF80) PORTA;
+__sfr __at(0xF82) PORTC;
+#pragma config OSC = HSPLL, WDT = OFF, LVP = OFF, XINST = OFF
+#pragma stack 0x500 0x100
+#endif
+
+#endif

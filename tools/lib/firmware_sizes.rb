@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# firmware_sizes.rb FOLDER NAME...: what the firmwares FOLDER/NAME.map take of
+# their chip. Prints a table of these and writes FOLDER/sizes.json for all that
+# are in FOLDER.
+require 'json'
+
+# Where flash ends and which addresses are RAM; a program address of a PIC16 is
+# a word of two bytes in the map.
+CHIPS = {
+  'pic16f684' => { flash: 2048, unit: 'words', ram: [0x20..0x7F, 0xA0..0xBF] },
+  'pic18f4520' => { flash: 32_768, unit: 'bytes', ram: [0x000..0x5FF] }
+}.freeze
+
+SECTION = /^\s*(\S+)\s+(code|idata|romdata|udata)\s+0x(\h+)\s+(program|data)\s+0x(\h+)\s*$/
+SYMBOL = /^\s*(\S+)\s+0x(\h+)\s+data\s+\S+\s/
+
+# One firmware, from the linker's map.
+class Firmware
+  def initialize(map)
+    @map = File.read(map)
+    @chip = { '.config_2007_' => 'pic16f684', '.config_300006_' => 'pic18f4520' }
+            .find { |section, _| @map.include?(section) }&.last
+    abort "firmware: no configuration word in #{map}" unless @chip
+    @sections = @map.scan(SECTION).map do |name, _, address, place, size|
+      { name: name, address: address.hex, place: place, size: size.hex }
+    end
+  end
+
+  def sizes
+    facts = CHIPS.fetch(@chip)
+    { chip: @chip, flash: flash, flash_size: facts[:flash], flash_unit: facts[:unit],
+      ram: addresses.size, ram_size: facts[:ram].sum(&:size) }.merge(parts_of_ram)
+  end
+
+  private
+
+  # Configuration words lie beyond the end.
+  def flash
+    per_unit = CHIPS[@chip][:unit] == 'words' ? 2 : 1
+    @sections.select { |s| s[:place] == 'program' && s[:address] < CHIPS[@chip][:flash] }
+             .sum { |s| s[:size] / per_unit }
+  end
+
+  # The bytes of RAM that are taken, each counted once: sections may overlap, and
+  # registers of the chip are sections too.
+  def addresses
+    @addresses ||= @sections.select { |s| s[:place] == 'data' }
+                            .flat_map { |s| (s[:address]...(s[:address] + s[:size])).to_a }
+                            .uniq.select { |a| CHIPS[@chip][:ram].any? { |range| range.cover?(a) } }
+  end
+
+  # Of it: what SDCC passes arguments and saves registers in on a PIC16, and the
+  # software stack of a PIC18.
+  def parts_of_ram
+    return { shared: section_size('sharebank') } if @chip == 'pic16f684'
+
+    symbols = @map.scan(SYMBOL).to_h
+    { stack: symbols.fetch('_stack_end').hex - symbols.fetch('_stack').hex + 1 }
+  end
+
+  def section_size(name)
+    @sections.select { |s| s[:name] == name }.sum { |s| s[:size] }
+  end
+end
+
+def percent(part, whole)
+  format('%3.0f %%', 100.0 * part / whole)
+end
+
+def row(name, size)
+  of_it = size[:shared] ? "#{size[:shared]} shared by SDCC's calls" : "#{size[:stack]} stack"
+  format('%-14s %-11s %6d of %5d %s %s   %4d of %4d bytes %s (%s)', name, size[:chip].upcase,
+         size[:flash], size[:flash_size], size[:flash_unit], percent(size[:flash], size[:flash_size]),
+         size[:ram], size[:ram_size], percent(size[:ram], size[:ram_size]), of_it)
+end
+
+folder = ARGV.shift
+sizes = Dir["#{folder}/*.hex"].sort.to_h do |hex|
+  [File.basename(hex, '.hex'), Firmware.new(hex.sub(/hex$/, 'map')).sizes]
+end
+File.write("#{folder}/sizes.json", "#{JSON.pretty_generate(sizes)}\n")
+puts 'firmware       chip         flash                         RAM'
+ARGV.each { |name| puts row(name, sizes.fetch(name)) }
+too_big = ARGV.select { |name| sizes[name][:flash] > sizes[name][:flash_size] }
+abort "firmware: does not fit its chip: #{too_big.join(', ')}" unless too_big.empty?
