@@ -6,6 +6,7 @@
 // A port's folder supplies port_board.h with what its board fixes:
 //   PORT_TICKS_PER_SECOND  the nominal tick rate
 //   PORT_DRIVE_FULL        the duty count of full drive
+//   PORT_DRIVE_LEAST       the least one that is more than off
 //   PORT_...               one A/D channel name per sensor or potentiometer
 #ifndef PORT_H
 #define PORT_H
@@ -32,7 +33,7 @@ uint8_t port_wait_tick(void);
 uint16_t port_read(uint8_t channel);
 
 // Sets the drive: the sign is the direction and the magnitude the duty, limited
-// to PORT_DRIVE_FULL. Takes effect at once; 0 is off.
+// to PORT_DRIVE_FULL; below PORT_DRIVE_LEAST it is off. Takes effect at once.
 void port_drive(int16_t duty);
 
 #endif

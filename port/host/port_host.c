@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h> // Deviation 21.6: a program for a PC
+#include <stdlib.h>
 
 #include "host.h"
 #include "world.h"
@@ -140,15 +141,24 @@ uint16_t port_read(uint8_t channel)
     return (uint16_t)fmin(counts, COUNTS_MAX);
 }
 
+static int16_t made_of(int16_t duty)
+{
+    int16_t made = duty;
+    if (made > PORT_DRIVE_FULL) {
+        made = PORT_DRIVE_FULL;
+    }
+    if (made < -PORT_DRIVE_FULL) {
+        made = -PORT_DRIVE_FULL;
+    }
+    if (abs(made) < PORT_DRIVE_LEAST) {
+        made = 0;
+    }
+    return made;
+}
+
 void port_drive(int16_t duty)
 {
     pass(ARITHMETIC_S);
-    drive_counts = duty;
-    if (drive_counts > PORT_DRIVE_FULL) {
-        drive_counts = PORT_DRIVE_FULL;
-    }
-    if (drive_counts < -PORT_DRIVE_FULL) {
-        drive_counts = -PORT_DRIVE_FULL;
-    }
+    drive_counts = made_of(duty);
     world_drive((double)drive_counts / (double)PORT_DRIVE_FULL);
 }

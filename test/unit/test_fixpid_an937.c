@@ -289,6 +289,17 @@ void test_step_sum_at_the_limit_is_not_flagged_and_one_beyond_is(void)
                          fixpid_an937_flags(&an937_controller));
 }
 
+void test_flags_sum_and_accumulated_error_limited_at_once_are_both_set(void)
+{
+    start(255, 255, 255, 65535, 1);
+    tick_and_step(INT16_MAX);
+    tick_and_step(INT16_MAX);
+    tick_and_step(INT16_MAX);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_AN937_SUM_SATURATED |
+                               FIXPID_AN937_ACCUMULATED_ERROR_LIMITED,
+                           fixpid_an937_flags(&an937_controller));
+}
+
 void test_step_accumulated_error_at_the_limit_is_not_flagged(void)
 {
     tick_and_step(4000);

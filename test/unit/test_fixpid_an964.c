@@ -200,6 +200,15 @@ void test_step_output_is_clamped_at_both_ends(void)
                            fixpid_an964_flags(&an964_controller));
 }
 
+void test_flags_sum_and_output_limited_at_once_are_both_set(void)
+{
+    start(1023, 1023, 0);
+    steps(40, 1023);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_AN964_SUM_LIMITED |
+                               FIXPID_AN964_OUTPUT_LIMITED,
+                           fixpid_an964_flags(&an964_controller));
+}
+
 // Departure 1: the program keeps the error in a signed char.
 void test_step_error_beyond_a_byte_does_not_wrap(void)
 {

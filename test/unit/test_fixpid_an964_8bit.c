@@ -146,6 +146,15 @@ void test_step_sum_is_clamped_at_both_ends(void)
                            fixpid_an964_8bit_flags(&an964_8bit_controller));
 }
 
+void test_flags_sum_and_output_limited_at_once_are_both_set(void)
+{
+    start(127, 127, 0);
+    steps(90, 127);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_AN964_8BIT_SUM_LIMITED |
+                               FIXPID_AN964_8BIT_OUTPUT_LIMITED,
+                           fixpid_an964_8bit_flags(&an964_8bit_controller));
+}
+
 void test_step_derivative_is_rounded_down_and_integral_toward_zero(void)
 {
     start(32, 1, 1);

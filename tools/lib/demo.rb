@@ -14,6 +14,7 @@ require_relative 'demo/pendulum'
 require_relative 'demo/motor'
 require_relative 'demo/oven'
 require_relative 'demo/tuning'
+require_relative 'demo/chip'
 
 Encoding.default_external = 'UTF-8'
 
@@ -23,7 +24,8 @@ LOOPS = {
     -> { pendulum('pendulum_8bit', 'AN964, 8 x 8 bits', -0.2) },
   'motor' => -> { motor },
   'oven' => -> { oven },
-  'tuning' => -> { tuning }
+  'tuning' => -> { tuning },
+  'chip' => -> { chip }
 }.freeze
 
 def remove_results(loops)

@@ -17,10 +17,6 @@
 #define BRIDGE_FORWARD 0x4Cu
 #define BRIDGE_REVERSE 0xCCu
 
-// Shorter pulses are not made: 1 to 3 counts are 125 to 375 ns, too short for
-// a bridge to follow.
-#define DUTY_LEAST 4u
-
 // Timer0 counts 32 cycles. The interrupt leaves out this many counts.
 #define TMR0_LEFT_OUT 12u
 
@@ -147,7 +143,8 @@ static void turn_around(uint8_t bridge)
     PIR1 &= (uint8_t)~PIR1_TMR2IF;
     while ((PIR1 & PIR1_TMR2IF) == 0u) {
     }
-    CCP1CON = bridge;
+    // Masked, or SDCC 4.2.0 may move the plain copy before the call.
+    CCP1CON = (uint8_t)(bridge & BRIDGE_REVERSE);
 }
 
 void port_drive(int16_t duty)
@@ -162,7 +159,7 @@ void port_drive(int16_t duty)
     if (magnitude > (uint16_t)PORT_DRIVE_FULL) {
         magnitude = (uint16_t)PORT_DRIVE_FULL;
     }
-    if (magnitude < (uint16_t)DUTY_LEAST) {
+    if (magnitude < (uint16_t)PORT_DRIVE_LEAST) {
         drive_off();
         return;
     }

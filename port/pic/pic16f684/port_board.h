@@ -9,6 +9,10 @@
 // Full bridge on P1A to P1D at 31.25 kHz (PR2 = 0x3F).
 #define PORT_DRIVE_FULL 256
 
+// Shorter pulses are not made: 1 to 3 counts are 125 to 375 ns, too short for
+// a bridge to follow.
+#define PORT_DRIVE_LEAST 4
+
 // Analog inputs AN0, AN2, AN4 and AN5.
 #define PORT_ANGLE 0u // half scale is upright; 1024 counts are 60 degrees
 #define PORT_KP 2u

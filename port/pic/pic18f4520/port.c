@@ -19,10 +19,6 @@
 // Where the first tick is, so that none is at 0, which gpsim misses.
 #define FIRST_LOW 0x18u
 
-// Shorter pulses are not made: 1 to 3 counts are 25 to 75 ns, too short for a
-// bridge to follow.
-#define DUTY_LEAST 4u
-
 #define CCP1CON_PWM 0x0Cu
 #define TICKS_MAX 255u
 
@@ -164,7 +160,8 @@ static void turn_around(uint8_t direction)
     drive_off();
     wait_for_end_of_period();
     wait_for_end_of_period();
-    LATC = direction;
+    // Masked, or SDCC 4.2.0 moves the plain copy before the calls.
+    LATC = (uint8_t)(direction & LATC_REVERSE);
 }
 
 void port_drive(int16_t duty)
@@ -179,7 +176,7 @@ void port_drive(int16_t duty)
     if (magnitude > (uint16_t)PORT_DRIVE_FULL) {
         magnitude = (uint16_t)PORT_DRIVE_FULL;
     }
-    if (magnitude < (uint16_t)DUTY_LEAST) {
+    if (magnitude < (uint16_t)PORT_DRIVE_LEAST) {
         drive_off();
         return;
     }

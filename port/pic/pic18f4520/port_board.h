@@ -8,6 +8,10 @@
 // PWM at 39 kHz (PR2 = 0xFF) on RC2, and the direction on RC0: 1 is negative.
 #define PORT_DRIVE_FULL 1023
 
+// Shorter pulses are not made: 1 to 3 counts are 25 to 75 ns, too short for a
+// bridge to follow.
+#define PORT_DRIVE_LEAST 4
+
 // Analog inputs AN0, AN1 and AN2.
 #define PORT_SETPOINT 0u
 #define PORT_TACHOMETER 1u

@@ -60,9 +60,10 @@ module Host
   class Failure < StandardError; end
 
   class << self
-    attr_reader :folder
+    attr_reader :root, :folder
 
     def setup(root)
+      @root = root
       @programs = "#{root}/build/host-examples/examples"
       @folder = "#{root}/build/demo"
     end

@@ -1,0 +1,707 @@
+// SPDX-License-Identifier: MIT
+#include "chip.hh"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <deque>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "parts.hh"
+
+using namespace parts;
+
+namespace
+{
+
+constexpr unsigned codes = 1024;
+constexpr unsigned poison = 0xA5;
+
+std::string printed(const char *format, ...)
+    __attribute__((format(printf, 1, 2)));
+
+std::string printed(const char *format, ...)
+{
+    char text[200];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof(text), format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+// A call of a metered routine that has not returned yet.
+struct Frame {
+    Meter *meter;
+    unsigned return_address;
+    unsigned depth;
+    uint64_t start;             // its first instruction
+    uint64_t interrupted_start; // the interrupt's latency included
+    uint64_t interrupts_before;
+    bool is_interrupt;
+};
+
+} // namespace
+
+struct Chip::Implementation {
+    pic_processor *processor = nullptr;
+    GuardedStack *stack = nullptr;
+    Stop stopped = Stop::none;
+    std::string reason;
+    unsigned restarts = 0;
+
+    Console console;
+    Halt halt;
+    std::stringbuf printed_by_gpsim;
+    std::streambuf *real_cout = nullptr;
+    std::streambuf *real_cerr = nullptr;
+
+    std::map<unsigned, Watched *> watched;
+    std::deque<Meter> meters;
+    std::vector<Frame> frames;
+    std::set<unsigned> return_addresses;
+    uint64_t interrupt_cycles = 0;
+
+    // Never freed, as gpsim refers to them.
+    std::map<std::string, Stimulus_Node *> nodes;
+    std::vector<Source *> sources;
+    std::vector<Probe *> probes;
+
+    Implementation();
+    ~Implementation();
+    void load(const std::string &cod);
+    void end(Stop how, const std::string &why);
+    void explain_halt();
+    void guard_stack();
+    void guard_flash();
+    void break_on_invalid_registers(bool on);
+    void correct_table_reads();
+    std::string take_messages();
+
+    Register *reg(unsigned address) const;
+    gpsimObject *find(const std::string &name) const;
+    unsigned code_bytes() const;
+    Watched *watch(unsigned address);
+    Stimulus_Node *node(const std::string &pin);
+
+    void enter(Meter *meter, bool is_interrupt);
+    void watch_return(unsigned address);
+    void leave(unsigned address);
+};
+
+// ---- Loading ----
+
+Chip::Implementation::Implementation()
+{
+    static bool taken = false;
+    if (taken) {
+        throw ChipError("a program can simulate one chip only");
+    }
+    taken = true;
+    real_cout = std::cout.rdbuf(&printed_by_gpsim);
+    real_cerr = std::cerr.rdbuf(&printed_by_gpsim);
+}
+
+Chip::Implementation::~Implementation()
+{
+    std::cout.rdbuf(real_cout);
+    std::cerr.rdbuf(real_cerr);
+}
+
+void Chip::Implementation::load(const std::string &cod)
+{
+    if (!std::ifstream(cod)) {
+        throw ChipError("cannot read " + cod);
+    }
+    initialize_gpsim_core();
+    GetUserInterface().SetConsole(&console); // else messages crash
+    initialization_is_complete();
+    auto *const sources_too =
+        dynamic_cast<Boolean *>(globalSymbolTable().find("EnableSourceLoad"));
+    if (sources_too != nullptr) {
+        *sources_too = false;
+    }
+    Processor *loaded = nullptr;
+    const bool good = CSimulationContext::GetContext()->LoadProgram(
+        cod.c_str(), nullptr, &loaded, nullptr);
+    processor = dynamic_cast<pic_processor *>(loaded);
+    if (!good || (processor == nullptr)) {
+        throw ChipError(cod + ": not a .cod file of a chip that gpsim knows: " +
+                        take_messages());
+    }
+}
+
+Chip::Chip(const std::string &cod, const std::string &wanted)
+    : self(new Implementation)
+{
+    self->load(cod);
+    if (!wanted.empty() && (processor() != wanted)) {
+        throw ChipError(cod + " is for " + processor() + ", not for " + wanted);
+    }
+    self->guard_stack();
+    self->guard_flash();
+    self->correct_table_reads();
+    on_execute(0, [this] {
+        self->restarts++;
+        if (self->restarts > 1) {
+            fail("restarted at the reset vector");
+        }
+    });
+    fill_ram(poison);
+    (void)messages();
+}
+
+Chip::~Chip() = default;
+
+// ---- Guards ----
+
+void Chip::Implementation::end(Stop how, const std::string &why)
+{
+    if (stopped == Stop::none) {
+        stopped = how;
+        reason = why;
+        halt.arm(get_cycles().get() + 1);
+    }
+}
+
+void Chip::Implementation::guard_stack()
+{
+    stack = new GuardedStack(processor, processor->stack);
+    stack->fault = [this](const std::string &what) {
+        end(Stop::fault, what + printed(", at %05x", processor->pma->get_PC()));
+    };
+    processor->stack = stack;
+}
+
+void Chip::Implementation::guard_flash()
+{
+    for (unsigned i = 0; i < processor->program_memory_size(); i++) {
+        if (processor->program_memory[i] == &processor->bad_instruction) {
+            processor->program_memory[i] = new Erased(
+                processor, processor->map_pm_index2address((int)i),
+                [this](unsigned at) {
+                    end(Stop::fault,
+                        printed("ran into erased flash at %05x", at));
+                });
+        }
+    }
+}
+
+void Chip::Implementation::break_on_invalid_registers(bool on)
+{
+    for (const char *name :
+         {"BreakOnInvalidRegisterRead", "BreakOnInvalidRegisterWrite"}) {
+        auto *const option =
+            dynamic_cast<Boolean *>(processor->findSymbol(name));
+        if (option != nullptr) {
+            *option = on;
+        }
+    }
+}
+
+void Chip::lenient_until(const std::string &routine)
+{
+    self->break_on_invalid_registers(false);
+    on_execute(code(routine), [this] {
+        self->break_on_invalid_registers(true);
+        (void)messages();
+    });
+}
+
+// gpsim halts by itself at what it finds invalid, and prints why.
+void Chip::Implementation::explain_halt()
+{
+    const std::string message = take_messages();
+    const bool memory =
+        (message.find("invalid file register") != std::string::npos);
+    stopped = Stop::fault;
+    reason = std::string(memory ? "access outside the chip's RAM"
+                                : "stopped by gpsim") +
+             printed(", at %05x: ", processor->pma->get_PC()) + message;
+}
+
+// ---- Time ----
+
+uint64_t Chip::run(uint64_t cycles)
+{
+    const uint64_t start = cycle();
+    self->stopped = Stop::none;
+    self->reason.clear();
+    self->halt.arm(start + cycles);
+    self->processor->run(false);
+    if ((self->stopped == Stop::none) && (cycle() < start + cycles)) {
+        self->explain_halt();
+    }
+    return cycle() - start;
+}
+
+Stop Chip::stopped() const
+{
+    return self->stopped;
+}
+
+const std::string &Chip::reason() const
+{
+    return self->reason;
+}
+
+void Chip::stop(const std::string &reason)
+{
+    self->end(Stop::requested, reason);
+}
+
+void Chip::fail(const std::string &reason)
+{
+    self->end(Stop::fault, reason);
+}
+
+uint64_t Chip::cycle() const
+{
+    return get_cycles().get();
+}
+
+double Chip::cycles_per_second() const
+{
+    return get_cycles().instruction_cps();
+}
+
+void Chip::set_oscillator(double hertz)
+{
+    self->processor->set_frequency(hertz);
+}
+
+// ---- Memory ----
+
+// The register itself, below the actions on it.
+Register *Chip::Implementation::reg(unsigned address) const
+{
+    if (address >= processor->rma.get_size()) {
+        throw ChipError(printed("no register at %03x", address));
+    }
+    Register *found = processor->rma.get_register(address);
+    while ((found != nullptr) && (found->isa() == Register::BP_REGISTER)) {
+        found = static_cast<BreakpointRegister *>(found)->getReplaced();
+    }
+    if (found == nullptr) {
+        throw ChipError(printed("no register at %03x", address));
+    }
+    return found;
+}
+
+unsigned Chip::peek(unsigned address) const
+{
+    return self->reg(address)->get_value();
+}
+
+void Chip::poke(unsigned address, unsigned value)
+{
+    self->reg(address)->put_value(value & 0xFF);
+}
+
+void Chip::write(unsigned address, unsigned value)
+{
+    self->reg(address)->put(value & 0xFF);
+}
+
+uint16_t Chip::peek_u16(unsigned address) const
+{
+    return (uint16_t)(peek(address) | (peek(address + 1) << 8));
+}
+
+int16_t Chip::peek_s16(unsigned address) const
+{
+    return (int16_t)peek_u16(address);
+}
+
+uint32_t Chip::peek_u32(unsigned address) const
+{
+    return peek_u16(address) | ((uint32_t)peek_u16(address + 2) << 16);
+}
+
+int32_t Chip::peek_s32(unsigned address) const
+{
+    return (int32_t)peek_u32(address);
+}
+
+void Chip::poke_u16(unsigned address, uint16_t value)
+{
+    poke(address, value);
+    poke(address + 1, value >> 8);
+}
+
+void Chip::poke_u32(unsigned address, uint32_t value)
+{
+    poke_u16(address, (uint16_t)value);
+    poke_u16(address + 2, (uint16_t)(value >> 16));
+}
+
+static bool is_ram(Register *found)
+{
+    return (found != nullptr) && ((found->isa() == Register::FILE_REGISTER) ||
+                                  (found->isa() == Register::GENERIC_REGISTER));
+}
+
+void Chip::fill_ram(unsigned value)
+{
+    for (unsigned i = 0; i < self->processor->rma.get_size(); i++) {
+        Register *const found = self->processor->rma.get_register(i);
+        if (is_ram(found)) {
+            found->put_value(value & 0xFF);
+        }
+    }
+}
+
+unsigned Chip::ram_bytes() const
+{
+    std::set<Register *> bytes; // one may have several addresses
+    for (unsigned i = 0; i < self->processor->rma.get_size(); i++) {
+        Register *const found = self->processor->rma.get_register(i);
+        if (is_ram(found)) {
+            bytes.insert(found);
+        }
+    }
+    return (unsigned)bytes.size();
+}
+
+// ---- Symbols ----
+
+gpsimObject *Chip::Implementation::find(const std::string &name) const
+{
+    // C's first, as gpsim itself has a status, a pr2 and so on.
+    gpsimObject *const found = processor->findSymbol("_" + name);
+    return (found != nullptr) ? found : processor->findSymbol(name);
+}
+
+bool Chip::has_symbol(const std::string &name) const
+{
+    return self->find(name) != nullptr;
+}
+
+unsigned Chip::data(const std::string &name) const
+{
+    auto *const found = dynamic_cast<Register *>(self->find(name));
+    if (found == nullptr) {
+        throw ChipError("the firmware has no variable " + name);
+    }
+    return found->getAddress();
+}
+
+unsigned Chip::code(const std::string &name) const
+{
+    auto *const found = dynamic_cast<instruction *>(self->find(name));
+    if (found == nullptr) {
+        throw ChipError("the firmware has no routine " + name);
+    }
+    return found->getAddress();
+}
+
+unsigned Chip::Implementation::code_bytes() const
+{
+    return (unsigned)processor->map_pm_index2address(
+        (int)processor->program_memory_size());
+}
+
+std::vector<unsigned> Chip::instructions() const
+{
+    std::vector<unsigned> found;
+    for (unsigned i = 0; i < self->processor->program_memory_size(); i++) {
+        const unsigned address =
+            (unsigned)self->processor->map_pm_index2address((int)i);
+        if (self->processor->pma->hasValid_opcode_at_address(address)) {
+            found.push_back(address);
+        }
+    }
+    return found;
+}
+
+// ---- State ----
+
+bool Chip::is_pic18() const
+{
+    return self->processor->base_isa() == _PIC18_PROCESSOR_;
+}
+
+std::string Chip::processor() const
+{
+    return self->processor->name();
+}
+
+unsigned Chip::program_counter() const
+{
+    return self->processor->pma->get_PC();
+}
+
+unsigned Chip::stack_depth() const
+{
+    return (unsigned)std::max(self->stack->real->pointer, 0);
+}
+
+unsigned Chip::stack_most() const
+{
+    return self->stack->most;
+}
+
+bool Chip::asleep() const
+{
+    return self->processor->mCurrentPhase == self->processor->mIdle;
+}
+
+// ---- Actions ----
+
+Watched *Chip::Implementation::watch(unsigned address)
+{
+    Watched *&found = watched[address];
+    if (found == nullptr) {
+        const unsigned i =
+            (unsigned)processor->map_pm_address2index((int)address);
+        if (i >= processor->program_memory_size()) {
+            throw ChipError(printed("no instruction at %05x", address));
+        }
+        found = new Watched(processor, address, processor->program_memory[i]);
+        processor->program_memory[i] = found;
+    }
+    return found;
+}
+
+void Chip::every(uint64_t cycles, Action action)
+{
+    get_cycles().set_break(cycle() + cycles,
+                           new Periodic(cycles, std::move(action)));
+}
+
+void Chip::on_execute(unsigned code_address, Action action)
+{
+    self->watch(code_address)->actions.push_back(std::move(action));
+}
+
+void Chip::on_write(unsigned address, ValueAction action)
+{
+    new WrittenRegister(self->processor, address, std::move(action));
+}
+
+void Chip::on_read(unsigned address, Action action)
+{
+    new ReadRegister(self->processor, address, std::move(action));
+}
+
+// ---- Meters ----
+
+void Chip::Implementation::enter(Meter *meter, bool is_interrupt)
+{
+    const unsigned back_at = stack->top();
+    const unsigned depth = (unsigned)stack->real->pointer;
+    if (!frames.empty() && (frames.back().meter == meter) &&
+        (frames.back().depth == depth) &&
+        (frames.back().return_address == back_at)) {
+        return; // a loop back to its first instruction
+    }
+    frames.push_back({meter, back_at, depth, get_cycles().get(),
+                      stack->last_push, interrupt_cycles, is_interrupt});
+    watch_return(back_at);
+    if (meter->on_call) {
+        meter->on_call();
+    }
+}
+
+void Chip::Implementation::watch_return(unsigned address)
+{
+    if (return_addresses.insert(address).second) {
+        watch(address)->returned = [this, address] { leave(address); };
+    }
+}
+
+void Chip::Implementation::leave(unsigned address)
+{
+    const unsigned depth = (unsigned)stack->real->pointer;
+    while (!frames.empty() && (frames.back().return_address == address) &&
+           (frames.back().depth == depth + 1)) {
+        const Frame frame = frames.back();
+        frames.pop_back();
+        const uint64_t now = get_cycles().get();
+        const uint64_t within = interrupt_cycles - frame.interrupts_before;
+        const uint64_t own = now - frame.start - within;
+        Meter &meter = *frame.meter;
+        meter.calls++;
+        meter.total += own;
+        meter.last = own;
+        meter.least = std::min(meter.least, own);
+        meter.most = std::max(meter.most, own);
+        meter.interrupted += within;
+        if (frame.is_interrupt) {
+            interrupt_cycles += now - frame.interrupted_start - within;
+        }
+        if (meter.on_return) {
+            meter.on_return(own);
+        }
+    }
+}
+
+Meter &Chip::meter(const std::string &routine)
+{
+    return meter_at(code(routine), routine);
+}
+
+Meter &Chip::meter_at(unsigned code_address, const std::string &name)
+{
+    self->meters.emplace_back();
+    Meter *const meter = &self->meters.back();
+    meter->name = name;
+    on_execute(code_address, [this, meter] { self->enter(meter, false); });
+    return *meter;
+}
+
+Meter &Chip::meter_interrupt(unsigned vector)
+{
+    self->meters.emplace_back();
+    Meter *const meter = &self->meters.back();
+    meter->name = printed("interrupt %02x", vector);
+    on_execute(vector, [this, meter] { self->enter(meter, true); });
+    return *meter;
+}
+
+uint64_t Chip::interrupt_cycles() const
+{
+    return self->interrupt_cycles;
+}
+
+// ---- Pins ----
+
+Stimulus_Node *Chip::Implementation::node(const std::string &pin)
+{
+    Stimulus_Node *&found = nodes[pin];
+    for (int i = 1; (found == nullptr) && (i <= processor->get_pin_count());
+         i++) {
+        IOPIN *const candidate = processor->get_pin((unsigned)i);
+        if ((candidate != nullptr) && (candidate->name() == pin)) {
+            found = new Stimulus_Node(("node_" + pin).c_str());
+            found->attach_stimulus(candidate);
+        }
+    }
+    if (found == nullptr) {
+        throw ChipError("the chip has no pin " + pin);
+    }
+    return found;
+}
+
+unsigned Chip::analog_input(const std::string &pin)
+{
+    Stimulus_Node *const node = self->node(pin);
+    self->sources.push_back(new Source("source_" + pin));
+    node->attach_stimulus(self->sources.back());
+    node->update();
+    return (unsigned)self->sources.size() - 1;
+}
+
+void Chip::set_volts(unsigned input, double volts)
+{
+    Source *const source = self->sources.at(input);
+    // gpsim converts a negative voltage to garbage.
+    source->set_Vth(std::clamp(volts, 0.0, supply_volts));
+    source->updateNode();
+}
+
+void Chip::set_code(unsigned input, unsigned code)
+{
+    set_volts(input, (std::min(code, codes - 1) + 0.5) / codes * supply_volts);
+}
+
+unsigned Chip::probe(const std::string &pin)
+{
+    Stimulus_Node *const node = self->node(pin);
+    self->probes.push_back(new Probe("probe_" + pin));
+    node->attach_stimulus(self->probes.back());
+    node->update();
+    return (unsigned)self->probes.size() - 1;
+}
+
+bool Chip::probe_level(unsigned probe) const
+{
+    return self->probes.at(probe)->level;
+}
+
+uint64_t Chip::probe_edges(unsigned probe) const
+{
+    return self->probes.at(probe)->edges;
+}
+
+uint64_t Chip::probe_high_cycles(unsigned probe)
+{
+    Probe *const found = self->probes.at(probe);
+    found->account();
+    return std::exchange(found->high, 0);
+}
+
+void Chip::on_edge(unsigned probe, ValueAction action)
+{
+    self->probes.at(probe)->action = std::move(action);
+}
+
+// ---- Simulator ----
+
+std::string Chip::Implementation::take_messages()
+{
+    std::istringstream lines(printed_by_gpsim.str());
+    printed_by_gpsim.str("");
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        // Said of every watched instruction, and harmless.
+        if (!line.empty() && (line.find("::addSymbol line_") == line.npos)) {
+            text += (text.empty() ? "" : "; ") + line;
+        }
+    }
+    return text;
+}
+
+std::string Chip::messages()
+{
+    return self->take_messages();
+}
+
+// TBLRD and TBLWT take two cycles on the chip and one in gpsim.
+void Chip::Implementation::correct_table_reads()
+{
+    if (processor->base_isa() != _PIC18_PROCESSOR_) {
+        return;
+    }
+    for (unsigned at = 0; at < code_bytes(); at += 2) {
+        const unsigned opcode = processor->pma->get_opcode(at);
+        if ((opcode >= 0x0008) && (opcode <= 0x000F) &&
+            processor->pma->hasValid_opcode_at_address(at)) {
+            watch(at)->one_cycle_short = true;
+        }
+    }
+}
+
+static std::string wrong_in_gpsim(unsigned opcode)
+{
+    const unsigned file = opcode & 0xFF;
+    const bool preinc = (file == 0xEC) || (file == 0xE4) || (file == 0xDC);
+    const bool access = (opcode & 0x100) == 0;
+    const bool modifies =
+        ((opcode & 0xFE00) == 0x2600) || ((opcode & 0xE000) == 0x8000);
+    if (preinc && access && modifies) {
+        return "reads the wrong byte through PREINCn";
+    }
+    if ((opcode & 0xFE00) == 0xE400) {
+        return "BOV or BNOV: OV is wrong after ADDWF, ADDWFC and INCF";
+    }
+    return "";
+}
+
+std::vector<std::string> Chip::lint() const
+{
+    std::vector<std::string> findings;
+    for (const unsigned at : instructions()) {
+        const unsigned opcode = self->processor->pma->get_opcode(at);
+        const std::string wrong = is_pic18() ? wrong_in_gpsim(opcode) : "";
+        if (!wrong.empty()) {
+            findings.push_back(printed("%05x: %04x ", at, opcode) + wrong);
+        }
+    }
+    return findings;
+}

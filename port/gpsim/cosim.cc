@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+// Runs a firmware on its simulated chip, in closed loop with a simulated world.
+//
+// The options and the trace are those of the host's program, whose main this
+// one calls. The world is asked for a voltage when a conversion starts, and it
+// moves on to that moment first, as it does when the drive changes; so both
+// programs draw the same noise for the same conversion.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "board.hh"
+#include "chip.hh"
+#include "port_board.h"
+
+extern "C" {
+#include "host.h"
+#include "probe.h"
+#include "world.h"
+
+int host_main(int count, char **arguments); // main of host_main.c, renamed
+}
+
+namespace
+{
+
+constexpr double tick_s = 1.0 / PORT_TICKS_PER_SECOND;
+constexpr double hang_s = 0.5; // the loop has to come round this often
+constexpr unsigned adc_codes = 1024;
+
+// Where a recorded value means that the plant is lost.
+struct Bound {
+    const char *name;
+    double magnitude;
+    const char *meaning;
+};
+const Bound bounds[] = {
+    {"angle_degrees", 89.0, "the pendulum lies on the floor"},
+    {"base_m", 1000.0, "the pendulum's base has run away"},
+    {"speed_rad_s", 2000.0, "the motor has run away"},
+    {"temperature_c", 1000.0, "the oven is burning"},
+};
+
+// What the command line asks for.
+std::string firmware;
+std::vector<std::string> metered;
+uint32_t seed = 1;
+FILE *trace = nullptr;
+double trace_period_s = tick_s;
+
+// The loop of the application: from the return of COSIM_WAIT, which is
+// port_wait_tick or port_ticks, to its next call.
+struct Pass {
+    bool begun = false;
+    double ready_s = -1.0; // when the first of them was called
+    uint64_t start = 0;
+    double ended_s = 0.0;
+    uint64_t count = 0;
+    uint64_t least = UINT64_MAX;
+    uint64_t most = 0;
+    uint64_t total = 0;
+    uint64_t shown = 0; // the longest of a row, or the last before it
+    bool row_has_one = false;
+};
+
+class Cosimulation
+{
+  public:
+    Cosimulation();
+    int run();
+
+  private:
+    void watch_bounds();
+    void wire_converter();
+    void wire_drive();
+    void watch_loop();
+    void wait_begins();
+    void wait_ends();
+    void catch_up();
+    void check_world();
+    void trace_row();
+    void summary(double wall_s) const;
+
+    Chip chip;
+    double cycles_per_second;
+    uint64_t seen = 0; // cycle up to which the world has moved
+    double rows = 0.0;
+    int drive_counts = 0;
+    Pass pass;
+    std::map<unsigned, unsigned> inputs; // of the chip, by channel
+    std::vector<const Meter *> meters;
+    std::vector<const Meter *> interrupts;
+    std::vector<std::pair<size_t, Bound>> watched; // by index in the trace
+    unsigned object = 0;
+};
+
+Cosimulation::Cosimulation() : chip(firmware, board.processor)
+{
+    if (board.oscillator_hz > 0.0) {
+        chip.set_oscillator(board.oscillator_hz);
+    }
+    if (chip.is_pic18()) {
+        chip.lenient_until("main"); // SDCC's start-up clears all that could be
+    }
+    cycles_per_second = chip.cycles_per_second();
+    const std::vector<std::string> findings = chip.lint();
+    if (!findings.empty()) {
+        throw ChipError("gpsim would get this firmware wrong: " + findings[0]);
+    }
+    watch_bounds();
+    object = chip.data(probe_name);
+    for (const std::string &name : metered) {
+        meters.push_back(&chip.meter(name));
+    }
+    for (const unsigned vector : board.interrupt_vectors) {
+        interrupts.push_back(&chip.meter_interrupt(vector));
+    }
+    wire_converter();
+    wire_drive();
+    watch_loop();
+    chip.every(board.step_cycles, [this] { catch_up(); });
+}
+
+void Cosimulation::watch_bounds()
+{
+    size_t count = 0;
+    const char *const *const names = world_trace_names(&count);
+    for (size_t i = 0; i < count; i++) {
+        for (const Bound &bound : bounds) {
+            if (std::strcmp(names[i], bound.name) == 0) {
+                watched.emplace_back(i, bound);
+            }
+        }
+    }
+}
+
+void Cosimulation::wire_converter()
+{
+    for (const AnalogPin &wire : board.analog_pins) {
+        inputs[wire.channel] = chip.analog_input(wire.pin);
+    }
+    chip.on_write(board.converter_register, [this](unsigned control) {
+        if ((control & converter_go) == 0) {
+            return;
+        }
+        catch_up();
+        const unsigned channel = (control >> 2) & board.channel_mask;
+        const double fraction = world_voltage((uint8_t)channel);
+        const auto input = inputs.find(channel);
+        if (input == inputs.end()) {
+            chip.fail("a conversion of channel " + std::to_string(channel) +
+                      ", which is not wired");
+        } else {
+            chip.set_code(input->second, (unsigned)(fraction * adc_codes));
+        }
+    });
+}
+
+void Cosimulation::wire_drive()
+{
+    for (const unsigned address : board.drive_registers) {
+        chip.on_write(address, [this](unsigned) {
+            catch_up();
+            drive_counts = board_drive_counts(chip);
+            world_drive((double)drive_counts / PORT_DRIVE_FULL);
+        });
+    }
+}
+
+void Cosimulation::watch_loop()
+{
+    Meter &wait = chip.meter(COSIM_WAIT);
+    wait.on_return = [this](uint64_t) { wait_ends(); };
+    wait.on_call = [this] { wait_begins(); };
+}
+
+void Cosimulation::wait_begins()
+{
+    if (!pass.begun) {
+        catch_up();
+        pass.ready_s = world_time_s();
+        return;
+    }
+    const uint64_t cycles = chip.cycle() - pass.start;
+    pass.count++;
+    pass.total += cycles;
+    pass.least = std::min(pass.least, cycles);
+    pass.most = std::max(pass.most, cycles);
+    pass.shown = pass.row_has_one ? std::max(pass.shown, cycles) : cycles;
+    pass.row_has_one = true;
+    // Between two steps, so never half of one.
+    auto *const bytes = static_cast<unsigned char *>(probe_object);
+    for (unsigned i = 0; i < probe_size; i++) {
+        bytes[i] = (unsigned char)chip.peek(object + i);
+    }
+}
+
+void Cosimulation::wait_ends()
+{
+    pass.begun = true;
+    pass.start = chip.cycle();
+    pass.ended_s = world_time_s();
+}
+
+// The world moves to this cycle, and to each row of the trace on the way.
+void Cosimulation::catch_up()
+{
+    const double seconds = (double)(chip.cycle() - seen) / cycles_per_second;
+    const double end_s = world_time_s() + seconds;
+    seen = chip.cycle();
+    cycles_per_second = chip.cycles_per_second(); // from here on
+    while ((trace != nullptr) && (rows * trace_period_s <= end_s)) {
+        world_advance(std::fmax(rows * trace_period_s - world_time_s(), 0.0));
+        trace_row();
+        rows += 1.0;
+    }
+    world_advance(std::fmax(end_s - world_time_s(), 0.0));
+    check_world();
+    if (world_time_s() - pass.ended_s > hang_s) {
+        chip.fail("the loop does not come round");
+    }
+    if (!world_running()) {
+        chip.stop("the scenario is over");
+    }
+}
+
+void Cosimulation::check_world()
+{
+    double values[WORLD_TRACE_MAX];
+    world_trace(values);
+    for (const auto &[i, bound] : watched) {
+        if (!std::isfinite(values[i])) {
+            chip.fail(std::string("the plant diverged: ") + bound.name +
+                      " is not a number");
+        } else if (std::fabs(values[i]) > bound.magnitude) {
+            chip.fail(std::string(bound.meaning) + ": " + bound.name + " " +
+                      std::to_string(values[i]));
+        }
+    }
+}
+
+void Cosimulation::trace_row()
+{
+    double values[WORLD_TRACE_MAX];
+    size_t count = 0;
+    host_terms terms = {0.0, 0.0, 0.0, 0.0};
+
+    (void)world_trace_names(&count);
+    world_trace(values);
+    host_probe(&terms);
+    (void)std::fprintf(trace, "%.6f", world_time_s());
+    for (size_t i = 0; i < count; i++) {
+        (void)std::fprintf(trace, ",%.9g", values[i]);
+    }
+    (void)std::fprintf(trace, ",%d,%.6g,%.6g,%.6g,%.6g,%llu\n", drive_counts,
+                       terms.proportional, terms.integral, terms.derivative,
+                       terms.accumulated_error, (unsigned long long)pass.shown);
+    pass.row_has_one = false;
+}
+
+double mean(uint64_t total, uint64_t count)
+{
+    return (count > 0) ? (double)total / (double)count : 0.0;
+}
+
+void print_meter(const char *what, const Meter &meter)
+{
+    std::printf("%s %s: %llu calls, %llu to %llu cycles, mean %.1f\n", what,
+                meter.name.c_str(), (unsigned long long)meter.calls,
+                (unsigned long long)((meter.calls > 0) ? meter.least : 0),
+                (unsigned long long)meter.most, mean(meter.total, meter.calls));
+}
+
+void Cosimulation::summary(double wall_s) const
+{
+    const double tick_cycles = chip.cycles_per_second() * tick_s;
+    std::printf("simulated: %.3f s on a %s, %.1f times real time\n",
+                world_time_s(), chip.processor().c_str(),
+                world_time_s() / wall_s);
+    std::printf("ready: %.6f s after power-on\n", pass.ready_s);
+    std::printf("loop: %llu passes, %llu to %llu cycles, mean %.1f\n",
+                (unsigned long long)pass.count,
+                (unsigned long long)((pass.count > 0) ? pass.least : 0),
+                (unsigned long long)pass.most, mean(pass.total, pass.count));
+    std::printf("share of a tick: worst %.1f %%, mean %.1f %%\n",
+                100.0 * (double)pass.most / tick_cycles,
+                100.0 * mean(pass.total, pass.count) / tick_cycles);
+    for (const Meter *meter : meters) {
+        print_meter("routine", *meter);
+    }
+    for (const Meter *meter : interrupts) {
+        print_meter("interrupt", *meter);
+    }
+    std::printf("return stack: %u levels\n", chip.stack_most());
+}
+
+int Cosimulation::run()
+{
+    const auto start = std::chrono::steady_clock::now();
+    world_start(seed);
+    // Far beyond any scenario, which ends by itself.
+    (void)chip.run(uint64_t{1} << 50);
+    const std::chrono::duration<double> wall =
+        std::chrono::steady_clock::now() - start;
+    std::string trouble;
+    if (chip.stopped() != Stop::requested) {
+        trouble = chip.reason();
+    } else {
+        trouble = chip.messages();
+    }
+    summary(wall.count());
+    if (!trouble.empty()) {
+        (void)std::fprintf(stderr, "%s: %.6f s, cycle %llu: %s\n",
+                           firmware.c_str(), world_time_s(),
+                           (unsigned long long)chip.cycle(), trouble.c_str());
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}
+
+constexpr int exit_wrong_use = 2;
+
+void help(const char *program)
+{
+    std::printf("usage: %s FIRMWARE.cod [--meter ROUTINE]... [option]...\n"
+                "Runs a firmware on its chip, simulated by gpsim, in its "
+                "simulated world.\n\n"
+                "  --meter ROUTINE   measure a routine's cycles\n\n"
+                "The other options, the seed's effect and the trace are those "
+                "of the host's program;\n"
+                "the trace has one more column, the cycles of the longest "
+                "pass of the loop:\n\n",
+                program);
+}
+
+} // namespace
+
+// ---- What host_main.c calls instead of the host port ----
+
+void host_seed(uint32_t value)
+{
+    seed = value;
+}
+
+bool host_trace_open(const char *path, double period_s)
+{
+    size_t count = 0;
+    const char *const *const names = world_trace_names(&count);
+
+    trace = std::fopen(path, "w");
+    if (trace == nullptr) {
+        return false;
+    }
+    trace_period_s = period_s;
+    (void)std::fprintf(trace, "time_s");
+    for (size_t i = 0; i < count; i++) {
+        (void)std::fprintf(trace, ",%s", names[i]);
+    }
+    (void)std::fprintf(trace, ",drive_counts,proportional,integral,derivative,"
+                              "accumulated_error,pass_cycles\n");
+    return true;
+}
+
+bool host_trace_close(void)
+{
+    if (trace == nullptr) {
+        return true;
+    }
+    const bool failed = std::ferror(trace) != 0;
+    return (std::fclose(trace) == 0) && !failed;
+}
+
+int application_main(void)
+{
+    try {
+        return Cosimulation().run();
+    } catch (const ChipError &error) {
+        (void)std::fprintf(stderr, "%s\n", error.what());
+        return EXIT_FAILURE;
+    }
+}
+
+int main(int count, char **arguments)
+{
+    std::vector<char *> rest = {arguments[0]};
+    if ((count < 2) || (std::strcmp(arguments[1], "--help") == 0)) {
+        help(arguments[0]);
+        if (count < 2) {
+            return exit_wrong_use;
+        }
+        return host_main(count, arguments);
+    }
+    firmware = arguments[1];
+    for (int i = 2; i < count; i++) {
+        if ((std::strcmp(arguments[i], "--meter") == 0) && (i + 1 < count)) {
+            i++;
+            metered.emplace_back(arguments[i]);
+        } else {
+            rest.push_back(arguments[i]);
+        }
+    }
+    return host_main((int)rest.size(), rest.data());
+}

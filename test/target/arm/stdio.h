@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// What the tests use of the C library; start.c has it.
+#ifndef STDIO_H
+#define STDIO_H
+
+int putchar(int character);
+
+#endif

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+#include "cases.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "fixpid_an937.h"
+#include "numbers.h"
+#include "reference.h"
+
+static bool first;         // no question has been asked yet
+static bool first_row;     // no row has been read yet
+static int32_t run;        // of the last row
+static int16_t held_error; // the last random error
+static uint8_t held_times; // how often it comes again: limits are reached
+
+// The definitions, at power-on like all-zero controllers.
+static struct reference_an937 an937 = {.countdown = 1, .period = 1};
+static struct an964 {
+    struct reference_an964 law;
+    bool ready;
+} ten_bits, eight_bits;
+
+void cases_begin(uint32_t seed)
+{
+    numbers_seed(seed);
+    first = true;
+    first_row = true;
+    held_times = 0;
+}
+
+// True for the first row of a run.
+static bool fresh(int32_t this_run)
+{
+    const bool answer = first_row || this_run != run;
+
+    first_row = false;
+    run = this_run;
+    return answer;
+}
+
+// ---- Random numbers ----
+
+// An error of any size, one in eight held for up to a hundred steps.
+static int16_t any_error(void)
+{
+    if (held_times != 0u) {
+        held_times--;
+    } else {
+        held_error = (int16_t)(numbers_int16() / (1 << numbers_below(9)));
+        if (numbers_below(8) == 0u) {
+            held_times = (uint8_t)numbers_below(100);
+        }
+    }
+    return held_error;
+}
+
+// 0..most, the ends and their neighbours often; one in 64 is beyond.
+static uint16_t any_gain(uint16_t most)
+{
+    const uint32_t kind = numbers_below(64);
+
+    if (kind == 0u) {
+        return (uint16_t)(most + 1u + numbers_below(4) * 21u);
+    }
+    if (kind < 16u) {
+        return (uint16_t)(most - numbers_below(3));
+    }
+    if (kind < 24u) {
+        return (uint16_t)numbers_below(3);
+    }
+    if (kind < 32u) {
+        return (uint16_t)((1u << numbers_below(10)) & most);
+    }
+    return (uint16_t)numbers_below(most + 1u);
+}
+
+// Calls before a step; most steps have none.
+static uint8_t any_calls(uint8_t settings)
+{
+    const uint32_t kind = numbers_below(128);
+    uint8_t calls = 0;
+
+    if (first || kind < 2u) {
+        calls = CALL_INIT;
+    } else if (kind < 4u) {
+        calls = CALL_RESET;
+    } else if (kind < 16u) {
+        calls = (uint8_t)(numbers_next() & settings);
+    }
+    first = false;
+    return calls;
+}
+
+// ---- AN937 ----
+
+static const struct member an937_members[] = {
+    {"output", offsetof(struct an937_answer, output), 4},
+    {"proportional", offsetof(struct an937_answer, proportional), 4},
+    {"integral", offsetof(struct an937_answer, integral), 4},
+    {"derivative", offsetof(struct an937_answer, derivative), 4},
+    {"accumulated", offsetof(struct an937_answer, accumulated), 4},
+    {"accepted", offsetof(struct an937_answer, accepted), 1},
+    {"flags", offsetof(struct an937_answer, flags), 1},
+    {"status", offsetof(struct an937_answer, status), 1},
+    {"status2", offsetof(struct an937_answer, status2), 1},
+    {NULL, 0, 0},
+};
+
+static uint16_t any_limit(void)
+{
+    static const uint16_t limits[] = {0,     1,     2,     255,   256,   4000,
+                                      32767, 32768, 65534, 65535, 16711, 17};
+
+    return limits[numbers_below(12)];
+}
+
+static void an937_ask(union question *question)
+{
+    struct an937_question *const asked = &question->an937;
+    const uint32_t ticks = numbers_below(8);
+
+    asked->calls = any_calls(CALL_SET_GAINS | CALL_SET_LIMIT | CALL_SET_PERIOD |
+                             CALL_CLEAR_FLAGS | CALL_STEP_PERCENT);
+    if (numbers_below(8) == 0u) {
+        asked->calls |= CALL_GETTERS;
+    }
+    asked->limit = any_limit();
+    asked->error = any_error();
+    asked->kp_q4 = (uint8_t)any_gain(255);
+    asked->ki_q4 = (uint8_t)any_gain(255);
+    asked->kd_q4 = (uint8_t)any_gain(255);
+    asked->period = numbers_below(4) == 0u ? (uint8_t)numbers_next()
+                                           : (uint8_t)numbers_below(5);
+    asked->ticks = ticks == 0u ? 2 : (ticks < 5u ? 1 : 0);
+}
+
+// A refused controller has gains and a limit of 0 and takes a derivative sample
+// with every tick.
+static void an937_calls(const struct an937_question *asked, uint8_t *accepted)
+{
+    const bool legal = asked->limit != 0u && asked->period != 0u;
+    const struct reference_an937 old = an937;
+
+    if ((asked->calls & CALL_INIT) != 0u) {
+        reference_an937_init(&an937, 0, 0, 0, 0, 1);
+        if (legal) {
+            reference_an937_init(&an937, asked->kp_q4, asked->ki_q4,
+                                 asked->kd_q4, asked->limit, asked->period);
+            *accepted |= CALL_INIT;
+        } else if (asked->period != 0u) {
+            an937.period = asked->period;
+        }
+    }
+    if ((asked->calls & CALL_RESET) != 0u) {
+        reference_an937_init(&an937, old.kp, old.ki, old.kd, old.limit,
+                             old.period);
+    }
+    if ((asked->calls & CALL_CLEAR_FLAGS) != 0u) {
+        an937.overrun = false;
+    }
+}
+
+static void an937_settings(const struct an937_question *asked,
+                           uint8_t *accepted)
+{
+    if (an937.limit == 0) {
+        return;
+    }
+    if ((asked->calls & CALL_SET_GAINS) != 0u) {
+        an937.kp = asked->kp_q4;
+        an937.ki = asked->ki_q4;
+        an937.kd = asked->kd_q4;
+        *accepted |= CALL_SET_GAINS;
+    }
+    if ((asked->calls & CALL_SET_LIMIT) != 0u && asked->limit != 0u) {
+        an937.limit = asked->limit;
+        *accepted |= CALL_SET_LIMIT;
+    }
+    if ((asked->calls & CALL_SET_PERIOD) != 0u && asked->period != 0u) {
+        an937.period = asked->period;
+        *accepted |= CALL_SET_PERIOD;
+    }
+}
+
+static int64_t an937_step(const struct an937_question *asked)
+{
+    int64_t percent;
+
+    for (uint8_t tick = 0; tick < asked->ticks; tick++) {
+        reference_an937_tick(&an937);
+    }
+    if ((asked->calls & CALL_STEP_PERCENT) == 0u) {
+        return reference_an937_step(&an937, asked->error);
+    }
+    // The driver passes the error's low byte.
+    percent = (asked->error & 0xFF) - ((asked->error & 0x80) != 0 ? 256 : 0);
+    percent = reference_clamp(percent, -100, 100);
+    return reference_clamp(reference_an937_step(&an937, percent * 40) / 1600,
+                           -100, 100);
+}
+
+static void an937_getters(struct an937_answer *expected)
+{
+    expected->proportional = (int32_t)an937.proportional;
+    expected->integral = (int32_t)an937.integral;
+    expected->derivative = (int32_t)an937.derivative;
+    expected->accumulated = (int32_t)an937.accumulated;
+    expected->flags =
+        (uint8_t)((an937.saturated ? FIXPID_AN937_SUM_SATURATED : 0u) |
+                  (an937.limited ? FIXPID_AN937_ACCUMULATED_ERROR_LIMITED
+                                 : 0u) |
+                  (an937.overrun ? FIXPID_AN937_TICK_OVERRUN : 0u));
+    expected->status = reference_an937_status(&an937);
+    expected->status2 = an937.delta == 0 ? FIXPID_AN937_D_ERR_Z : 0u;
+}
+
+static void an937_define(const union question *question, union answer *answer)
+{
+    struct an937_answer *const expected = &answer->an937;
+
+    memset(expected, 0, sizeof *expected);
+    an937_calls(&question->an937, &expected->accepted);
+    an937_settings(&question->an937, &expected->accepted);
+    expected->output = (int32_t)an937_step(&question->an937);
+    if ((question->an937.calls & CALL_GETTERS) != 0u) {
+        an937_getters(expected);
+    }
+}
+
+static int32_t with_sign_of(int32_t sign, int32_t magnitude)
+{
+    return sign < 0 ? -magnitude : magnitude;
+}
+
+// Columns: run, kp, ki, kd, error, tick, pid_out, a_error, d_error, prop,
+// integ, deriv; the terms are magnitudes.
+static void an937_row(const int32_t columns[], union question *question,
+                      union answer *answer)
+{
+    const struct an937_question asked = {
+        .limit = 4000,
+        .error = (int16_t)columns[4],
+        .kp_q4 = (uint8_t)columns[1],
+        .ki_q4 = (uint8_t)columns[2],
+        .kd_q4 = (uint8_t)columns[3],
+        .period = 4,
+        .calls = CALL_GETTERS | (fresh(columns[0]) ? CALL_INIT : 0u),
+        .ticks = (uint8_t)columns[5],
+    };
+
+    question->an937 = asked;
+    an937_define(question, answer); // flags and status are not recorded
+    answer->an937.output = columns[6];
+    answer->an937.accumulated = columns[7];
+    answer->an937.proportional = with_sign_of(columns[4], columns[9]);
+    answer->an937.integral = with_sign_of(columns[7], columns[10]);
+    answer->an937.derivative = with_sign_of(columns[8], columns[11]);
+}
+
+// ---- AN964, both forms ----
+
+static const struct member an964_members[] = {
+    {"output", offsetof(struct an964_answer, output), 2},
+    {"proportional", offsetof(struct an964_answer, proportional), 2},
+    {"integral", offsetof(struct an964_answer, integral), 2},
+    {"derivative", offsetof(struct an964_answer, derivative), 2},
+    {"accepted", offsetof(struct an964_answer, accepted), 1},
+    {"flags", offsetof(struct an964_answer, flags), 1},
+    {NULL, 0, 0},
+};
+
+struct gains {
+    uint16_t kp, ki, kd;
+};
+
+static bool an964_set(struct an964 *self, const struct gains *gains,
+                      uint16_t most)
+{
+    if (!self->ready || gains->kp > most || gains->ki > most ||
+        gains->kd > most) {
+        return false;
+    }
+    self->law.kp = gains->kp;
+    self->law.ki = gains->ki;
+    self->law.kd = gains->kd;
+    return true;
+}
+
+// `most` is the largest legal gain.
+static uint8_t an964_calls(struct an964 *self, uint8_t calls,
+                           const struct gains *gains, uint16_t most)
+{
+    uint8_t accepted = 0;
+
+    if ((calls & (CALL_INIT | CALL_RESET)) != 0u) {
+        self->law.sum = 0;
+        memset(self->law.history, 0, sizeof self->law.history);
+    }
+    if ((calls & CALL_INIT) != 0u) {
+        self->ready = true;
+        self->ready = an964_set(self, gains, most);
+        if (self->ready) {
+            accepted |= CALL_INIT;
+        } else {
+            self->law.kp = 0;
+        }
+    }
+    if ((calls & CALL_SET_GAINS) != 0u && an964_set(self, gains, most)) {
+        accepted |= CALL_SET_GAINS;
+    }
+    return accepted;
+}
+
+static void an964_step(struct an964 *self, int16_t error,
+                       struct an964_answer *expected)
+{
+    expected->output = (int16_t)reference_an964_step(&self->law, error);
+    expected->proportional = (int16_t)self->law.proportional;
+    expected->integral = (int16_t)self->law.integral;
+    expected->derivative = (int16_t)self->law.derivative;
+    expected->flags =
+        (uint8_t)((self->law.sum_limited ? FIXPID_AN964_SUM_LIMITED : 0u) |
+                  (self->law.output_limited ? FIXPID_AN964_OUTPUT_LIMITED
+                                            : 0u));
+}
+
+static void an964_ask(union question *question)
+{
+    question->an964.calls = any_calls(CALL_SET_GAINS);
+    question->an964.error = any_error();
+    question->an964.gains.kp = any_gain(1023);
+    question->an964.gains.ki = any_gain(1023);
+    question->an964.gains.kd = any_gain(1023);
+    question->an964.unused = 0;
+}
+
+static void an964_define(const union question *question, union answer *answer)
+{
+    const struct an964_question *const asked = &question->an964;
+    const struct gains gains = {asked->gains.kp, asked->gains.ki,
+                                asked->gains.kd};
+
+    ten_bits.law.form = reference_an964_10bit();
+    answer->an964.accepted = an964_calls(&ten_bits, asked->calls, &gains, 1023);
+    an964_step(&ten_bits, asked->error, &answer->an964);
+}
+
+// Columns: run, kp, ki, kd, error, sum, integral, derivative, out.
+static void an964_row(const int32_t columns[], union question *question,
+                      union answer *answer)
+{
+    const struct an964_question asked = {
+        .gains = {(uint16_t)columns[1], (uint16_t)columns[2],
+                  (uint16_t)columns[3]},
+        .error = (int16_t)columns[4],
+        .calls = fresh(columns[0]) ? CALL_INIT : 0u,
+    };
+
+    question->an964 = asked;
+    an964_define(question, answer); // the flags are not recorded
+    answer->an964.output = (int16_t)columns[8];
+    answer->an964.proportional = (int16_t)columns[4];
+    answer->an964.integral = (int16_t)columns[6];
+    answer->an964.derivative = (int16_t)columns[7];
+}
+
+static void an964_8bit_ask(union question *question)
+{
+    const int64_t error = any_error();
+
+    question->an964_8bit.calls = any_calls(CALL_SET_GAINS);
+    question->an964_8bit.error =
+        (int8_t)reference_clamp(error, INT8_MIN, INT8_MAX);
+    question->an964_8bit.gains.kp = (uint8_t)any_gain(127);
+    question->an964_8bit.gains.ki = (uint8_t)any_gain(127);
+    question->an964_8bit.gains.kd = (uint8_t)any_gain(127);
+}
+
+static void an964_8bit_define(const union question *question,
+                              union answer *answer)
+{
+    const struct an964_8bit_question *const asked = &question->an964_8bit;
+    const struct gains gains = {asked->gains.kp, asked->gains.ki,
+                                asked->gains.kd};
+
+    eight_bits.law.form = reference_an964_8bit();
+    answer->an964.accepted =
+        an964_calls(&eight_bits, asked->calls, &gains, 127);
+    an964_step(&eight_bits, asked->error, &answer->an964);
+}
+
+// Nothing was recorded of this form: a row of the 10-bit form's inputs, with
+// its errors, which are bytes, an eighth of its gains, and the definition's
+// answer.
+static void an964_8bit_row(const int32_t columns[], union question *question,
+                           union answer *answer)
+{
+    const struct an964_8bit_question asked = {
+        .gains = {(uint8_t)(columns[1] / 8), (uint8_t)(columns[2] / 8),
+                  (uint8_t)(columns[3] / 8)},
+        .error = (int8_t)columns[4],
+        .calls = fresh(columns[0]) ? CALL_INIT : 0u,
+    };
+
+    question->an964_8bit = asked;
+    an964_8bit_define(question, answer);
+}
+
+const struct controller controllers[CONTROLLERS] = {
+    {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
+     an937_members, "an937_firmware", an937_row, an937_ask, an937_define},
+    {"an964", sizeof(struct an964_question), sizeof(struct an964_answer),
+     an964_members, "an964_firmware", an964_row, an964_ask, an964_define},
+    {"an964_8bit", sizeof(struct an964_8bit_question),
+     sizeof(struct an964_answer), an964_members, "an964_firmware",
+     an964_8bit_row, an964_8bit_ask, an964_8bit_define},
+};
+
+const struct controller *controller_named(const char *name)
+{
+    for (unsigned number = 0; number < CONTROLLERS; number++) {
+        if (strcmp(controllers[number].name, name) == 0) {
+            return &controllers[number];
+        }
+    }
+    return NULL;
+}

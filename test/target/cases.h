@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Questions for the three controllers, recorded and random, and what the notes'
+// firmware or the 64-bit definition answers to them. The same sequence on every
+// machine.
+#ifndef CASES_H
+#define CASES_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "exchange.h"
+
+union question {
+    struct an937_question an937;
+    struct an964_question an964;
+    struct an964_8bit_question an964_8bit;
+};
+
+union answer {
+    struct an937_answer an937;
+    struct an964_answer an964;
+};
+
+// A member of an answer, for messages; the last one has no name.
+struct member {
+    const char *name;
+    uint8_t offset;
+    uint8_t size; // 1: unsigned; 2 and 4: signed
+};
+
+struct controller {
+    const char *name;
+    uint8_t question_size;
+    uint8_t answer_size;
+    const struct member *members;
+    const char *recording; // the name of a file of test/vectors/
+
+    // A question and an answer from a row of the recording.
+    void (*row)(const int32_t columns[], union question *question,
+                union answer *answer);
+    // The next random question; the first one initialises.
+    void (*ask)(union question *question);
+    // What the definition answers. It remembers, like the controller, and
+    // starts when the program does, like an all-zero controller.
+    void (*define)(const union question *question, union answer *answer);
+};
+
+#define CONTROLLERS 3
+extern const struct controller controllers[CONTROLLERS];
+
+// The controller of this name, or null.
+const struct controller *controller_named(const char *name);
+
+// The first row of a recording or the first question of a seed's random
+// sequence comes next.
+void cases_begin(uint32_t seed);
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A driver's firmware on a simulated chip, asked one question after another.
+#ifndef DRIVER_HH
+#define DRIVER_HH
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "chip.hh"
+
+extern "C" {
+#include "cases.h"
+}
+
+class Driver
+{
+  public:
+    // `cod` is a firmware of driver_main.c with this controller's driver.
+    Driver(const std::string &cod, const controller &which);
+
+    // Question after question: `ask` gives the next or ends the run with false,
+    // `judge` gets what came back. Throws ChipError for anything else that ends
+    // the run, or if gpsim had anything to say.
+    std::function<bool(question &asked)> ask;
+    std::function<void(const answer &given)> judge;
+    void run();
+
+    // Or turn by turn, without `ask`: put() starts the chip's turn, run_turn()
+    // ends with it, and the cycles in between are the caller's.
+    void put(const question &asked);
+    void run_turn();
+    answer get() const;
+
+    Chip chip;
+
+  private:
+    void take_turn();
+    void check_end();
+
+    const controller &tested;
+    unsigned turn;
+    unsigned exchange;
+    bool started = false; // main has
+    bool waiting = false; // for an answer
+};
+
+// True if the chip's answer is the expected one; else says what differs, for
+// the first few, and of which question.
+bool same_answer(const controller &tested, const std::string &what,
+                 const answer &expected, const answer &given);
+
+// The rows of a recorded file. Throws ChipError for one that is not all
+// numbers, has no row or no header.
+std::vector<std::vector<int32_t>> recorded_rows(const std::string &path);
+
+// A controller by name; throws ChipError.
+const controller &find_controller(const std::string &name);
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The port's functions, one at a time, as a harness asks for them.
+#include "port.h"
+
+// 0 gives the turn to the harness, which sets it to 1 when it has asked.
+volatile uint8_t turn;
+
+// Which function: 'r'ead, 'd'rive, 't'icks or 'w'ait_tick.
+volatile uint8_t call;
+volatile uint8_t channel;
+volatile uint16_t reading;
+volatile int16_t duty;
+volatile uint8_t ticks_told;
+
+void main(void)
+{
+    port_init();
+    for (;;) {
+        turn = 0;
+        while (turn == 0u) {
+        }
+        if (call == (uint8_t)'r') {
+            reading = port_read(channel);
+        } else if (call == (uint8_t)'d') {
+            port_drive(duty);
+        } else if (call == (uint8_t)'t') {
+            ticks_told = port_ticks();
+        } else {
+            ticks_told = port_wait_tick();
+        }
+    }
+}

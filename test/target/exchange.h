@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// What a test asks of a controller, and what the controller answers: one step
+// with the calls that come before it. Whoever asks fills in the question, lets
+// the controller's driver reply, and reads the answer in its place: a PIC16F684
+// in pointer mode has no room for both.
+//
+// No compiler pads these structures and all machines are little-endian: the
+// bytes on a chip are the bytes on the host.
+#ifndef EXCHANGE_H
+#define EXCHANGE_H
+#include <stdint.h>
+
+#include "fixpid_an964.h"
+#include "fixpid_an964_8bit.h"
+
+// Bits of `calls`, made in this order before the step. An answer's `accepted`
+// has those bits whose calls returned true.
+#define CALL_INIT 0x01u
+#define CALL_RESET 0x02u
+#define CALL_SET_GAINS 0x04u
+#define CALL_SET_LIMIT 0x08u    // AN937: the accumulated error's limit
+#define CALL_SET_PERIOD 0x10u   // AN937: the derivative period
+#define CALL_CLEAR_FLAGS 0x20u  // AN937
+#define CALL_STEP_PERCENT 0x40u // AN937: the step is the note's 8-bit one
+#define CALL_GETTERS 0x80u      // AN937: else 0 is answered, which is faster
+
+struct an937_question {
+    uint16_t limit;
+    int16_t error;
+    uint8_t kp_q4;
+    uint8_t ki_q4;
+    uint8_t kd_q4;
+    uint8_t period;
+    uint8_t calls;
+    uint8_t ticks;
+};
+
+struct an937_answer {
+    int32_t output;
+    int32_t proportional;
+    int32_t integral;
+    int32_t derivative;
+    int32_t accumulated;
+    uint8_t accepted;
+    uint8_t flags;
+    uint8_t status;
+    uint8_t status2;
+};
+
+struct an964_question {
+    struct fixpid_an964_gains gains;
+    int16_t error;
+    uint8_t calls;
+    uint8_t unused;
+};
+
+struct an964_8bit_question {
+    struct fixpid_an964_8bit_gains gains;
+    int8_t error;
+    uint8_t calls;
+};
+
+// Of both forms of AN964.
+struct an964_answer {
+    int16_t output;
+    int16_t proportional;
+    int16_t integral;
+    int16_t derivative;
+    uint8_t accepted;
+    uint8_t flags;
+};
+
+union an937_exchange {
+    struct an937_question question;
+    struct an937_answer answer;
+};
+
+union an964_exchange {
+    struct an964_question question;
+    struct an964_answer answer;
+};
+
+union an964_8bit_exchange {
+    struct an964_8bit_question question;
+    struct an964_answer answer;
+};
+
+extern union an937_exchange an937_exchange;
+extern union an964_exchange an964_exchange;
+extern union an964_8bit_exchange an964_8bit_exchange;
+
+// The drivers: they answer the question with the library's controller.
+void an937_reply(void);
+void an964_reply(void);
+void an964_8bit_reply(void);
+
+// fixpid_an937_tick, which an interrupt may call on a PIC18.
+void an937_tick(void);
+
+#endif

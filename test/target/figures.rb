@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+# Tables of docs/chips.md from what test/target/run has measured:
+#
+#   figures.rb LOGS SIZES.json DOCUMENT [--update]
+#
+# Fails if the document says something else; with --update it is rewritten.
+require 'json'
+
+CONTROLLERS = { 'an937' => 'AN937', 'an964' => 'AN964', 'an964_8bit' => 'AN964 8-bit' }.freeze
+CHIPS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
+MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3' }.freeze
+MODES = %w[pointer object].freeze
+# Example, controller and cycles of a tick.
+EXAMPLES = { 'pendulum' => 7814, 'pendulum_8bit' => 7814, 'motor' => 10_000, 'oven' => 10_000 }.freeze
+
+# What one of the runs printed.
+class Logs
+  def initialize(folder)
+    @folder = folder
+  end
+
+  def read(name)
+    File.read("#{@folder}/#{name}.log")
+  rescue Errno::ENOENT
+    abort "figures: #{name} was not run"
+  end
+
+  # The named numbers of the line that matches: "rows 2000 different 0".
+  def numbers(name, pattern)
+    line = read(name)[pattern] or abort "figures: #{name} printed no #{pattern.source}"
+    line.scan(/([a-z]+) (\d+)/).map { |key, value| [key, value.to_i] }
+  end
+end
+
+LOGS = Logs.new(ARGV[0])
+SIZES = JSON.parse(File.read(ARGV[1]))
+
+def thousands(number)
+  number.to_s.reverse.scan(/\d{1,3}/).join(' ').reverse
+end
+
+def table(head, rows)
+  lines = [head, head.map { '---' }] + rows
+  lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join
+end
+
+# [rows, random steps, different] of all modes.
+def sum(names, pattern)
+  numbers = names.flat_map { |name| LOGS.read(name).scan(pattern).flat_map { |line| line.scan(/([a-z]+) (\d+)/) } }
+  %w[rows random different].map do |key|
+    numbers.select { |name, _| name == key }.sum { |_, value| value.to_i }
+  end
+end
+
+def exact_cell(names, pattern)
+  rows, random, different = sum(names, pattern)
+  return 'not meant for it' if rows.zero?
+
+  "#{thousands(rows)} rows, #{thousands(random)} steps, #{different} different"
+end
+
+def on_chip(controller, chip)
+  return 'not meant for it' if controller == 'an937' && chip == 'pic16f684'
+
+  exact_cell(MODES.map { |mode| "replay-#{controller}-#{chip}-#{mode}" }, /rows .* cycles/)
+end
+
+# A digest that is not the host's is what cmp reports.
+def on_machine(controller, machine)
+  names = MODES.map { |mode| "machine-#{machine}-#{mode}" }
+  names.each { |name| abort "figures: #{name} is not what the host computes" if LOGS.read(name).match?(/differ:|EOF on/) }
+  exact_cell(names, /^#{controller} .*$/)
+end
+
+def exact
+  rows = CHIPS.map { |chip, name| [name] + CONTROLLERS.keys.map { |controller| on_chip(controller, chip) } }
+  rows += MACHINES.map do |machine, name|
+    [name] + CONTROLLERS.keys.map { |controller| on_machine(controller, machine) }
+  end
+  table(['', *CONTROLLERS.values], rows)
+end
+
+def pairs
+  CHIPS.keys.product(CONTROLLERS.keys).reject { |pair| pair == %w[pic16f684 an937] }
+end
+
+def interrupts
+  rows = pairs.map do |chip, controller|
+    good = LOGS.numbers("interrupts_tick-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    ["#{CHIPS[chip]} #{CONTROLLERS[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
+  end
+  rows += MODES.map do |mode|
+    ticking = LOGS.numbers("interrupts_ticking-an937-pic18f4520-#{mode}", /interrupts .*/).to_h
+    ["PIC18 AN937, `fixpid_an937_tick` in the interrupt, #{mode} mode", ticking['interrupts'], '-',
+     ticking['changed'], '-']
+  end
+  table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
+end
+
+def steps
+  rows = pairs.product(MODES).map do |(chip, controller), mode|
+    line = LOGS.read("replay-#{controller}-#{chip}-#{mode}")
+    cycles = line[/cycles (\d+\.\.\d+)/, 1]
+    ["#{CHIPS[chip]} #{CONTROLLERS[controller]}", mode, cycles, line[/stack (\d+)/, 1]]
+  end
+  table(['', 'mode', 'cycles', 'return levels'], rows)
+end
+
+def stacks(chip, figures)
+  # One more where an interrupt comes at the deepest place.
+  levels = "#{figures['stack'] + 1} of #{chip == 'pic16f684' ? 8 : 31}"
+  figures['software'].zero? ? levels : "#{levels}, #{figures['software']} of 256 bytes"
+end
+
+def firmware
+  rows = EXAMPLES.map do |name, tick|
+    size = SIZES.fetch(name)
+    figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
+    idle = figures['idle'] > 100 ? figures['idle'] : '-'
+    ["#{name}, #{size['chip'].upcase}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+     "#{size['ram']} of #{size['ram_size']}", stacks(size['chip'], figures), figures['step'], figures['tick'],
+     idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
+  end
+  table(['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt',
+         'of a tick'], rows)
+end
+
+document = ARGV[2]
+old = File.read(document)
+tables = { 'exact' => exact, 'interrupts' => interrupts, 'steps' => steps, 'firmware' => firmware }
+new = tables.reduce(old) do |text, (name, content)|
+  text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
+    abort "figures: #{document} has no markers of #{name}"
+end
+exit if new == old
+if ARGV[3] == '--update'
+  File.write(document, new)
+  puts "#{document} is rewritten"
+else
+  puts "#{document} is stale; test/target/run --update renews it", (new.lines - old.lines).first(20)
+  exit 1
+end

@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: MIT
+// The functions of a port against its chip's pins and registers:
+//
+//   port FIRMWARE.cod
+//
+// with the firmware of driver_port.c. Exit status: 0 all is well, 1 something
+// is not, 2 the run could not be made.
+#include <algorithm>
+#include <cinttypes>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+
+#include "chip.hh"
+
+namespace
+{
+
+constexpr uint64_t turn_most = 30000; // cycles; longer than a tick's wait
+constexpr unsigned codes = 1024;
+constexpr unsigned duty_least = 4; // shorter pulses are not made
+constexpr unsigned periods = 8;    // of the PWM, over which pins are watched
+constexpr unsigned ticks_measured = 10000;
+constexpr unsigned ticks_most = 255;
+constexpr double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
+
+// What port_board.h and the data sheet say of a board.
+struct Board {
+    unsigned vector;
+    std::pair<unsigned, unsigned> tick_flag; // register, bit
+    uint64_t tick_cycles;
+    uint64_t latency_spread; // cycles between the latest and the earliest
+    std::map<unsigned, std::string> channels; // and their pins
+    unsigned ccpr1l, ccp1con, trisc;
+    std::pair<unsigned, unsigned> direction; // register, bit
+    unsigned full;                           // PORT_DRIVE_FULL
+    uint64_t pwm_cycles;                     // a period
+    std::string forward_pin, reverse_pin;    // that carry the duty
+    unsigned drive_outputs;                  // bits of TRISC
+};
+
+const Board pic16f684 = {
+    4,
+    {0x0B, 0x04},
+    7814,
+    8,
+    {{0, "porta0"}, {2, "porta2"}, {4, "portc0"}, {5, "portc1"}},
+    0x13,
+    0x15,
+    0x87,
+    {0x15, 0x80},
+    256,
+    64,
+    "portc2", // P1D
+    "portc4", // P1B
+    0x3C};
+
+const Board pic18f4520 = {8,
+                          {0xFA1, 0x01},
+                          10000,
+                          8,
+                          {{0, "porta0"}, {1, "porta1"}, {2, "porta2"}},
+                          0xFBE,
+                          0xFBD,
+                          0xF94,
+                          {0xF8B, 0x01},
+                          1023,
+                          256,
+                          "portc2", // CCP1
+                          "portc2",
+                          0x05};
+
+class Port
+{
+  public:
+    explicit Port(const std::string &cod);
+    // True if all is well.
+    bool run();
+
+  private:
+    void call(char function);
+    void drive(int duty);
+    unsigned duty_counts() const;
+    bool reverse() const;
+    bool modulated_pins_low() const;
+    void wrong(const char *format, ...) __attribute__((format(printf, 2, 3)));
+    void turned();
+
+    void off_after_reset();
+    void tick_period();
+    void readings();
+    void duties();
+    void duty_is(int asked);
+    void pins();
+    void pin_shows(int asked);
+    void turns_around();
+    void ticks_saturate();
+    void watchdog();
+
+    Chip chip;
+    const Board &board;
+    std::map<unsigned, unsigned> inputs; // of the channels
+    unsigned forward, reverse_probe;
+    bool started = false;
+    bool was_reverse = false;
+    unsigned long turn_arounds = 0, errors = 0;
+    uint64_t previous_tick = 0, first_tick = 0;
+    uint64_t shortest = UINT64_MAX, longest = 0, ticks = 0;
+};
+
+Port::Port(const std::string &cod)
+    : chip(cod), board(chip.is_pic18() ? pic18f4520 : pic16f684)
+{
+    if (chip.is_pic18()) {
+        chip.lenient_until("main");
+        chip.set_oscillator(40e6);
+    }
+    for (const auto &[number, pin] : board.channels) {
+        inputs[number] = chip.analog_input(pin);
+    }
+    forward = chip.probe(board.forward_pin);
+    reverse_probe = board.reverse_pin == board.forward_pin
+                        ? forward
+                        : chip.probe(board.reverse_pin);
+    chip.on_execute(chip.code("main"), [this] { started = true; });
+    chip.on_write(chip.data("turn"), [this](unsigned value) {
+        if (started && value == 0) {
+            chip.stop("the harness's turn");
+        }
+    });
+    chip.on_write(board.direction.first, [this](unsigned) { turned(); });
+    chip.on_execute(board.vector, [this] {
+        const uint64_t now = chip.cycle();
+        if (ticks != 0) {
+            shortest = std::min(shortest, now - previous_tick);
+            longest = std::max(longest, now - previous_tick);
+        } else {
+            first_tick = now;
+        }
+        previous_tick = now;
+        ticks++;
+    });
+}
+
+void Port::wrong(const char *format, ...)
+{
+    va_list arguments;
+
+    errors++;
+    va_start(arguments, format);
+    if (errors <= 10) {
+        std::vprintf(format, arguments);
+        std::puts("");
+    }
+    va_end(arguments);
+}
+
+// The chip's turn, until it ends.
+void Port::call(char function)
+{
+    chip.poke(chip.data("call"), static_cast<unsigned char>(function));
+    chip.poke(chip.data("turn"), 1);
+    chip.run(turn_most);
+    if (chip.stopped() != Stop::requested) {
+        throw ChipError(
+            std::string("port function ") + function + ": " +
+            (chip.stopped() == Stop::none ? "does not return" : chip.reason()));
+    }
+}
+
+// Also takes the ticks, which keeps the watchdog quiet.
+void Port::drive(int duty)
+{
+    call('t');
+    chip.poke_u16(chip.data("duty"), static_cast<uint16_t>(duty));
+    call('d');
+}
+
+unsigned Port::duty_counts() const
+{
+    return (chip.peek(board.ccpr1l) << 2) |
+           ((chip.peek(board.ccp1con) >> 4) & 3u);
+}
+
+bool Port::reverse() const
+{
+    return (chip.peek(board.direction.first) & board.direction.second) != 0;
+}
+
+bool Port::modulated_pins_low() const
+{
+    return !chip.probe_level(forward) && !chip.probe_level(reverse_probe);
+}
+
+// At each change of direction the duty is 0 and was for a period.
+void Port::turned()
+{
+    if (reverse() == was_reverse) {
+        return;
+    }
+    was_reverse = reverse();
+    turn_arounds++;
+    if (duty_counts() != 0) {
+        wrong("direction changed with a duty of %u", duty_counts());
+    }
+    if (!modulated_pins_low()) {
+        wrong("direction changed with a drive pin on");
+    }
+}
+
+// From power-on to the first call nothing drives.
+void Port::off_after_reset()
+{
+    const uint64_t edges = chip.probe_edges(forward);
+
+    if ((chip.peek(board.trisc) & board.drive_outputs) != board.drive_outputs) {
+        wrong("the drive's pins are outputs before port_init");
+    }
+    chip.run(10 * turn_most);
+    if (chip.stopped() != Stop::requested) {
+        throw ChipError("port_init does not return: " + chip.reason());
+    }
+    if ((chip.peek(board.trisc) & board.drive_outputs) != 0) {
+        wrong("the drive's pins are no outputs after port_init");
+    }
+    if (duty_counts() != 0 || !modulated_pins_low() ||
+        chip.probe_edges(forward) != edges) {
+        wrong("the drive is not off after port_init");
+    }
+    std::printf("off after reset, and after port_init\n");
+}
+
+// Other calls in between change the interrupt's latency, not its period.
+void Port::tick_period()
+{
+    uint64_t told = 0;
+
+    call('w'); // the first tick's phase is port_init's
+    ticks = 0;
+    while (ticks < ticks_measured + 1) {
+        call('w');
+        told += chip.peek(chip.data("ticks_told"));
+        chip.poke(chip.data("channel"), 0);
+        for (uint64_t count = 0; count < told % 7; count++) {
+            call('r');
+        }
+    }
+    const uint64_t all = previous_tick - first_tick;
+    const uint64_t exact = (ticks - 1) * board.tick_cycles;
+    const uint64_t off = all > exact ? all - exact : exact - all;
+    std::printf("%" PRIu64 " ticks in %" PRIu64 " cycles, %" PRIu64 "..%" PRIu64
+                " each\n",
+                ticks - 1, all, shortest, longest);
+    if (off > board.latency_spread) {
+        wrong("ticks drift: %" PRIu64 " cycles expected", exact);
+    }
+    if (longest - shortest > 2 * board.latency_spread) {
+        wrong("ticks are uneven");
+    }
+    if (told != ticks) {
+        wrong("%" PRIu64 " ticks came, %" PRIu64 " were told", ticks, told);
+    }
+}
+
+// Every code on every channel, with other codes on the others.
+void Port::readings()
+{
+    unsigned long count = 0;
+
+    for (const auto &[channel, input] : inputs) {
+        for (unsigned code = 0; code < codes; code++) {
+            for (const auto &other : inputs) {
+                chip.set_code(other.second,
+                              (code + 341 + 100 * other.first) % codes);
+            }
+            chip.set_code(input, code);
+            chip.poke(chip.data("channel"), channel);
+            call('t');
+            call('r');
+            const unsigned got = chip.peek_u16(chip.data("reading"));
+            if (got != code) {
+                wrong("channel %u reads %u at %u", channel, got, code);
+            }
+            count++;
+        }
+        for (const double volts : {0.0, 5.0}) {
+            chip.set_volts(input, volts);
+            call('r');
+            const unsigned got = chip.peek_u16(chip.data("reading"));
+            if (got != (volts > 0 ? codes - 1 : 0)) {
+                wrong("channel %u reads %u at %g V", channel, got, volts);
+            }
+            count++;
+        }
+    }
+    std::printf("%lu readings\n", count);
+}
+
+void Port::duty_is(int asked)
+{
+    const bool had_reverse = reverse();
+    const unsigned magnitude =
+        std::min(static_cast<unsigned>(std::abs(asked)), board.full);
+    const unsigned made = magnitude < duty_least ? 0 : magnitude;
+    const bool wanted = made == 0 ? had_reverse : asked < 0;
+
+    drive(asked);
+    if (duty_counts() != made) {
+        wrong("drive %d: %u counts, %u expected", asked, duty_counts(), made);
+    }
+    if (reverse() != wanted) {
+        wrong("drive %d: direction is %s", asked,
+              reverse() ? "reverse" : "forward");
+    }
+}
+
+void Port::duties()
+{
+    const int most = static_cast<int>(board.full) + 10;
+
+    for (int duty = -most; duty <= most; duty++) {
+        duty_is(duty);
+    }
+    for (const int duty : {32767, -32767, -32768, 0, 1, -1}) {
+        duty_is(duty);
+    }
+    std::printf("%d duties in the registers\n", 2 * most + 1 + 6);
+}
+
+// gpsim shows a quarter of a cycle's counts at the pin: whole cycles only.
+void Port::pin_shows(int asked)
+{
+    const unsigned on = asked < 0 ? reverse_probe : forward;
+    const unsigned other = asked < 0 ? forward : reverse_probe;
+    const uint64_t expected =
+        static_cast<uint64_t>(std::abs(asked)) / 4 * periods;
+
+    drive(asked);
+    chip.run(3 * board.pwm_cycles); // until it is at the pins
+    chip.probe_high_cycles(on);
+    chip.probe_high_cycles(other);
+    chip.run(periods * board.pwm_cycles - 1); // it returns a cycle later
+    const uint64_t high = chip.probe_high_cycles(on);
+    if (high + periods < expected || high > expected + periods) {
+        wrong("drive %d: pin high for %" PRIu64 " cycles, %" PRIu64 " expected",
+              asked, high, expected);
+    }
+    if (other != on && chip.probe_high_cycles(other) != 0) {
+        wrong("drive %d: the other direction's pin is on", asked);
+    }
+}
+
+void Port::pins()
+{
+    unsigned long count = 0;
+
+    for (unsigned quarter = 0; quarter <= board.full / 4; quarter++) {
+        pin_shows(static_cast<int>(4 * quarter));
+        pin_shows(-static_cast<int>(4 * quarter));
+        count += 2;
+    }
+    std::printf("%lu duties at the pins\n", count);
+}
+
+// Any duty after any other; turned() looks on.
+void Port::turns_around()
+{
+    uint32_t state = 1;
+
+    for (unsigned count = 0; count < 2000; count++) {
+        state = state * UINT32_C(1664525) + UINT32_C(1013904223);
+        duty_is(static_cast<int>((state >> 16) % (2 * board.full + 1)) -
+                static_cast<int>(board.full));
+    }
+    std::printf("%lu changes of direction\n", turn_arounds);
+    if (turn_arounds < 500) {
+        wrong("too few changes of direction");
+    }
+}
+
+void Port::ticks_saturate()
+{
+    call('t');
+    for (unsigned count = 0; count < ticks_most + 45; count++) {
+        chip.write(board.tick_flag.first,
+                   chip.peek(board.tick_flag.first) | board.tick_flag.second);
+        chip.run(75); // in the loop that waits for a turn
+    }
+    call('t');
+    if (chip.peek(chip.data("ticks_told")) != ticks_most) {
+        wrong("300 ticks are told as %u", chip.peek(chip.data("ticks_told")));
+    }
+    call('t');
+    if (chip.peek(chip.data("ticks_told")) > 1) {
+        wrong("ticks are told twice");
+    }
+    std::printf("ticks saturate at 255\n");
+}
+
+// A loop that takes no ticks is reset.
+void Port::watchdog()
+{
+    const uint64_t cycles = chip.run(
+        static_cast<uint64_t>(watchdog_most * chip.cycles_per_second()));
+
+    if (chip.stopped() != Stop::fault ||
+        chip.reason().find("watchdog") == std::string::npos) {
+        wrong("a loop that stands still is not reset by the watchdog");
+    }
+    std::printf("watchdog resets after %.1f ms\n",
+                1000.0 * static_cast<double>(cycles) /
+                    chip.cycles_per_second());
+}
+
+bool Port::run()
+{
+    off_after_reset();
+    tick_period();
+    readings();
+    duties();
+    pins();
+    turns_around();
+    ticks_saturate();
+    const std::string printed = chip.messages();
+    if (!printed.empty()) {
+        wrong("gpsim: %s", printed.c_str());
+    }
+    watchdog();
+    std::printf("%s port errors %lu\n", chip.processor().c_str(), errors);
+    return errors == 0;
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+    try {
+        if (argc != 2) {
+            throw ChipError("usage: port FIRMWARE.cod");
+        }
+        return Port(argv[1]).run() ? EXIT_SUCCESS : EXIT_FAILURE;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "port: %s\n", error.what());
+        return 2;
+    }
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Every recorded row, then random steps, through a driver's firmware:
+//
+//   replay FIRMWARE.cod CONTROLLER RECORDING.csv STEPS SEED
+//
+// Prints one line of figures. Exit status: 0 no answer differs, 1 some do, 2
+// the run could not be made.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "driver.hh"
+
+namespace
+{
+
+constexpr std::size_t rows_expected = 2000;
+
+struct Result {
+    unsigned long asked = 0;
+    unsigned long different = 0;
+};
+
+class Replay
+{
+  public:
+    Replay(const std::string &cod, const controller &which,
+           const std::string &recording, unsigned long steps)
+        : tested(which), rows(recorded_rows(recording)), random_steps(steps),
+          driver(cod, which)
+    {
+        if (rows.size() != rows_expected) {
+            throw ChipError(recording + " has not 2000 rows");
+        }
+        driver.ask = [this](question &asked) { return ask(asked); };
+        driver.judge = [this](const answer &given) { judge(given); };
+    }
+
+    Result recorded, random;
+
+    // The figures of one pass over all questions with one seed.
+    bool run(unsigned seed);
+
+  private:
+    bool ask(question &asked);
+    void judge(const answer &given);
+
+    const controller &tested;
+    const std::vector<std::vector<int32_t>> rows;
+    const unsigned long random_steps;
+    Driver driver;
+    answer expected;
+};
+
+bool Replay::ask(question &asked)
+{
+    if (recorded.asked < rows.size()) {
+        tested.row(rows[recorded.asked].data(), &asked, &expected);
+        recorded.asked++;
+        return true;
+    }
+    if (random.asked == random_steps) {
+        return false;
+    }
+    tested.ask(&asked);
+    tested.define(&asked, &expected);
+    random.asked++;
+    return true;
+}
+
+void Replay::judge(const answer &given)
+{
+    const bool row = random.asked == 0;
+    Result &result = row ? recorded : random;
+    const std::string what =
+        (row ? "row " : "random step ") + std::to_string(result.asked);
+
+    if (!same_answer(tested, what, expected, given)) {
+        result.different++;
+    }
+}
+
+bool Replay::run(unsigned seed)
+{
+    const std::string name = std::string("fixpid_") + tested.name + "_step";
+    const Meter &step = driver.chip.meter(name);
+    const auto start = std::chrono::steady_clock::now();
+
+    cases_begin(seed);
+    driver.run();
+    const std::chrono::duration<double> took =
+        std::chrono::steady_clock::now() - start;
+    const double all = static_cast<double>(recorded.asked + random.asked);
+    std::printf(
+        "%s %s rows %lu different %lu random %lu different %lu "
+        "cycles %lu..%lu stack %u; %.0f steps/s, %.0f million cycles/s\n",
+        tested.name, driver.chip.processor().c_str(), recorded.asked,
+        recorded.different, random.asked, random.different, step.least,
+        step.most, driver.chip.stack_most(), all / took.count(),
+        static_cast<double>(driver.chip.cycle()) / 1e6 / took.count());
+    return recorded.different + random.different == 0;
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+    try {
+        if (argc != 6) {
+            throw ChipError("usage: replay FIRMWARE.cod CONTROLLER "
+                            "RECORDING.csv STEPS SEED");
+        }
+        Replay replay(argv[1], find_controller(argv[2]), argv[3],
+                      std::strtoul(argv[4], nullptr, 10));
+        const unsigned long seed = std::strtoul(argv[5], nullptr, 10);
+        return replay.run(static_cast<unsigned>(seed)) ? EXIT_SUCCESS
+                                                       : EXIT_FAILURE;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "replay: %s\n", error.what());
+        return 2;
+    }
+}
