@@ -18,7 +18,7 @@ OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <]
               'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
               'kd_q4' => %w[kp_q4], 'true' => %w[false], 'false' => %w[true] }.freeze
 TOKEN = %r{//[^\n]*|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||\|=|\+=|--|[A-Za-z_]\w*|\d\w*|\n|.}m.freeze
-FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_RANDOM_STEPS=3000 -DTEST_STRIDE=3 -DFIXPID_PRODUCT=3 -Iinclude -Itest/support].freeze
+FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_RANDOM_STEPS=3000 -DTEST_STRIDE=31 -DFIXPID_PRODUCT=3 -Iinclude -Itest/support].freeze
 
 Mutant = Struct.new(:file, :line, :from, :to, :source)
 
