@@ -5,7 +5,7 @@
 module Docs
   BEGIN_MARK = '<!-- tuning:begin -->'
   END_MARK = '<!-- tuning:end -->'
-  PICTURES = %w[pendulum motor oven tuning].freeze
+  PICTURES = %w[pendulum motor oven tuning chip].freeze
 
   class << self
     # True unless mode asks for a check that fails.
