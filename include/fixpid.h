@@ -2,8 +2,8 @@
 // fixpid: fixed-point PID controllers without float, heap or hardware.
 //
 // This header holds compiler facts only. Each controller has a header of its
-// own that is also its manual: fixpid_an937.h, fixpid_an964.h and
-// fixpid_an964_8bit.h.
+// own that is also its manual: fixpid_an937.h, fixpid_an964.h,
+// fixpid_an964_8bit.h and fixpid_pid.h.
 #ifndef FIXPID_H
 #define FIXPID_H
 
