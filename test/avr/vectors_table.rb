@@ -7,36 +7,54 @@ TYPES = [['uint8_t', 0..255, 'byte', 1], ['int8_t', -128..127, 'byte', 1],
          ['int16_t', -32_768..32_767, 'word', 2],
          ['int32_t', -2**31..2**31 - 1, 'dword', 4]].freeze
 
+# A column: where its runs of equal values begin (nil: each row is one), and
+# the values.
+Column = Struct.new(:type, :read, :size, :starts, :values)
+
+def column_of(values)
+  type, _, read, size = TYPES.find { |_, range| values.minmax.all? { |value| range.cover?(value) } }
+  starts = values.each_index.select { |row| row.zero? || values[row] != values[row - 1] }
+  return Column.new(type, read, size, nil, values) if (size + 2) * starts.size >= size * values.size
+
+  Column.new(type, read, size, starts, values.values_at(*starts))
+end
+
 def columns_of(path)
   rows = File.readlines(path, chomp: true).drop(1).map do |line|
     line.strip.split(',').map { |number| Integer(number, 10) }
   end
-  rows.transpose.map do |column|
-    [TYPES.find { |_, range| column.minmax.all? { |value| range.cover?(value) } }, column]
-  end
+  [rows.size, rows.transpose.map { |values| column_of(values) }]
+end
+
+def flash(type, read, size, table, index)
+  "(#{type})pgm_read_#{read}_far(pgm_get_far_address(#{table}) + #{size} * (uint32_t)(#{index}))"
 end
 
 files = ARGV.to_h { |path| [File.basename(path, '.csv'), columns_of(path)] }
 
 puts '// Made by vectors_table.rb: do not edit.'
 puts '#include <avr/pgmspace.h>', '#include <string.h>', '#include "vectors.h"'
-files.each do |name, columns|
-  columns.each_with_index do |((type), column), index|
-    puts "static const #{type} #{name}_#{index}[] PROGMEM = {", "#{column.join(',')}};"
+puts 'static uint16_t row, rows, run[VECTORS_COLUMNS_MAX];'
+files.each do |name, (_, columns)|
+  columns.each_with_index do |column, index|
+    table = "#{name}_#{index}"
+    puts "static const #{column.type} #{table}[] PROGMEM = {", "#{column.values.join(',')}};"
+    puts "static const uint16_t #{table}_starts[] PROGMEM = {", "#{column.starts.join(',')}, 65535};" if column.starts
   end
-  puts "static void #{name}(uint32_t row, int32_t *columns)", '{'
-  columns.each_with_index do |((type, _, read, size), _), index|
-    puts "columns[#{index}] = (#{type})pgm_read_#{read}_far(" \
-         "pgm_get_far_address(#{name}_#{index}) + #{size} * row);"
+  puts "static void #{name}(int32_t *columns)", '{'
+  columns.each_with_index do |column, index|
+    table = "#{name}_#{index}"
+    at = column.starts ? "run[#{index}]" : 'row'
+    puts "if (row >= #{flash('uint16_t', 'word', 2, "#{table}_starts", "#{at} + 1u")}) { #{at}++; }" if column.starts
+    puts "columns[#{index}] = #{flash(column.type, column.read, column.size, table, at)};"
   end
   puts '}'
 end
-puts 'static void (*get)(uint32_t row, int32_t *columns);'
-puts 'static uint32_t row, rows;'
-puts 'void vectors_open(const char *name)', '{', 'row = 0;'
-files.each do |name, columns|
-  puts "if (strcmp(name, \"#{name}\") == 0) { get = #{name}; rows = #{columns[0][1].size}; }"
+puts 'static void (*get)(int32_t *columns);'
+puts 'void vectors_open(const char *name)', '{', 'row = 0;', 'memset(run, 0, sizeof run);'
+files.each do |name, (count, _)|
+  puts "if (strcmp(name, \"#{name}\") == 0) { get = #{name}; rows = #{count}; }"
 end
 puts '}'
 puts 'bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX])', '{'
-puts 'if (row == rows) { return false; }', 'get(row, columns);', 'row++;', 'return true;', '}'
+puts 'if (row == rows) { return false; }', 'get(columns);', 'row++;', 'return true;', '}'

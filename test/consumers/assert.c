@@ -12,15 +12,18 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_pid.h"
 
 struct fixpid_an937 an937;
 struct fixpid_an964 an964;
 struct fixpid_an964_8bit an964_8bit;
+struct fixpid_pid pid;
 
 #ifdef FIXPID_AN937_OBJECT
 static struct fixpid_an937 second_an937;
 static struct fixpid_an964 second_an964;
 static struct fixpid_an964_8bit second_an964_8bit;
+static struct fixpid_pid second_pid;
 #define WRONG(controller) (&second_##controller)
 #else
 #define WRONG(controller) NULL
@@ -30,13 +33,23 @@ static const struct fixpid_an937_config config = {96, 80, 16, 4000, 4};
 static const struct fixpid_an964_gains gains = {600, 40, 100};
 static const struct fixpid_an964_8bit_gains gains_8bit = {75, 5, 12};
 
-#define CALLS 33
+static const struct fixpid_pid_config valve = {
+    {FIXPID_PID_KI(0.5, 10), FIXPID_PID_KP(2), FIXPID_PID_KD(0.1, 10, 1), 1},
+    0,
+    255,
+    -32767,
+    32767,
+    256,
+    0};
+
+#define CALLS 49
 
 static void call(int number, bool wrong)
 {
     struct fixpid_an937 *const a = wrong ? WRONG(an937) : &an937;
     struct fixpid_an964 *const b = wrong ? WRONG(an964) : &an964;
     struct fixpid_an964_8bit *const c = wrong ? WRONG(an964_8bit) : &an964_8bit;
+    struct fixpid_pid *const d = wrong ? WRONG(pid) : &pid;
 
     // clang-format off
     switch (number) {
@@ -75,6 +88,22 @@ static void call(int number, bool wrong)
     case 32: // a missing configuration instead of a wrong controller
         fixpid_an937_init(&an937, wrong ? NULL : &config);
         break;
+    case 33: fixpid_pid_init(d, &valve); break;
+    case 34: fixpid_pid_reset(d); break;
+    case 35: fixpid_pid_set_gains(d, &valve.gains); break;
+    case 36: fixpid_pid_set_limits(d, 0, 1); break;
+    case 37: fixpid_pid_set_integral_limits(d, 0, 1); break;
+    case 38: fixpid_pid_set_feedforward(d, 1); break;
+    case 39: fixpid_pid_set_manual(d, 1); break;
+    case 40: fixpid_pid_set_auto(d); break;
+    case 41: fixpid_pid_seed(d, 1); break;
+    case 42: fixpid_pid_step(d, 1, 2); break;
+    case 43: fixpid_pid_proportional(d); break;
+    case 44: fixpid_pid_integral(d); break;
+    case 45: fixpid_pid_derivative(d); break;
+    case 46: fixpid_pid_status(d); break;
+    case 47: fixpid_pid_init(&pid, wrong ? NULL : &valve); break;
+    case 48: fixpid_pid_set_gains(&pid, wrong ? NULL : &valve.gains); break;
     default: exit(1);
     }
     // clang-format on

@@ -3,6 +3,7 @@
 //
 //   replay an937 FILE
 //   replay an964 FILE
+//   replay pid FILE
 //
 // Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
 // 77 the library was built with other limits than the recording.
@@ -13,6 +14,7 @@
 
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
+#include "fixpid_pid.h"
 
 #define ROWS 2000
 #define REPORTED_MAX 10 // differing values; the rest is only counted
@@ -48,6 +50,45 @@ enum {
     AN964_DERIVATIVE,
     AN964_OUT,
     AN964_COLUMNS
+};
+
+// Columns of pid_definition.csv.
+enum {
+    PID_RUN,
+    PID_KP,
+    PID_KI,
+    PID_KD,
+    PID_FILTER,
+    PID_OUTPUT_MIN,
+    PID_OUTPUT_MAX,
+    PID_INTEGRAL_MIN,
+    PID_INTEGRAL_MAX,
+    PID_WEIGHT,
+    PID_OPTIONS,
+    PID_EVENT,
+    PID_VALUE,
+    PID_SETPOINT,
+    PID_MEASUREMENT,
+    PID_OUTPUT,
+    PID_P,
+    PID_I,
+    PID_D,
+    PID_STATUS,
+    PID_COLUMNS
+};
+
+// What was called before the row's step.
+enum {
+    PID_NOTHING,
+    PID_INIT,
+    PID_RESET,
+    PID_SET_GAINS,
+    PID_SET_LIMITS,
+    PID_SET_INTEGRAL_LIMITS,
+    PID_SET_FEEDFORWARD,
+    PID_SET_MANUAL,
+    PID_SET_AUTO,
+    PID_SEED
 };
 
 static const char *path;
@@ -152,12 +193,78 @@ static bool an964_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
+static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
+{
+    const struct fixpid_pid_config config = {
+        .gains = {.ki_q24 = (uint32_t)at[PID_KI],
+                  .kp_q8 = (uint16_t)at[PID_KP],
+                  .kd_q8 = (uint16_t)at[PID_KD],
+                  .derivative_filter = (uint8_t)at[PID_FILTER]},
+        .output_min = (int16_t)at[PID_OUTPUT_MIN],
+        .output_max = (int16_t)at[PID_OUTPUT_MAX],
+        .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
+        .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
+        .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
+        .options = (uint8_t)at[PID_OPTIONS],
+    };
+    const int16_t value = (int16_t)at[PID_VALUE];
+
+    switch (at[PID_EVENT]) {
+    case PID_NOTHING:
+        return true;
+    case PID_INIT:
+        return fixpid_pid_init(pid, &config);
+    case PID_RESET:
+        fixpid_pid_reset(pid);
+        return true;
+    case PID_SET_GAINS:
+        return fixpid_pid_set_gains(pid, &config.gains);
+    case PID_SET_LIMITS:
+        return fixpid_pid_set_limits(pid, config.output_min, config.output_max);
+    case PID_SET_INTEGRAL_LIMITS:
+        return fixpid_pid_set_integral_limits(pid, config.integral_min,
+                                              config.integral_max);
+    case PID_SET_FEEDFORWARD:
+        fixpid_pid_set_feedforward(pid, value);
+        return true;
+    case PID_SET_MANUAL:
+        fixpid_pid_set_manual(pid, value);
+        return true;
+    case PID_SET_AUTO:
+        fixpid_pid_set_auto(pid);
+        return true;
+    case PID_SEED:
+        fixpid_pid_seed(pid, value);
+        return true;
+    default:
+        stop("has an unknown event");
+    }
+    return false;
+}
+
+static bool pid_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_pid pid;
+    bool equal = true;
+
+    (void)fresh; // is an event of its own
+    equal &= same("event", true, pid_event(&pid, at));
+    equal &= same("output", at[PID_OUTPUT],
+                  fixpid_pid_step(&pid, (int16_t)at[PID_SETPOINT],
+                                  (int16_t)at[PID_MEASUREMENT]));
+    equal &= same("p_q8", at[PID_P], fixpid_pid_proportional(&pid));
+    equal &= same("i_q16", at[PID_I], fixpid_pid_integral(&pid));
+    equal &= same("d_q8", at[PID_D], fixpid_pid_derivative(&pid));
+    equal &= same("status", at[PID_STATUS], fixpid_pid_status(&pid));
+    return equal;
+}
+
 static int replay(const char *name, int columns,
                   bool (*row_is_same)(const int32_t at[], bool fresh))
 {
     FILE *const file = fopen(path, "r");
     char line[256];
-    int32_t at[AN937_COLUMNS]; // AN964 has fewer
+    int32_t at[PID_COLUMNS]; // the others have fewer
     int32_t run = -1;
     int different = 0;
 
@@ -195,6 +302,9 @@ int main(int argc, char *argv[])
         printf("an964: skipped, recorded with other limits\n");
         return EXIT_SKIPPED;
     }
-    fprintf(stderr, "usage: replay an937|an964 FILE\n");
+    if (argc == 3 && strcmp(argv[1], "pid") == 0) {
+        return replay("pid", PID_COLUMNS, pid_row_is_same);
+    }
+    fprintf(stderr, "usage: replay an937|an964|pid FILE\n");
     return EXIT_WRONG_FILE;
 }

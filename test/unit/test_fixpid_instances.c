@@ -3,13 +3,18 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_pid.h"
 #include "numbers.h"
+#include "numbers_pid.h"
 #include "reference.h"
+#include "reference_pid.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
 TEST_SOURCE_FILE("src/fixpid_an964.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
+TEST_SOURCE_FILE("src/fixpid_pid.c")
+TEST_SOURCE_FILE("src/fixpid_pid_access.c")
 
 #define COUNT 5
 
@@ -94,5 +99,29 @@ void test_an964_8bit_several_instances_keep_their_own_state(void)
 
         TEST_ASSERT_EQUAL_INT16(reference_an964_step(&references[i], error),
                                 fixpid_an964_8bit_step(&controllers[i], error));
+    }
+}
+
+void test_pid_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_pid controllers[COUNT];
+    struct reference_pid references[COUNT];
+    int16_t setpoint = 0;
+    int16_t measurement;
+
+    for (unsigned i = 0; i < COUNT; i++) {
+        struct fixpid_pid_config config;
+
+        numbers_pid_config(&config);
+        TEST_ASSERT_EQUAL(reference_pid_init(&references[i], &config),
+                          fixpid_pid_init(&controllers[i], &config));
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(COUNT);
+
+        numbers_pid_inputs(&setpoint, &measurement);
+        TEST_ASSERT_EQUAL_INT16(
+            reference_pid_step(&references[i], setpoint, measurement),
+            fixpid_pid_step(&controllers[i], setpoint, measurement));
     }
 }

@@ -6,6 +6,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_pid.h"
 
 static bool an937_works(void)
 {
@@ -23,6 +24,21 @@ static bool an937_works(void)
     }
     fixpid_an937_tick(&pid);
     return fixpid_an937_step(&pid, 240) == 2880;
+}
+
+static bool pid_works(void)
+{
+    const struct fixpid_pid_config config = {
+        .gains = {.ki_q24 = FIXPID_PID_TI(2.0, 10.0, 10),
+                  .kp_q8 = FIXPID_PID_KP(2.0)},
+        .output_max = 255,
+        .integral_max = 255,
+        .setpoint_weight_q8 = 256,
+    };
+    struct fixpid_pid pid;
+
+    return fixpid_pid_init(&pid, &config) &&
+           fixpid_pid_step(&pid, 60, 10) == 101;
 }
 
 static bool an964_limits_agree(void)
@@ -71,7 +87,8 @@ int main(void)
     printf("limits %d %d %d %d %d\n", FIXPID_AN964_SUM_LIMIT,
            FIXPID_AN964_TERM_LIMIT, FIXPID_AN964_OUTPUT_LIMIT,
            FIXPID_AN964_8BIT_SUM_LIMIT, FIXPID_AN964_8BIT_TERM_LIMIT);
-    if (!an937_works() || !an964_limits_agree() || !an964_8bit_limits_agree()) {
+    if (!an937_works() || !pid_works() || !an964_limits_agree() ||
+        !an964_8bit_limits_agree()) {
         printf("the library is not the one of the header\n");
         return 1;
     }

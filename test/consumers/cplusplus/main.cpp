@@ -6,6 +6,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_pid.h"
 
 static constexpr std::uint8_t kp_q4 = FIXPID_AN937_GAIN(6.0);
 static_assert(kp_q4 == 96, "6.0 x 16");
@@ -15,6 +16,15 @@ static_assert(FIXPID_AN937_GAIN(15.9375) == 255, "the greatest gain");
 static const fixpid_an937_config motor = {kp_q4, FIXPID_AN937_GAIN(5.0),
                                           FIXPID_AN937_GAIN(1.0), 4000, 4};
 
+static_assert(FIXPID_PID_KP(2.5) == 640, "2.5 x 256");
+static_assert(FIXPID_PID_KI(0.5, 100) == 83886, "0.005 x 2^24");
+static_assert(FIXPID_PID_TI(2, 30, 10) == 111848, "2 / 300 x 2^24");
+static_assert(FIXPID_PID_KD(0.1, 100, 2) == 640, "2.5 x 256");
+static_assert(FIXPID_PID_TD(1.5, 3, 100, 4) == 7200, "28.125 x 256");
+
+static const fixpid_pid_config valve = {
+    {FIXPID_PID_KI(0, 1), FIXPID_PID_KP(2), 0, 0}, 0, 255, 0, 0, 256, 0};
+
 int main()
 {
     const fixpid_an964_gains gains = {1023, 0, 0};
@@ -22,16 +32,19 @@ int main()
     fixpid_an937 an937;
     fixpid_an964 an964;
     fixpid_an964_8bit an964_8bit;
+    fixpid_pid pid;
 
     if (!fixpid_an937_init(&an937, &motor) ||
         !fixpid_an964_init(&an964, &gains) ||
-        !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit)) {
+        !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
+        !fixpid_pid_init(&pid, &valve)) {
         return 1;
     }
     fixpid_an937_tick(&an937);
     return fixpid_an937_step(&an937, 240) == 2880 &&
                    fixpid_an964_step(&an964, 100) == 99 &&
-                   fixpid_an964_8bit_step(&an964_8bit, 100) == 100
+                   fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
+                   fixpid_pid_step(&pid, 100, 50) == 100
                ? 0
                : 1;
 }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What the two sources of fixpid_pid share: how they address the controller,
+// and its private bits.
+#ifndef FIXPID_PID_SELF_H
+#define FIXPID_PID_SELF_H
+#include "fixpid_arith.h"
+#include "fixpid_pid.h"
+
+#ifdef FIXPID_PID_OBJECT
+#define SELF FIXPID_PID_OBJECT
+#define VALID(self) ((self) == &SELF)
+#else
+#define SELF (*self)
+#define VALID(self) ((self) != 0)
+#endif
+
+// A refused controller has no room between its output limits.
+#define REFUSED (SELF.output_min == SELF.output_max)
+
+// Of status: `integral` is the output held.
+#define HELD (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL)
+
+#endif

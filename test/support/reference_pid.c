@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "reference_pid.h"
+
+#include <string.h>
+
+#include "reference.h"
+
+#define ONE (INT64_C(1) << 24) // of the integral
+#define DERIVATIVE_LIMIT ((INT64_C(1) << 30) - (INT64_C(1) << 24))
+
+static int64_t int16_of(int64_t value)
+{
+    return reference_clamp(value, -32768, 32767);
+}
+
+static bool gains_are_legal(const struct fixpid_pid_gains *gains)
+{
+    return gains->kp_q8 <= 32767 && gains->kd_q8 <= 32255 &&
+           gains->ki_q24 <= 0x7FFF0000u && gains->derivative_filter <= 7;
+}
+
+static void take_gains(struct reference_pid *self,
+                       const struct fixpid_pid_gains *gains)
+{
+    const int64_t ki = gains->ki_q24;
+
+    self->kp = gains->kp_q8;
+    self->kd = gains->kd_q8;
+    self->filter = gains->derivative_filter;
+    if (ki <= 32767) {
+        self->ki = ki;
+        self->ki_divisor = ONE;
+    } else if ((ki + 128) / 256 <= 32767) {
+        self->ki = (ki + 128) / 256;
+        self->ki_divisor = ONE / 256;
+    } else {
+        self->ki = (ki + 32768) / 65536;
+        self->ki_divisor = ONE / 65536;
+    }
+}
+
+bool reference_pid_init(struct reference_pid *self,
+                        const struct fixpid_pid_config *config)
+{
+    memset(self, 0, sizeof *self);
+    self->accepted = gains_are_legal(&config->gains) &&
+                     config->output_min < config->output_max &&
+                     config->integral_min >= -32767 &&
+                     config->integral_min <= config->integral_max &&
+                     config->setpoint_weight_q8 <= 256 &&
+                     (config->options & 0x3F) == 0;
+    if (self->accepted) {
+        take_gains(self, &config->gains);
+        self->output_min = config->output_min;
+        self->output_max = config->output_max;
+        self->integral_min = config->integral_min;
+        self->integral_max = config->integral_max;
+        self->weight = config->setpoint_weight_q8;
+        self->reverse = (config->options & 0x80) != 0;
+        self->on_error = (config->options & 0x40) != 0;
+    }
+    reference_pid_reset(self);
+    return self->accepted;
+}
+
+void reference_pid_reset(struct reference_pid *self)
+{
+    self->integral =
+        ONE * reference_clamp(0, self->integral_min, self->integral_max);
+    self->derivative = 0;
+    self->proportional_error = 0;
+    self->previous = 0;
+    self->feedforward = 0;
+    self->held = 0;
+    self->seen = false;
+    self->seeded = false;
+    self->manual = false;
+    self->at_max = false;
+    self->at_min = false;
+}
+
+bool reference_pid_set_gains(struct reference_pid *self,
+                             const struct fixpid_pid_gains *gains)
+{
+    if (!self->accepted || !gains_are_legal(gains)) {
+        return false;
+    }
+    take_gains(self, gains);
+    return true;
+}
+
+bool reference_pid_set_limits(struct reference_pid *self, int64_t low,
+                              int64_t high)
+{
+    const int64_t terms =
+        self->kp * self->proportional_error + self->derivative;
+    const int64_t forward = 256 * self->feedforward;
+
+    if (!self->accepted || low >= high) {
+        return false;
+    }
+    self->output_min = low;
+    self->output_max = high;
+    if (self->manual || self->seeded) {
+        self->held = reference_clamp(self->held, low, high);
+        return true;
+    }
+    self->integral = reference_clamp(
+        self->integral, 65536 * (256 * low - forward - (terms > 0 ? terms : 0)),
+        65536 * (256 * high - forward - (terms < 0 ? terms : 0)));
+    self->integral = reference_clamp(self->integral, ONE * self->integral_min,
+                                     ONE * self->integral_max);
+    return true;
+}
+
+bool reference_pid_set_integral_limits(struct reference_pid *self, int64_t low,
+                                       int64_t high)
+{
+    if (!self->accepted || low < -32767 || low > high) {
+        return false;
+    }
+    self->integral_min = low;
+    self->integral_max = high;
+    if (!self->manual && !self->seeded) {
+        self->integral = reference_clamp(self->integral, ONE * low, ONE * high);
+    }
+    return true;
+}
+
+void reference_pid_set_feedforward(struct reference_pid *self, int64_t value)
+{
+    if (self->accepted) {
+        self->feedforward = value;
+    }
+}
+
+void reference_pid_set_manual(struct reference_pid *self, int64_t output)
+{
+    self->manual = true;
+    self->seeded = false;
+    self->held = reference_clamp(output, self->output_min, self->output_max);
+}
+
+void reference_pid_set_auto(struct reference_pid *self)
+{
+    if (self->manual) {
+        self->manual = false;
+        self->seeded = true;
+    }
+}
+
+void reference_pid_seed(struct reference_pid *self, int64_t output)
+{
+    self->held = reference_clamp(output, self->output_min, self->output_max);
+    self->seeded = !self->manual;
+}
+
+// D, from what rises against the error.
+static void differentiate(struct reference_pid *self, int64_t input)
+{
+    const int64_t fall = self->seen ? int16_of(self->previous - input) : 0;
+    const int64_t leak =
+        reference_floor_divide(self->derivative, INT64_C(1) << self->filter);
+
+    self->seen = true;
+    self->previous = input;
+    self->derivative =
+        reference_clamp(self->derivative - leak + self->kd * fall,
+                        -DERIVATIVE_LIMIT, DERIVATIVE_LIMIT);
+}
+
+int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
+                           int64_t measurement)
+{
+    const int64_t sign = self->reverse ? -1 : 1;
+    const int64_t weighted =
+        self->weight == 256
+            ? setpoint
+            : reference_floor_divide(self->weight * setpoint + 128, 256);
+    const int64_t error = int16_of(sign * (setpoint - measurement));
+    int64_t others, integral, output;
+    bool deeper;
+
+    self->proportional_error = int16_of(sign * (weighted - measurement));
+    differentiate(self, self->on_error ? -error : sign * measurement);
+    others = self->kp * self->proportional_error + self->derivative +
+             256 * self->feedforward;
+    self->at_max = false;
+    self->at_min = false;
+    if (self->manual) {
+        return self->held;
+    }
+    integral = self->integral;
+    if (self->seeded) {
+        integral = 65536 * (256 * self->held - others);
+    } else if (self->ki != 0) {
+        integral += self->ki * error * (ONE / self->ki_divisor);
+    }
+    integral = reference_clamp(integral, ONE * self->integral_min,
+                               ONE * self->integral_max);
+    output = reference_floor_divide(
+        others + reference_floor_divide(integral, 65536) + 128, 256);
+    self->at_max = output > self->output_max;
+    self->at_min = output < self->output_min;
+    deeper = (self->at_max && error > 0) || (self->at_min && error < 0);
+    if (self->seeded || !deeper) {
+        self->integral = integral;
+    }
+    self->seeded = false;
+    return reference_clamp(output, self->output_min, self->output_max);
+}
+
+int64_t reference_pid_proportional(const struct reference_pid *self)
+{
+    return self->kp * self->proportional_error;
+}
+
+int64_t reference_pid_integral(const struct reference_pid *self)
+{
+    return self->manual || self->seeded
+               ? 65536 * self->held
+               : reference_floor_divide(self->integral, 256);
+}
+
+uint8_t reference_pid_status(const struct reference_pid *self)
+{
+    return (uint8_t)((self->at_max ? 0x01 : 0) | (self->at_min ? 0x02 : 0) |
+                     (self->seen ? 0 : 0x10) | (self->seeded ? 0x20 : 0) |
+                     (self->manual ? 0x40 : 0));
+}

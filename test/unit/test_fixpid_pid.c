@@ -1,0 +1,1150 @@
+// SPDX-License-Identifier: MIT
+#include <string.h>
+
+#include "fixpid_pid.h"
+#include "numbers.h"
+#include "numbers_pid.h"
+#include "reference_pid.h"
+#include "unity.h"
+#include "vectors.h"
+
+TEST_SOURCE_FILE("src/fixpid_pid.c")
+TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+
+#ifndef TEST_RANDOM_STEPS
+#define TEST_RANDOM_STEPS 200000
+#endif
+
+FIXPID_DATA struct fixpid_pid pid_controller;
+static struct reference_pid reference;
+
+// kp 2, ki 0.05 per step, a valve of 8 bits.
+static const struct fixpid_pid_config valve = {
+    .gains = {.ki_q24 = 838861, .kp_q8 = 512},
+    .output_min = 0,
+    .output_max = 255,
+    .integral_min = -32767,
+    .integral_max = 32767,
+    .setpoint_weight_q8 = 256,
+};
+
+static struct fixpid_pid_config config; // of the running controller
+
+// Everything that can be read is as the definition says.
+static void compare(void)
+{
+    TEST_ASSERT_EQUAL_INT32(reference_pid_proportional(&reference),
+                            fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(reference_pid_integral(&reference),
+                            fixpid_pid_integral(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(reference.derivative,
+                            fixpid_pid_derivative(&pid_controller));
+    TEST_ASSERT_EQUAL_HEX8(reference_pid_status(&reference),
+                           fixpid_pid_status(&pid_controller));
+}
+
+static bool init(void)
+{
+    const bool good = reference_pid_init(&reference, &config);
+
+    TEST_ASSERT_EQUAL(good, fixpid_pid_init(&pid_controller, &config));
+    compare();
+    return good;
+}
+
+static void reset(void)
+{
+    reference_pid_reset(&reference);
+    fixpid_pid_reset(&pid_controller);
+    compare();
+}
+
+static bool set_gains(void)
+{
+    const bool good = reference_pid_set_gains(&reference, &config.gains);
+
+    TEST_ASSERT_EQUAL(good,
+                      fixpid_pid_set_gains(&pid_controller, &config.gains));
+    compare();
+    return good;
+}
+
+static bool set_limits(int16_t low, int16_t high)
+{
+    const bool good = reference_pid_set_limits(&reference, low, high);
+
+    TEST_ASSERT_EQUAL(good, fixpid_pid_set_limits(&pid_controller, low, high));
+    compare();
+    return good;
+}
+
+static bool set_integral_limits(int16_t low, int16_t high)
+{
+    const bool good = reference_pid_set_integral_limits(&reference, low, high);
+
+    TEST_ASSERT_EQUAL(
+        good, fixpid_pid_set_integral_limits(&pid_controller, low, high));
+    compare();
+    return good;
+}
+
+static void set_feedforward(int16_t value)
+{
+    reference_pid_set_feedforward(&reference, value);
+    fixpid_pid_set_feedforward(&pid_controller, value);
+    compare();
+}
+
+static void set_manual(int16_t output)
+{
+    reference_pid_set_manual(&reference, output);
+    fixpid_pid_set_manual(&pid_controller, output);
+    compare();
+}
+
+static void set_auto(void)
+{
+    reference_pid_set_auto(&reference);
+    fixpid_pid_set_auto(&pid_controller);
+    compare();
+}
+
+static void seed(int16_t output)
+{
+    reference_pid_seed(&reference, output);
+    fixpid_pid_seed(&pid_controller, output);
+    compare();
+}
+
+static int16_t step(int16_t setpoint, int16_t measurement)
+{
+    const int64_t expected =
+        reference_pid_step(&reference, setpoint, measurement);
+    const int16_t output =
+        fixpid_pid_step(&pid_controller, setpoint, measurement);
+
+    TEST_ASSERT_EQUAL_INT16(expected, output);
+    compare();
+    return output;
+}
+
+static int32_t integral(void)
+{
+    return fixpid_pid_integral(&pid_controller);
+}
+
+static uint8_t status(void)
+{
+    return fixpid_pid_status(&pid_controller);
+}
+
+void setUp(void)
+{
+    numbers_seed(964937);
+    config = valve;
+    TEST_ASSERT_TRUE(init());
+}
+
+void tearDown(void)
+{
+}
+
+// ---- The definition ----
+
+enum column {
+    RUN,
+    KP,
+    KI,
+    KD,
+    FILTER,
+    OUTPUT_MIN,
+    OUTPUT_MAX,
+    INTEGRAL_MIN,
+    INTEGRAL_MAX,
+    WEIGHT,
+    OPTIONS,
+    EVENT,
+    VALUE,
+    SETPOINT,
+    MEASUREMENT,
+    OUTPUT,
+    P,
+    I,
+    D,
+    STATUS
+};
+
+static void make_event(const int32_t row[])
+{
+    switch (row[EVENT]) {
+    case 0:
+        break;
+    case 1:
+        TEST_ASSERT_TRUE(init());
+        break;
+    case 2:
+        reset();
+        break;
+    case 3:
+        TEST_ASSERT_TRUE(set_gains());
+        break;
+    case 4:
+        TEST_ASSERT_TRUE(set_limits(config.output_min, config.output_max));
+        break;
+    case 5:
+        TEST_ASSERT_TRUE(
+            set_integral_limits(config.integral_min, config.integral_max));
+        break;
+    case 6:
+        set_feedforward((int16_t)row[VALUE]);
+        break;
+    case 7:
+        set_manual((int16_t)row[VALUE]);
+        break;
+    case 8:
+        set_auto();
+        break;
+    case 9:
+        seed((int16_t)row[VALUE]);
+        break;
+    default:
+        TEST_FAIL_MESSAGE("unknown event");
+    }
+}
+
+void test_step_recorded_rows_match_the_definition(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    vectors_open("pid_definition");
+    while (vectors_next(row)) {
+        config.gains.kp_q8 = (uint16_t)row[KP];
+        config.gains.ki_q24 = (uint32_t)row[KI];
+        config.gains.kd_q8 = (uint16_t)row[KD];
+        config.gains.derivative_filter = (uint8_t)row[FILTER];
+        config.output_min = (int16_t)row[OUTPUT_MIN];
+        config.output_max = (int16_t)row[OUTPUT_MAX];
+        config.integral_min = (int16_t)row[INTEGRAL_MIN];
+        config.integral_max = (int16_t)row[INTEGRAL_MAX];
+        config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
+        config.options = (uint8_t)row[OPTIONS];
+        make_event(row);
+        TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[SETPOINT],
+                                                  (int16_t)row[MEASUREMENT]));
+        TEST_ASSERT_EQUAL_INT32(row[P],
+                                fixpid_pid_proportional(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[D], fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(row[STATUS], status());
+        rows++;
+    }
+    TEST_ASSERT_EQUAL_UINT(2000, rows);
+}
+
+void test_step_worked_example_gives_the_table(void)
+{
+    static const struct {
+        int16_t measurement;
+        int32_t p, i, d;
+        int16_t output;
+        uint8_t status;
+    } rows[] = {
+        {0, 358400, 0, 0, 255, 0x01},
+        {0, 358400, 0, 0, 255, 0x01},
+        {40, 337920, 0, -10240, 255, 0x01},
+        {120, 296960, 0, -25600, 255, 0x01},
+        {260, 225280, 0, -48640, 255, 0x01},
+        {400, 153600, 7864320, -60160, 120, 0x40}, // set_manual(120)
+        {690, 5120, 33259520, -104320, 120, 0x00}, // set_auto
+        {712, -6144, 33220196, -57792, 255, 0x01},
+    };
+
+    config.gains.kd_q8 = 256;
+    config.gains.derivative_filter = 1;
+    TEST_ASSERT_TRUE(init());
+    for (unsigned n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        if (n == 5) {
+            set_manual(120);
+        }
+        if (n == 6) {
+            set_auto();
+        }
+        TEST_ASSERT_EQUAL_INT16(rows[n].output, step(700, rows[n].measurement));
+        TEST_ASSERT_EQUAL_INT32(rows[n].p,
+                                fixpid_pid_proportional(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(rows[n].i, integral());
+        TEST_ASSERT_EQUAL_INT32(rows[n].d,
+                                fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(rows[n].status, status());
+    }
+}
+
+void test_step_nasty_inputs_crossed_match_the_definition(void)
+{
+    static const struct fixpid_pid_gains gains[] = {
+        {838861, 512, 256, 0},
+        {32767, 32767, 32255, 0},
+        {FIXPID_PID_KI_MAX, 32767, 32255, 7},
+        {8388608, 1, 1, 1},
+    };
+
+    for (unsigned i = 0; i < NASTY_COUNT; i++) {
+        for (unsigned j = 0; j < NASTY_COUNT; j++) {
+            config.gains = gains[(i + j) % 4];
+            config.options = (uint8_t)((i % 4) << 6);
+            config.setpoint_weight_q8 = (uint16_t)(j % 3 * 128);
+            config.output_min = j % 2 != 0 ? INT16_MIN : -100;
+            config.output_max = j % 2 != 0 ? INT16_MAX : 100;
+            TEST_ASSERT_TRUE(init());
+            step(nasty[i], nasty[j]);
+            step(nasty[j], nasty[i]);
+            step(nasty[i], nasty[j]);
+            step(nasty[i], nasty[j]);
+        }
+    }
+}
+
+static void any_setting(void)
+{
+    int16_t low, high;
+
+    switch (numbers_below(14)) {
+    case 0:
+        numbers_pid_config(&config);
+        (void)init();
+        break;
+    case 1:
+        reset();
+        break;
+    case 2:
+    case 3:
+        numbers_pid_gains(&config.gains);
+        (void)set_gains();
+        break;
+    case 4:
+    case 5:
+        numbers_pid_range(&low, &high);
+        (void)set_limits(low, high);
+        break;
+    case 6:
+        numbers_pid_range(&low, &high);
+        (void)set_integral_limits(low, high);
+        break;
+    case 7:
+        set_feedforward(numbers_int16());
+        break;
+    case 8:
+        set_feedforward(0);
+        break;
+    case 9:
+        set_manual(numbers_int16());
+        break;
+    case 10:
+    case 11:
+        set_auto();
+        break;
+    case 12:
+        seed(numbers_int16());
+        break;
+    default:
+        numbers_pid_config(&config);
+        (void)init();
+        break;
+    }
+}
+
+void test_random_operations_match_the_definition(void)
+{
+    int16_t setpoint = 0;
+    int16_t measurement;
+
+    for (uint32_t n = 0; n < TEST_RANDOM_STEPS; n++) {
+        if (numbers_below(8) == 0) {
+            any_setting();
+        }
+        numbers_pid_inputs(&setpoint, &measurement);
+        step(setpoint, measurement);
+    }
+}
+
+// ---- init, and what it refuses ----
+
+// What is in `config` is refused, and a refused controller does nothing.
+static void is_refused(void)
+{
+    const struct fixpid_pid_gains gains = valve.gains;
+
+    TEST_ASSERT_FALSE(fixpid_pid_init(&pid_controller, &config));
+    TEST_ASSERT_FALSE(fixpid_pid_set_gains(&pid_controller, &gains));
+    TEST_ASSERT_FALSE(fixpid_pid_set_limits(&pid_controller, 0, 255));
+    TEST_ASSERT_FALSE(fixpid_pid_set_integral_limits(&pid_controller, 0, 255));
+    fixpid_pid_set_feedforward(&pid_controller, 100);
+    for (int16_t n = 0; n < 5; n++) {
+        TEST_ASSERT_EQUAL_INT16(
+            0, fixpid_pid_step(&pid_controller, 1000, (int16_t)(-100 * n)));
+    }
+    fixpid_pid_set_manual(&pid_controller, 50);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 1000, 0));
+    fixpid_pid_set_auto(&pid_controller);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 1000, 0));
+    fixpid_pid_seed(&pid_controller, -50);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 1000, 0));
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+    config = valve;
+    TEST_ASSERT_TRUE(init());
+}
+
+void test_init_proportional_gain_beyond_its_range_is_refused(void)
+{
+    config.gains.kp_q8 = 32767;
+    TEST_ASSERT_TRUE(init());
+    config.gains.kp_q8 = 32768;
+    is_refused();
+    config.gains.kp_q8 = 65535;
+    is_refused();
+}
+
+void test_init_integral_gain_beyond_its_range_is_refused(void)
+{
+    config.gains.ki_q24 = UINT32_C(0x7FFF0000);
+    TEST_ASSERT_TRUE(init());
+    config.gains.ki_q24 = UINT32_C(0x7FFF0001);
+    is_refused();
+    config.gains.ki_q24 = UINT32_C(0xFFFFFFFF);
+    is_refused();
+}
+
+void test_init_derivative_gain_beyond_its_range_is_refused(void)
+{
+    config.gains.kd_q8 = 32255;
+    TEST_ASSERT_TRUE(init());
+    config.gains.kd_q8 = 32256;
+    is_refused();
+    config.gains.kd_q8 = 65535;
+    is_refused();
+}
+
+void test_init_derivative_filter_beyond_its_range_is_refused(void)
+{
+    config.gains.derivative_filter = 7;
+    TEST_ASSERT_TRUE(init());
+    config.gains.derivative_filter = 8;
+    is_refused();
+    config.gains.derivative_filter = 255;
+    is_refused();
+}
+
+void test_init_output_limits_without_room_are_refused(void)
+{
+    config.output_min = 254;
+    TEST_ASSERT_TRUE(init());
+    config.output_min = 255;
+    is_refused();
+    config.output_min = 256;
+    is_refused();
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    TEST_ASSERT_TRUE(init());
+    config.output_min = INT16_MAX;
+    config.output_max = INT16_MIN;
+    is_refused();
+}
+
+void test_init_integral_limits_outside_their_range_are_refused(void)
+{
+    config.integral_min = 255;
+    config.integral_max = 255;
+    TEST_ASSERT_TRUE(init());
+    config.integral_min = 256;
+    config.integral_max = 255;
+    is_refused();
+    config.integral_min = INT16_MIN;
+    is_refused();
+    config.integral_min = INT16_MIN;
+    config.integral_max = INT16_MIN;
+    is_refused();
+}
+
+void test_init_setpoint_weight_above_one_is_refused(void)
+{
+    config.setpoint_weight_q8 = 0;
+    TEST_ASSERT_TRUE(init());
+    config.setpoint_weight_q8 = 257;
+    is_refused();
+    config.setpoint_weight_q8 = 65535;
+    is_refused();
+}
+
+void test_init_unknown_options_are_refused(void)
+{
+    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR;
+    TEST_ASSERT_TRUE(init());
+    for (uint8_t bit = 1; bit < 0x40u; bit = (uint8_t)(bit << 1)) {
+        config.options = bit;
+        is_refused();
+    }
+}
+
+void test_all_zero_object_is_a_refused_controller(void)
+{
+    memset(&pid_controller, 0, sizeof pid_controller);
+    TEST_ASSERT_FALSE(fixpid_pid_set_gains(&pid_controller, &valve.gains));
+    TEST_ASSERT_FALSE(fixpid_pid_set_limits(&pid_controller, 0, 255));
+    TEST_ASSERT_FALSE(fixpid_pid_set_integral_limits(&pid_controller, 0, 1));
+    fixpid_pid_set_feedforward(&pid_controller, 5);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 100, -100));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+}
+
+void test_init_starts_from_rest_in_automatic(void)
+{
+    step(700, 0);
+    set_feedforward(20);
+    set_manual(10);
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, status());
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_INT16(0, step(0, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+}
+
+void test_reset_integral_is_0_or_the_limit_next_to_it(void)
+{
+    reset();
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_TRUE(set_integral_limits(20, 30));
+    reset();
+    TEST_ASSERT_EQUAL_INT32(20 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_integral_limits(-30, -20));
+    reset();
+    TEST_ASSERT_EQUAL_INT32(-20 * INT32_C(65536), integral());
+}
+
+void test_reset_forgets_derivative_and_feedforward_and_keeps_the_gains(void)
+{
+    config.gains.kd_q8 = 256;
+    config.gains.derivative_filter = 3;
+    TEST_ASSERT_TRUE(init());
+    step(100, 50);
+    set_feedforward(100);
+    step(100, 40);
+    reset();
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, status());
+    TEST_ASSERT_EQUAL_INT16(21, step(110, 100)); // 20 + 0.5, half up
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+}
+
+// ---- The step ----
+
+void test_struct_is_at_most_32_bytes(void)
+{
+    typedef char at_most_32_bytes[sizeof(struct fixpid_pid) <= 32 ? 1 : -1];
+
+    TEST_ASSERT_EQUAL_UINT(1, sizeof(at_most_32_bytes));
+}
+
+void test_step_same_error_both_ways_leaves_the_integral_as_it_was(void)
+{
+    static const uint32_t gains[] = {1, 8, 127, 32767, 838861, 9000000};
+
+    for (unsigned g = 0; g < sizeof gains / sizeof gains[0]; g++) {
+        int32_t before;
+
+        config.gains.ki_q24 = gains[g];
+        config.gains.kp_q8 = 0;
+        config.output_min = -32767;
+        config.output_max = 32767;
+        TEST_ASSERT_TRUE(init());
+        step(1000, 993);
+        before = integral();
+        for (int n = 0; n < 3000; n++) {
+            step(0, -1);
+        }
+        for (int n = 0; n < 3000; n++) {
+            step(0, 1);
+        }
+        TEST_ASSERT_EQUAL_INT32(before, integral());
+    }
+}
+
+void test_step_integral_gain_is_kept_to_15_bits_to_the_nearest(void)
+{
+    static const struct {
+        uint32_t ki_q24;
+        int64_t kept;
+    } rows[] = {
+        {32767, 32767},          {32768, 128 * 256},
+        {32895, 128 * 256},      {32896, 129 * 256},
+        {8388479, 32767 * 256L}, {8388480, 128 * 65536L},
+        {8421375, 128 * 65536L}, {8421376, 129 * 65536L},
+    };
+
+    config.gains.kp_q8 = 0;
+    config.output_min = -32767;
+    for (unsigned n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        config.gains.ki_q24 = rows[n].ki_q24;
+        TEST_ASSERT_TRUE(init());
+        step(256, 0);
+        TEST_ASSERT_EQUAL_INT32(rows[n].kept, integral());
+    }
+}
+
+void test_step_output_is_rounded_half_up(void)
+{
+    config.gains.ki_q24 = 0;
+    config.gains.kp_q8 = 128;
+    config.output_min = -100;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(2, step(3, 0));
+    TEST_ASSERT_EQUAL_INT16(-1, step(-3, 0));
+    TEST_ASSERT_EQUAL_INT16(0, step(-1, 0));
+}
+
+void test_step_reverse_output_falls_to_raise_the_measurement(void)
+{
+    config.options = FIXPID_PID_REVERSE;
+    config.gains.kd_q8 = 256;
+    config.output_min = -255;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(-21, step(10, 0)); // -20 - 0.5, half up
+    TEST_ASSERT_EQUAL_INT32(-20 * 256,
+                            fixpid_pid_proportional(&pid_controller));
+    step(10, 3);
+    TEST_ASSERT_EQUAL_INT32(3 * 256, fixpid_pid_derivative(&pid_controller));
+}
+
+void test_step_derivative_ignores_the_setpoint_unless_it_is_on_the_error(void)
+{
+    config.gains.kd_q8 = 512;
+    TEST_ASSERT_TRUE(init());
+    step(100, 100);
+    step(120, 100);
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+    step(120, 105);
+    TEST_ASSERT_EQUAL_INT32(-5 * 512, fixpid_pid_derivative(&pid_controller));
+    config.options = FIXPID_PID_DERIVATIVE_ON_ERROR;
+    TEST_ASSERT_TRUE(init());
+    step(100, 100);
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+    step(120, 105);
+    TEST_ASSERT_EQUAL_INT32(15 * 512, fixpid_pid_derivative(&pid_controller));
+}
+
+void test_step_first_one_has_no_derivative(void)
+{
+    config.gains.kd_q8 = 32255;
+    TEST_ASSERT_TRUE(init());
+    step(0, INT16_MIN);
+    TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
+    step(0, INT16_MAX);
+    TEST_ASSERT_EQUAL_INT32(INT32_C(-32255) * 32768,
+                            fixpid_pid_derivative(&pid_controller));
+}
+
+// 65024 + 32255 * 32767 is one beyond 2^30 - 2^24.
+void test_step_filtered_derivative_is_limited_on_both_sides(void)
+{
+    for (int16_t sign = -1; sign <= 1; sign = (int16_t)(sign + 2)) {
+        config.gains.kd_q8 = 16256;
+        config.gains.derivative_filter = 1;
+        TEST_ASSERT_TRUE(init());
+        step(0, (int16_t)(sign * 32000));
+        step(0, (int16_t)(sign * 31992));
+        TEST_ASSERT_EQUAL_INT32(sign * INT32_C(130048),
+                                fixpid_pid_derivative(&pid_controller));
+        config.gains.kd_q8 = 32255;
+        TEST_ASSERT_TRUE(set_gains());
+        step(0, (int16_t)(sign * -775));
+        TEST_ASSERT_EQUAL_INT32(sign * INT32_C(0x3F000000),
+                                fixpid_pid_derivative(&pid_controller));
+    }
+}
+
+void test_step_setpoint_weight_softens_the_proportional_term_only(void)
+{
+    config.setpoint_weight_q8 = 128;
+    TEST_ASSERT_TRUE(init());
+    step(101, 20);
+    TEST_ASSERT_EQUAL_INT32(512 * (51 - 20),
+                            fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(3277 * (101 - 20), integral());
+    config.setpoint_weight_q8 = 0;
+    TEST_ASSERT_TRUE(init());
+    step(100, 20);
+    TEST_ASSERT_EQUAL_INT32(512 * -20,
+                            fixpid_pid_proportional(&pid_controller));
+}
+
+void test_step_feedforward_is_added_to_the_output(void)
+{
+    step(10, 10);
+    set_feedforward(77);
+    TEST_ASSERT_EQUAL_INT16(77, step(10, 10));
+    set_feedforward(INT16_MIN);
+    TEST_ASSERT_EQUAL_INT16(0, step(10, 10));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+}
+
+void test_step_output_at_its_limit_is_not_flagged_and_beyond_it_is(void)
+{
+    config.gains.ki_q24 = 0;
+    config.gains.kp_q8 = 256;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(255, step(255, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_INT16(255, step(256, 0));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_INT16(0, step(0, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_INT16(0, step(-1, 0));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+}
+
+void test_step_limited_output_stops_the_integral_until_the_error_turns(void)
+{
+    int32_t wound;
+
+    for (int n = 0; n < 200; n++) {
+        step(700, 600);
+    }
+    wound = integral();
+    step(700, 600);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_INT32(wound, integral());
+    set_feedforward(500); // still at its limit
+    step(700, 701);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_INT32(wound - 3277, integral());
+    step(700, 700); // and without an error
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    set_feedforward(-1000);
+    step(700, 701);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_INT32(wound - 3277, integral());
+    step(700, 699);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_INT32(wound, integral());
+}
+
+void test_step_integral_stays_within_its_limits(void)
+{
+    static const uint32_t gains[] = {32767, 838861, FIXPID_PID_KI_MAX};
+
+    for (unsigned g = 0; g < 3; g++) {
+        config.gains.ki_q24 = gains[g];
+        config.gains.kp_q8 = 0;
+        config.output_min = -1000;
+        config.output_max = 1000;
+        config.integral_min = -50;
+        config.integral_max = 60;
+        TEST_ASSERT_TRUE(init());
+        for (int n = 0; n < 30; n++) {
+            step(10000, 0);
+        }
+        TEST_ASSERT_EQUAL_INT32(60 * INT32_C(65536), integral());
+        step(-1, 0);
+        TEST_ASSERT_LESS_THAN_INT32(60 * INT32_C(65536), integral());
+        for (int n = 0; n < 30; n++) {
+            step(-10000, 0);
+        }
+        TEST_ASSERT_EQUAL_INT32(-50 * INT32_C(65536), integral());
+        step(1, 0);
+        TEST_ASSERT_GREATER_THAN_INT32(-50 * INT32_C(65536), integral());
+    }
+}
+
+// The widest integral, the largest change: every exponent of ki.
+void test_step_integral_from_end_to_end_does_not_overflow(void)
+{
+    static const uint32_t gains[] = {32767, 8388479, FIXPID_PID_KI_MAX};
+
+    for (unsigned g = 0; g < 3; g++) {
+        config.gains.ki_q24 = gains[g];
+        config.gains.kp_q8 = 0;
+        config.output_min = INT16_MIN;
+        config.output_max = INT16_MAX;
+        TEST_ASSERT_TRUE(init());
+        for (int n = 0; n < 6; n++) {
+            step(INT16_MAX, INT16_MIN);
+        }
+        for (int n = 0; n < 6; n++) {
+            step(INT16_MIN, INT16_MAX);
+        }
+        seed(INT16_MAX);
+        step(0, 0);
+        TEST_ASSERT_EQUAL_INT32(32767 * INT32_C(65536), integral());
+        step(INT16_MAX, INT16_MIN);
+        TEST_ASSERT_EQUAL_INT32(32767 * INT32_C(65536), integral());
+        seed(-32767);
+        step(0, 0);
+        step(INT16_MIN, INT16_MAX);
+        TEST_ASSERT_EQUAL_INT32(-32767 * INT32_C(65536), integral());
+        step(INT16_MAX, INT16_MIN);
+    }
+}
+
+void test_step_every_term_at_its_end_gives_the_limit(void)
+{
+    config.gains.ki_q24 = FIXPID_PID_KI_MAX;
+    config.gains.kp_q8 = 32767;
+    config.gains.kd_q8 = 32255;
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    TEST_ASSERT_TRUE(init());
+    step(INT16_MAX, INT16_MAX);
+    set_feedforward(INT16_MAX);
+    TEST_ASSERT_EQUAL_INT16(INT16_MAX, step(INT16_MAX, INT16_MIN));
+    TEST_ASSERT_EQUAL_INT16(INT16_MAX, step(INT16_MAX, INT16_MIN));
+    set_feedforward(INT16_MIN);
+    TEST_ASSERT_EQUAL_INT16(INT16_MIN, step(INT16_MIN, INT16_MAX));
+    TEST_ASSERT_EQUAL_INT16(INT16_MIN, step(INT16_MIN, INT16_MAX));
+}
+
+// ---- Modes and live changes ----
+
+void test_set_gains_refuses_field_by_field_and_changes_nothing(void)
+{
+    int16_t before;
+
+    step(100, 50);
+    before = step(100, 100);
+    config.gains.kp_q8 = 32768;
+    TEST_ASSERT_FALSE(set_gains());
+    config.gains = valve.gains;
+    config.gains.ki_q24 = UINT32_C(0x7FFF0001);
+    TEST_ASSERT_FALSE(set_gains());
+    config.gains = valve.gains;
+    config.gains.kd_q8 = 32256;
+    TEST_ASSERT_FALSE(set_gains());
+    config.gains = valve.gains;
+    config.gains.derivative_filter = 8;
+    TEST_ASSERT_FALSE(set_gains());
+    TEST_ASSERT_EQUAL_INT16(before, step(100, 100));
+    step(100, 60);
+}
+
+void test_set_gains_without_error_does_not_move_the_output(void)
+{
+    int16_t before;
+
+    for (int n = 0; n < 50; n++) {
+        step(700, 680);
+    }
+    before = step(700, 700);
+    config.gains.ki_q24 *= 4;
+    config.gains.kp_q8 *= 3;
+    config.gains.kd_q8 = 999;
+    TEST_ASSERT_TRUE(set_gains());
+    TEST_ASSERT_EQUAL_INT16(before, step(700, 700));
+}
+
+void test_set_gains_keeps_options_and_weight(void)
+{
+    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR;
+    config.setpoint_weight_q8 = 100;
+    config.output_min = -255;
+    TEST_ASSERT_TRUE(init());
+    step(100, 50);
+    config.gains.derivative_filter = 5;
+    TEST_ASSERT_TRUE(set_gains());
+    config.gains.ki_q24 = 5;
+    TEST_ASSERT_TRUE(set_gains());
+    step(100, 60);
+    config.gains.ki_q24 = FIXPID_PID_KI_MAX;
+    TEST_ASSERT_TRUE(set_gains());
+    step(100, 55);
+}
+
+void test_set_limits_without_room_changes_nothing(void)
+{
+    TEST_ASSERT_FALSE(set_limits(5, 5));
+    TEST_ASSERT_FALSE(set_limits(6, 5));
+    TEST_ASSERT_EQUAL_INT16(255, step(1000, 0));
+}
+
+void test_set_limits_drops_what_would_be_windup(void)
+{
+    for (int n = 0; n < 600; n++) {
+        step(700, 690);
+    }
+    TEST_ASSERT_EQUAL_INT16(235, step(700, 700));
+    TEST_ASSERT_TRUE(set_limits(0, 100));
+    TEST_ASSERT_EQUAL_INT32(100 * INT32_C(65536), integral());
+    TEST_ASSERT_EQUAL_INT16(100, step(700, 700));
+    TEST_ASSERT_EQUAL_INT16(98, step(700, 701)); // 100 - 2 - 0.05
+}
+
+void test_set_limits_keeps_what_other_terms_take_away_again(void)
+{
+    config.setpoint_weight_q8 = 0;
+    config.output_max = 10000;
+    TEST_ASSERT_TRUE(init());
+    for (int n = 0; n < 2000; n++) {
+        step(100, 99);
+    }
+    for (int n = 0; n < 1000; n++) {
+        step(100, (int16_t)(n % 2 == 0 ? 100 : 101));
+    }
+    set_feedforward(-20);
+    TEST_ASSERT_TRUE(set_limits(0, 20));
+    TEST_ASSERT_LESS_OR_EQUAL_INT32((20 + 20 + 202) * INT32_C(65536),
+                                    integral());
+    step(100, 101);
+    TEST_ASSERT_TRUE(set_limits(9000, 9001));
+    step(100, 101);
+}
+
+void test_set_limits_raises_the_integral_to_the_lower_one(void)
+{
+    step(100, 100);
+    TEST_ASSERT_TRUE(set_limits(50, 100));
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
+    set_feedforward(20);
+    TEST_ASSERT_TRUE(set_limits(60, 100));
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_limits(80, 100));
+    TEST_ASSERT_EQUAL_INT32(60 * INT32_C(65536), integral());
+}
+
+void test_set_limits_obeys_the_integral_limits(void)
+{
+    config.integral_min = -10;
+    config.integral_max = 10;
+    config.output_min = -1000;
+    config.output_max = 1000;
+    TEST_ASSERT_TRUE(init());
+    step(100, 100);
+    TEST_ASSERT_TRUE(set_limits(500, 600));
+    TEST_ASSERT_EQUAL_INT32(10 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_limits(-600, -500));
+    TEST_ASSERT_EQUAL_INT32(-10 * INT32_C(65536), integral());
+    set_feedforward(INT16_MAX);
+    TEST_ASSERT_TRUE(set_limits(INT16_MIN, -32767));
+    TEST_ASSERT_EQUAL_INT32(-10 * INT32_C(65536), integral());
+}
+
+void test_set_limits_moves_an_output_held(void)
+{
+    set_manual(200);
+    TEST_ASSERT_TRUE(set_limits(0, 100));
+    TEST_ASSERT_EQUAL_INT16(100, step(700, 650));
+    TEST_ASSERT_TRUE(set_limits(150, 300));
+    TEST_ASSERT_EQUAL_INT16(150, step(700, 650));
+    set_auto();
+    TEST_ASSERT_TRUE(set_limits(0, 90));
+    TEST_ASSERT_EQUAL_INT16(90, step(700, 650));
+}
+
+void test_set_integral_limits_refuses_and_changes_nothing(void)
+{
+    TEST_ASSERT_FALSE(set_integral_limits(INT16_MIN, 5));
+    TEST_ASSERT_FALSE(set_integral_limits(6, 5));
+    for (int n = 0; n < 100; n++) {
+        step(100, 99);
+    }
+    TEST_ASSERT_EQUAL_INT32(100 * INT32_C(3277), integral());
+    TEST_ASSERT_TRUE(set_integral_limits(5, 5));
+    TEST_ASSERT_EQUAL_INT32(5 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_integral_limits(-32767, 32767));
+    TEST_ASSERT_EQUAL_INT32(5 * INT32_C(65536), integral());
+}
+
+void test_set_integral_limits_moves_the_integral_at_once(void)
+{
+    for (int n = 0; n < 100; n++) {
+        step(100, 90);
+    }
+    TEST_ASSERT_TRUE(set_integral_limits(-5, 30));
+    TEST_ASSERT_EQUAL_INT32(30 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_integral_limits(40, 50));
+    TEST_ASSERT_EQUAL_INT32(40 * INT32_C(65536), integral());
+}
+
+void test_set_integral_limits_waits_while_the_output_is_held(void)
+{
+    set_manual(200);
+    TEST_ASSERT_TRUE(set_integral_limits(-5, 30));
+    TEST_ASSERT_EQUAL_INT32(200 * INT32_C(65536), integral());
+    TEST_ASSERT_EQUAL_INT16(200, step(100, 100));
+    set_auto();
+    TEST_ASSERT_TRUE(set_integral_limits(-5, 31));
+    TEST_ASSERT_EQUAL_INT32(200 * INT32_C(65536), integral());
+    TEST_ASSERT_EQUAL_INT16(31, step(100, 100));
+    TEST_ASSERT_EQUAL_INT32(31 * INT32_C(65536), integral());
+}
+
+void test_set_manual_holds_the_output_inside_the_limits(void)
+{
+    step(700, 500);
+    set_manual(120);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL | FIXPID_PID_AT_MAX, status());
+    for (int16_t n = 0; n < 10; n++) {
+        TEST_ASSERT_EQUAL_INT16(120, step(700, n));
+        TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL, status());
+        TEST_ASSERT_EQUAL_INT32(120 * INT32_C(65536), integral());
+    }
+    set_manual(256);
+    TEST_ASSERT_EQUAL_INT16(255, step(700, 0));
+    set_manual(-1);
+    TEST_ASSERT_EQUAL_INT16(0, step(700, 0));
+}
+
+void test_set_manual_proportional_and_derivative_follow_the_process(void)
+{
+    config.gains.kd_q8 = 256;
+    TEST_ASSERT_TRUE(init());
+    set_manual(100);
+    step(700, 600);
+    step(700, 610);
+    TEST_ASSERT_EQUAL_INT32(512 * 90, fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(256 * -10, fixpid_pid_derivative(&pid_controller));
+}
+
+void test_set_auto_gives_the_output_held_and_integrates_from_the_next(void)
+{
+    int32_t taken_over;
+
+    set_manual(120);
+    step(700, 650);
+    set_auto();
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_INT16(120, step(700, 640));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+    taken_over = integral();
+    TEST_ASSERT_EQUAL_INT32((120 - 120) * INT32_C(65536), taken_over);
+    step(700, 640);
+    TEST_ASSERT_EQUAL_INT32(taken_over + 60 * 3277, integral());
+}
+
+void test_set_auto_in_automatic_has_no_effect(void)
+{
+    step(700, 650);
+    set_auto();
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    seed(50);
+    set_auto();
+    TEST_ASSERT_BITS_HIGH(FIXPID_PID_SEEDED, status());
+}
+
+void test_set_auto_before_the_first_step_starts_without_a_bump(void)
+{
+    set_manual(33);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_MANUAL, status());
+    set_auto();
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_INT16(33, step(500, 490));
+}
+
+void test_take_over_beyond_the_integral_limits_is_flagged(void)
+{
+    config.integral_min = -10;
+    config.integral_max = 10;
+    TEST_ASSERT_TRUE(init());
+    set_manual(100);
+    set_auto();
+    TEST_ASSERT_EQUAL_INT16(255, step(700, 0));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_INT32(-10 * INT32_C(65536), integral());
+    set_manual(100);
+    set_auto();
+    TEST_ASSERT_EQUAL_INT16(0, step(0, 700));
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_INT32(10 * INT32_C(65536), integral());
+}
+
+void test_take_over_from_the_largest_terms_does_not_overflow(void)
+{
+    config.gains.kp_q8 = 32767;
+    config.gains.kd_q8 = 32255;
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    TEST_ASSERT_TRUE(init());
+    for (int n = 0; n < 2; n++) {
+        step(INT16_MAX, INT16_MAX);
+        set_feedforward(INT16_MAX);
+        seed(INT16_MIN);
+        step(INT16_MAX, INT16_MIN);
+        set_feedforward(INT16_MIN);
+        seed(INT16_MAX);
+        step(INT16_MIN, INT16_MAX);
+        TEST_ASSERT_TRUE(set_limits(-1, 0));
+        TEST_ASSERT_TRUE(set_limits(INT16_MIN, INT16_MAX));
+    }
+}
+
+void test_seed_starts_from_a_given_output_inside_the_limits(void)
+{
+    seed(77);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_INT32(77 * INT32_C(65536), integral());
+    TEST_ASSERT_EQUAL_INT16(77, step(500, 450));
+    seed(300);
+    TEST_ASSERT_EQUAL_INT16(255, step(500, 450));
+    TEST_ASSERT_EQUAL_HEX8(0, status());
+    seed(-300);
+    TEST_ASSERT_EQUAL_INT16(0, step(500, 450));
+}
+
+void test_seed_in_manual_moves_the_output_held(void)
+{
+    set_manual(10);
+    seed(99);
+    TEST_ASSERT_BITS_HIGH(FIXPID_PID_MANUAL, status());
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_INT16(99, step(500, 450));
+    seed(98);
+    set_auto();
+    set_manual(97);
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_INT16(97, step(500, 450));
+}
+
+// ---- Macros ----
+
+void test_macros_fold_real_units(void)
+{
+    static const struct fixpid_pid_gains gains = {
+        FIXPID_PID_KI(0.5, 100),
+        FIXPID_PID_KP(2.5),
+        FIXPID_PID_KD(0.1, 100, 2),
+        2,
+    };
+    static const uint32_t kp[] = {
+        FIXPID_PID_KP(0),
+        FIXPID_PID_KP(0.001953),
+        FIXPID_PID_KP(0.00196),
+        FIXPID_PID_KP(127.998),
+    };
+    static const uint32_t ki[] = {
+        FIXPID_PID_KI(0, 100),          FIXPID_PID_KI(8.0 / 16777216, 1),
+        FIXPID_PID_KI(127.99609375, 1), FIXPID_PID_TI(2, 30, 10),
+        FIXPID_PID_TI(0, 10, 1),
+    };
+    static const uint32_t kd[] = {
+        FIXPID_PID_KD(0, 1, 0),
+        FIXPID_PID_KD(125.998, 1, 0),
+        FIXPID_PID_KD(161, 100, 7),
+        FIXPID_PID_TD(1.5, 3, 100, 4),
+    };
+
+    TEST_ASSERT_EQUAL_UINT32(83886, gains.ki_q24);
+    TEST_ASSERT_EQUAL_UINT16(640, gains.kp_q8);
+    TEST_ASSERT_EQUAL_UINT16(640, gains.kd_q8);
+    TEST_ASSERT_EQUAL_UINT32(0, kp[0]);
+    TEST_ASSERT_EQUAL_UINT32(0, kp[1]);
+    TEST_ASSERT_EQUAL_UINT32(1, kp[2]);
+    TEST_ASSERT_EQUAL_UINT32(32767, kp[3]);
+    TEST_ASSERT_EQUAL_UINT32(0, ki[0]);
+    TEST_ASSERT_EQUAL_UINT32(8, ki[1]);
+    TEST_ASSERT_EQUAL_UINT32(FIXPID_PID_KI_MAX, ki[2]);
+    TEST_ASSERT_EQUAL_UINT32(111848, ki[3]);
+    TEST_ASSERT_EQUAL_UINT32(0, ki[4]);
+    TEST_ASSERT_EQUAL_UINT32(0, kd[0]);
+    TEST_ASSERT_EQUAL_UINT32(32255, kd[1]);
+    TEST_ASSERT_EQUAL_UINT32(32200, kd[2]);
+    TEST_ASSERT_EQUAL_UINT32(7200, kd[3]);
+}
