@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_autotune.h"
+
+#ifdef FIXPID_AUTOTUNE_OBJECT
+#define SELF FIXPID_AUTOTUNE_OBJECT
+#define VALID(self) ((self) == &SELF)
+#else
+#define SELF (*self)
+#define VALID(self) ((self) != 0)
+#endif
+
+#define RUNNING ((uint8_t)FIXPID_AUTOTUNE_RUNNING)
+#define DONE ((uint8_t)FIXPID_AUTOTUNE_DONE)
+#define LAST_RULE ((uint8_t)FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID)
+
+#define SIDE_UNKNOWN 0u // before the first step
+#define SIDE_HIGH 1u
+#define SIDE_LOW 2u
+
+#define HYSTERESIS_MAX 8191u
+#define TIMEOUT_MIN 2u
+#define TIMEOUT_MAX 32767u
+#define CYCLES_MAX 8u
+#define CYCLES_SEEN_MAX 24u
+#define PERIOD_MIN 6u
+
+#define FOUR_OVER_PI_Q8 UINT32_C(326)
+#define ULTIMATE_GAIN_MAX UINT32_C(0x7FFFFF)
+#define KI_MIN 8u
+#define RATE_TIME_MAX UINT32_C(0x1FFFF)
+
+struct rule {
+    uint8_t kp_q8;     // of the ultimate gain
+    uint16_t reset_q8; // Tu / Ti
+    uint8_t rate_q8;   // Td / Tu
+};
+
+static bool within(uint16_t value, uint16_t least, uint16_t most)
+{
+    if (value < least) {
+        return false;
+    }
+    return value <= most;
+}
+
+static bool legal(const struct fixpid_autotune_config *config)
+{
+    if (config->output_low >= config->output_high) {
+        return false;
+    }
+    if (config->measurement_min >= config->measurement_max) {
+        return false;
+    }
+    if (!within(config->hysteresis, 1u, HYSTERESIS_MAX)) {
+        return false;
+    }
+    if (!within(config->timeout_steps, TIMEOUT_MIN, TIMEOUT_MAX)) {
+        return false;
+    }
+    if (!within(config->cycles, 1u, CYCLES_MAX)) {
+        return false;
+    }
+    return (config->options & (uint8_t)~FIXPID_AUTOTUNE_REVERSE) == 0u;
+}
+
+bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
+                          const struct fixpid_autotune_config *config)
+{
+    bool accepted;
+
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(config != 0);
+    // SDCC's pic16 port cannot assign a structure.
+    SELF.config.output_low = config->output_low;
+    SELF.config.output_high = config->output_high;
+    SELF.config.output_rest = config->output_rest;
+    SELF.config.measurement_min = config->measurement_min;
+    SELF.config.measurement_max = config->measurement_max;
+    SELF.config.hysteresis = config->hysteresis;
+    SELF.config.timeout_steps = config->timeout_steps;
+    SELF.config.cycles = config->cycles;
+    SELF.config.options = config->options;
+    accepted = legal(config);
+    if (!accepted) {
+        SELF.config.cycles = 0;
+        SELF.config.output_rest = 0;
+    }
+    fixpid_autotune_reset(self);
+    return accepted;
+}
+
+void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    SELF.status = FIXPID_AUTOTUNE_REFUSED;
+    if (SELF.config.cycles != 0u) {
+        SELF.status = FIXPID_AUTOTUNE_RUNNING;
+    }
+    SELF.side = SIDE_UNKNOWN;
+    SELF.elapsed = 0;
+    SELF.high_steps = 0;
+    SELF.last_period = 0;
+    SELF.last_swing = 0;
+    SELF.seen = 0;
+    SELF.averaged = 0;
+}
+
+static bool alike(uint16_t now, uint16_t before)
+{
+    uint16_t difference = (uint16_t)(now - before);
+
+    if (now < before) {
+        difference = (uint16_t)(before - now);
+    }
+    return difference <= (now / 4u) + 2u;
+}
+
+// A cycle is a half at high and the half at low that ends now. Cycles that are
+// not alike start the average again.
+static void add_cycle(FIXPID_DATA struct fixpid_autotune *self)
+{
+    // Each half is shorter than the timeout: at most 2 * 32766
+    const uint16_t period = (uint16_t)(SELF.high_steps + SELF.elapsed);
+    const uint16_t swing =
+        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+
+    FIXPID_ASSERT(VALID(self));
+    SELF.seen++;
+    if (SELF.seen == 1u) {
+        return; // it began where the plant happened to be
+    }
+    if (!alike(period, SELF.last_period)) {
+        SELF.averaged = 0;
+    }
+    if (!alike(swing, SELF.last_swing)) {
+        SELF.averaged = 0;
+    }
+    if (SELF.averaged == 0u) {
+        SELF.period_sum = 0;
+        SELF.swing_sum = 0;
+    }
+    SELF.period_sum += period;
+    SELF.swing_sum += swing;
+    SELF.averaged++;
+    SELF.last_period = period;
+    SELF.last_swing = swing;
+}
+
+// What the experiment came to with the cycle that was just added.
+static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint32_t cycles = SELF.averaged;
+
+    FIXPID_ASSERT(VALID(self));
+    if (cycles != SELF.config.cycles) {
+        return (SELF.seen == CYCLES_SEEN_MAX) ? FIXPID_AUTOTUNE_IRREGULAR
+                                              : FIXPID_AUTOTUNE_RUNNING;
+    }
+    if ((SELF.high_steps / 4u) > SELF.elapsed) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if ((SELF.elapsed / 4u) > SELF.high_steps) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (SELF.period_sum < (PERIOD_MIN * cycles)) {
+        return FIXPID_AUTOTUNE_TOO_FAST;
+    }
+    if (SELF.swing_sum < (4u * cycles * SELF.config.hysteresis)) {
+        return FIXPID_AUTOTUNE_TOO_SMALL;
+    }
+    return FIXPID_AUTOTUNE_DONE;
+}
+
+// The error is one of 17 bits, as large as it is: the relay only asks whether
+// it is beyond the hysteresis, so nothing has to be saturated.
+static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
+                         int32_t error, int16_t measurement)
+{
+    const int32_t hysteresis = SELF.config.hysteresis;
+
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.side == SIDE_HIGH) {
+        if (error < -hysteresis) {
+            SELF.side = SIDE_LOW;
+            SELF.high_steps = SELF.elapsed;
+            SELF.elapsed = 0;
+        }
+    } else {
+        if (error > hysteresis) {
+            SELF.side = SIDE_HIGH;
+            add_cycle(self);
+            SELF.status = verdict(self);
+            SELF.elapsed = 0;
+            SELF.highest = measurement;
+            SELF.lowest = measurement;
+        }
+    }
+    SELF.elapsed++;
+}
+
+static void relay(FIXPID_DATA struct fixpid_autotune *self, int32_t error,
+                  int16_t measurement)
+{
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.side == SIDE_UNKNOWN) {
+        SELF.side = (error >= 0) ? SIDE_HIGH : SIDE_LOW;
+        SELF.highest = measurement;
+        SELF.lowest = measurement;
+    }
+    if (measurement > SELF.highest) {
+        SELF.highest = measurement;
+    }
+    if (measurement < SELF.lowest) {
+        SELF.lowest = measurement;
+    }
+    switch_relay(self, error, measurement);
+}
+
+// A measurement at its limits says more than a relay that does not switch.
+static void watch_limits(FIXPID_DATA struct fixpid_autotune *self,
+                         int16_t measurement)
+{
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.elapsed >= SELF.config.timeout_steps) {
+        SELF.status = FIXPID_AUTOTUNE_NO_OSCILLATION;
+    }
+    if (measurement <= SELF.config.measurement_min) {
+        SELF.status = FIXPID_AUTOTUNE_SATURATED;
+    }
+    if (measurement >= SELF.config.measurement_max) {
+        SELF.status = FIXPID_AUTOTUNE_SATURATED;
+    }
+}
+
+int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
+                             int16_t setpoint, int16_t measurement)
+{
+    int32_t error = (int32_t)setpoint - measurement;
+
+    FIXPID_ASSERT(VALID(self));
+    if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+        error = -error;
+    }
+    if (SELF.status == RUNNING) {
+        watch_limits(self, measurement);
+    }
+    if (SELF.status == RUNNING) {
+        relay(self, error, measurement);
+    }
+    if (SELF.status != RUNNING) {
+        return SELF.config.output_rest;
+    }
+    if (SELF.side == SIDE_HIGH) {
+        return SELF.config.output_high;
+    }
+    return SELF.config.output_low;
+}
+
+uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return SELF.status;
+}
+
+// kp in Q16; 0 if it is far beyond the range of kp.
+static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_autotune *self,
+                                 uint8_t kp_q8)
+{
+    const uint16_t relay_counts = (uint16_t)((uint16_t)SELF.config.output_high -
+                                             (uint16_t)SELF.config.output_low);
+    // 326 * 16 * 65535 * 8 = 2734645760 < 2^32; a swing_sum is at least 4
+    const uint32_t ultimate_gain_q12 =
+        FOUR_OVER_PI_Q8 * 16u * relay_counts * SELF.averaged / SELF.swing_sum;
+
+    FIXPID_ASSERT(VALID(self));
+    if (ultimate_gain_q12 > ULTIMATE_GAIN_MAX) {
+        return 0;
+    }
+    return (ultimate_gain_q12 * kp_q8) / 16u; // 2^23 * 154 < 2^31
+}
+
+// 16 product / period, of which 16 product would not fit. The period is at
+// least 6 steps, 96 in Q4, so this is at most 4294901760 / 96 * 16 = 715816960,
+// below the largest that fixpid_pid takes.
+static uint32_t integral_q24(uint32_t kp_q16, uint16_t reset_q8,
+                             uint32_t period_q4)
+{
+    // 65535 * 256 / 2 = 8388480 is above kp_q16, 8388480 * 512 < 2^32
+    const uint32_t product = kp_q16 * reset_q8;
+
+    // A remainder is below the period, and that is below 2^20.
+    return ((product / period_q4) * 16u) +
+           (((product % period_q4) * 16u) / period_q4);
+}
+
+static bool tune_derivative(struct fixpid_pid_gains *gains,
+                            uint32_t rate_time_q4)
+{
+    uint16_t lag = (uint16_t)(rate_time_q4 / 128u); // steps, an eighth of Td
+    uint32_t kd_q8;
+
+    gains->derivative_filter = 0;
+    while (lag > 1u) {
+        lag /= 2u;
+        gains->derivative_filter++;
+    }
+    if (gains->derivative_filter > FIXPID_PID_FILTER_MAX) {
+        gains->derivative_filter = FIXPID_PID_FILTER_MAX;
+    }
+    // 32767 * 131071 = 4294803457 < 2^32
+    kd_q8 = (gains->kp_q8 * rate_time_q4) >> (4u + gains->derivative_filter);
+    gains->kd_q8 = (uint16_t)kd_q8;
+    return kd_q8 <= FIXPID_PID_KD_MAX;
+}
+
+// False if a gain is out of its range.
+static bool apply(FIXPID_DATA const struct fixpid_autotune *self,
+                  const struct rule *rule, struct fixpid_pid_gains *gains)
+{
+    // (16 * 8 * 65532 + 4) / 8 < 2^20
+    const uint32_t period_q4 =
+        ((SELF.period_sum * 16u) + (SELF.averaged / 2u)) / SELF.averaged;
+    const uint32_t rate_time_q4 = (period_q4 * rule->rate_q8) / 256u;
+    const uint32_t kp_q16 = proportional_q16(self, rule->kp_q8);
+    const uint32_t kp_q8 = (kp_q16 + 128u) / 256u;
+
+    FIXPID_ASSERT(VALID(self));
+    if (kp_q8 == 0u) {
+        return false;
+    }
+    if (kp_q8 > FIXPID_PID_KP_MAX) {
+        return false;
+    }
+    gains->kp_q8 = (uint16_t)kp_q8;
+    gains->ki_q24 = integral_q24(kp_q16, rule->reset_q8, period_q4);
+    if (gains->ki_q24 < KI_MIN) {
+        return false;
+    }
+    if (rate_time_q4 > RATE_TIME_MAX) {
+        return false;
+    }
+    return tune_derivative(gains, rate_time_q4);
+}
+
+bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
+                            uint8_t rule, struct fixpid_pid_gains *gains)
+{
+    static const struct rule rules[] = {
+        {80, 116, 0},   // TYREUS_LUYBEN_PI
+        {116, 116, 41}, // TYREUS_LUYBEN_PID
+        {115, 307, 0},  // ZIEGLER_NICHOLS_PI
+        {154, 512, 32}, // ZIEGLER_NICHOLS_PID
+    };
+    struct fixpid_pid_gains tuned;
+
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(gains != 0);
+    if (SELF.status != DONE) {
+        return false;
+    }
+    if (rule > LAST_RULE) {
+        return false;
+    }
+    if (!apply(self, &rules[rule], &tuned)) {
+        return false;
+    }
+    gains->kp_q8 = tuned.kp_q8;
+    gains->ki_q24 = tuned.ki_q24;
+    gains->kd_q8 = tuned.kd_q8;
+    gains->derivative_filter = tuned.derivative_filter;
+    return true;
+}
