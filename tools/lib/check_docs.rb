@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Checks what the documents say: parts that are made from the code, tests they
-# name, links, and sums that are written out, in comments of the code too. With
-# --update it renews the parts first.
+# Checks what the documents say: parts that are made from the code, code blocks
+# and what they print, tests they name, links, and sums that are written out, in
+# comments of the code too. With --update it renews the parts first.
 require 'fileutils'
 require 'open3'
+require_relative 'docs/code_blocks'
 
 @failures = []
 
@@ -93,15 +94,19 @@ def check_named_tests(path, text, tests)
 end
 
 OPERATORS = { '=' => :==, '<' => :<, '<=' => :<= }.freeze
-NUMBER = /\(?\d+(?:\^\d+)?\)?/.freeze
+NUMBER = /\(?\d+(?:\.\d+)?(?:\^\d+)?\)?/.freeze
 SUM = %r{#{NUMBER}(?: [-+*/] #{NUMBER})*}.freeze
 
 # `117 * 1023 / 16 = 7480 < 2^14` in a comment or a document: every sum that is
-# written out must be right. Integers, so a quotient is rounded toward zero.
+# written out must be right. Integers, so a quotient is rounded toward zero; with
+# a decimal point anywhere, exactly.
 def check_sums(path, text)
   text.scan(%r{(?<![\w.^(/]|[-+*/] )(?=(#{SUM}) (=|<=|<) (#{SUM}))}).each do |left, operator, right|
+    exact = "#{left}#{right}".include?('.')
     # Only digits and operators passed the patterns above.
-    values = [left, right].map { |sum| eval(sum.gsub('^', '**')) }
+    values = [left, right].map do |sum|
+      eval((exact ? sum.gsub(/(?<!\^)\b\d+(?:\.\d+)?/) { |number| "#{number}r" } : sum).gsub('^', '**'))
+    end
     next if values[0].public_send(OPERATORS.fetch(operator), values[1])
 
     @failures << "#{path}: #{left} #{operator} #{right} is wrong"
@@ -112,7 +117,8 @@ documents = Dir['*.md', 'docs/*.md']
 tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
 documents.each do |path|
   text = File.read(path)
-  new_text = renewed(path, text)
+  new_text, wrong = CodeBlocks.new(path).renewed(renewed(path, text))
+  @failures.concat(wrong)
   if ARGV == ['--update']
     File.write(path, new_text)
   elsif new_text != text
