@@ -4,8 +4,10 @@
 //
 // PORT_REGISTER declares a special function register. XC8 has its own; SDCC
 // wants each of them defined once, in support/registers.c, which says
-// PORT_REGISTERS_HERE. PORT_TICK_INTERRUPT is the head of tick(), the one
-// interrupt function; PORT_CLEAR_WATCHDOG and PORT_NOP are instructions.
+// PORT_REGISTERS_HERE. PORT_BYTE defines a byte that an interrupt reaches
+// without choosing a bank: in bank 0 of a PIC16, in the access bank of a PIC18;
+// SDCC wants to be told its address. PORT_TICK_INTERRUPT is the head of tick(),
+// the one interrupt function, in C; PORT_CLEAR_WATCHDOG is an instruction.
 #ifndef PORT_PIC_COMPILER_H
 #define PORT_PIC_COMPILER_H
 #include <stdint.h>
@@ -17,10 +19,12 @@
 #define PORT_REGISTER(address, name) extern __sfr __at(address) name
 #endif
 #define PORT_CLEAR_WATCHDOG() __asm__("clrwdt")
-#define PORT_NOP() __asm__("nop")
 #if defined(__SDCC_pic14)
+#define PORT_BYTE(address, name) static volatile uint8_t __at(address) name
 #define PORT_TICK_INTERRUPT() static void tick(void) __interrupt(0)
 #else
+// Not static: SDCC 4.2.0 would define it twice.
+#define PORT_BYTE(address, name) volatile uint8_t __at(address) name
 // 1 is the vector of high priority.
 #define PORT_TICK_INTERRUPT() static void tick(void) __interrupt(1)
 #endif
@@ -30,7 +34,7 @@
 // Declares nothing: <xc.h> has the register at the same name.
 #define PORT_REGISTER(address, name) struct port_register_of_xc_h
 #define PORT_CLEAR_WATCHDOG() CLRWDT()
-#define PORT_NOP() NOP()
+#define PORT_BYTE(address, name) static volatile __near uint8_t name
 #if defined(_PIC18)
 #define PORT_TICK_INTERRUPT() static void __interrupt(high_priority) tick(void)
 #else
@@ -39,8 +43,9 @@
 
 #else
 #define PORT_REGISTER(address, name) extern volatile uint8_t name
+#define PORT_AT(address)
+#define PORT_BYTE(address, name) static volatile uint8_t name
 #define PORT_CLEAR_WATCHDOG() ((void)0)
-#define PORT_NOP() ((void)0)
 #define PORT_TICK_INTERRUPT()                                                  \
     void tick(void);                                                           \
     void tick(void)

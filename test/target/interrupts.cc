@@ -28,9 +28,10 @@ struct Registers {
     std::vector<std::pair<unsigned, unsigned>> quieten; // register, value
 };
 
-// TMR0IF or CCP2IF, whichever the firmware enabled. Quiet: the chip's own tick
-// does not come; a Timer0 is started again, Timer1 is stopped.
-const Registers pic16 = {4, {{0x0B, 0x04}}, {{0x01, 0x20}}};
+// TMR0IF, TMR1IF or CCP2IF, whichever the firmware enabled. Quiet: the chip's
+// own tick does not come; its timer is started again, or stopped on a PIC18.
+const Registers pic16 = {
+    4, {{0x0B, 0x04}, {0x0C, 0x01}}, {{0x01, 0x20}, {0x0F, 0x00}}};
 const Registers pic18 = {8, {{0xFF2, 0x04}, {0xFA1, 0x01}}, {{0xFCD, 0x80}}};
 
 class Interrupts

@@ -24,14 +24,17 @@ constexpr unsigned duty_least = 4; // shorter pulses are not made
 constexpr unsigned periods = 8;    // of the PWM, over which pins are watched
 constexpr unsigned ticks_measured = 10000;
 constexpr unsigned ticks_most = 255;
+constexpr unsigned latest = 300;       // cycles that an interrupt is masked for
+constexpr unsigned gie = 0x80;         // of INTCON
 constexpr double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
 
 // What port_board.h and the data sheet say of a board.
 struct Board {
-    unsigned vector;
+    unsigned vector, intcon;
     std::pair<unsigned, unsigned> tick_flag; // register, bit
     uint64_t tick_cycles;
     uint64_t latency_spread; // cycles between the latest and the earliest
+    uint64_t interrupt_cycles;
     std::map<unsigned, std::string> channels; // and their pins
     unsigned ccpr1l, ccp1con, trisc;
     std::pair<unsigned, unsigned> direction; // register, bit
@@ -43,9 +46,11 @@ struct Board {
 
 const Board pic16f684 = {
     4,
-    {0x0B, 0x04},
-    7814,
+    0x0B,
+    {0x0C, 0x01},
+    7812,
     8,
+    23,
     {{0, "porta0"}, {2, "porta2"}, {4, "portc0"}, {5, "portc1"}},
     0x13,
     0x15,
@@ -58,9 +63,11 @@ const Board pic16f684 = {
     0x3C};
 
 const Board pic18f4520 = {8,
+                          0xFF2,
                           {0xFA1, 0x01},
                           10000,
                           8,
+                          18,
                           {{0, "porta0"}, {1, "porta1"}, {2, "porta2"}},
                           0xFBE,
                           0xFBD,
@@ -90,6 +97,7 @@ class Port
 
     void off_after_reset();
     void tick_period();
+    void late_interrupts();
     void readings();
     void duties();
     void duty_is(int asked);
@@ -103,6 +111,7 @@ class Port
     const Board &board;
     std::map<unsigned, unsigned> inputs; // of the channels
     unsigned forward, reverse_probe;
+    Meter *interrupt, *conversion;
     bool started = false;
     bool was_reverse = false;
     unsigned long turn_arounds = 0, errors = 0;
@@ -124,6 +133,8 @@ Port::Port(const std::string &cod)
     reverse_probe = board.reverse_pin == board.forward_pin
                         ? forward
                         : chip.probe(board.reverse_pin);
+    interrupt = &chip.meter_interrupt(board.vector);
+    conversion = &chip.meter("port_read");
     chip.on_execute(chip.code("main"), [this] { started = true; });
     chip.on_write(chip.data("turn"), [this](unsigned value) {
         if (started && value == 0) {
@@ -262,6 +273,41 @@ void Port::tick_period()
     if (told != ticks) {
         wrong("%" PRIu64 " ticks came, %" PRIu64 " were told", ticks, told);
     }
+    std::printf("interrupt %" PRIu64 "..%" PRIu64 " cycles\n", interrupt->least,
+                interrupt->most);
+    if (interrupt->most != board.interrupt_cycles) {
+        wrong("an interrupt takes %" PRIu64 " cycles, %" PRIu64 " expected",
+              interrupt->most, board.interrupt_cycles);
+    }
+}
+
+// An application may mask the interrupt: that tick is late and the next is not.
+void Port::late_interrupts()
+{
+    for (unsigned late = 0; late < latest; late++) {
+        call('w');
+        const uint64_t before = ticks;
+        const uint64_t tick = previous_tick;
+        chip.run(board.tick_cycles - 100 - (chip.cycle() - tick));
+        chip.write(board.intcon, chip.peek(board.intcon) & ~gie);
+        chip.run(100 + late);
+        chip.write(board.intcon, chip.peek(board.intcon) | gie);
+        chip.run(board.tick_cycles + 100 - late);
+        const uint64_t two = previous_tick - tick;
+        if (ticks != before + 2 ||
+            two + board.latency_spread < 2 * board.tick_cycles ||
+            two > 2 * board.tick_cycles + board.latency_spread) {
+            wrong("after an interrupt %u cycles late, %" PRIu64
+                  " ticks in %" PRIu64 " cycles",
+                  late, ticks - before, two);
+        }
+        call('t');
+        if (chip.peek(chip.data("ticks_told")) != 2) {
+            wrong("with an interrupt %u cycles late, 2 ticks are told as %u",
+                  late, chip.peek(chip.data("ticks_told")));
+        }
+    }
+    std::printf("%u late interrupts\n", latest);
 }
 
 // Every code on every channel, with other codes on the others.
@@ -295,7 +341,8 @@ void Port::readings()
             count++;
         }
     }
-    std::printf("%lu readings\n", count);
+    std::printf("%lu readings, %" PRIu64 "..%" PRIu64 " cycles each\n", count,
+                conversion->least, conversion->most);
 }
 
 void Port::duty_is(int asked)
@@ -418,6 +465,7 @@ bool Port::run()
 {
     off_after_reset();
     tick_period();
+    late_interrupts();
     readings();
     duties();
     pins();

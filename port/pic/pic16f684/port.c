@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // port.h on a PIC16F684 with 8 MHz: 2 MHz of instruction cycles, the tick from
-// Timer0 and the drive from the ECCP as a full bridge. docs/ports.md has the
+// Timer1 and the drive from the ECCP as a full bridge. docs/ports.md has the
 // pins, the measured period and the reasons.
 #include "port.h"
 
@@ -17,38 +17,72 @@
 #define BRIDGE_FORWARD 0x4Cu
 #define BRIDGE_REVERSE 0xCCu
 
-// Timer0 counts 32 cycles. The interrupt leaves out this many counts.
-#define TMR0_LEFT_OUT 12u
-
-#define TICKS_MAX 255u
-
 // ADCON0: right justified, reference VDD, converter on; the channel from bit 2.
 #define ADCON0_BOARD 0x81u
 
-// At least 32 cycles: 8 us of rest after the last conversion, and 5 us for the
-// input capacitor behind a potentiometer of 10 kOhm.
-#define ACQUISITION_TURNS 8u
+// What the interrupt adds to Timer1, which it stops for 7 cycles: without
+// suffixes, for the assembler, too. 65536 + 7 - 0xE183 are 7812 cycles.
+#define TICK_SKIP_HIGH 0xE1
+#define TICK_SKIP_LOW 0x83
+#define T1CON_ON 0x01u // 1:1 of the instruction clock
 
 // The interrupt writes only the first and the loop only the second, so neither
 // ever waits for the other or masks it. Their difference is the ticks to tell.
 // Deviation 8.9: the interrupt uses them, too.
-static volatile uint8_t ticks_counted;
+PORT_BYTE(0x20, ticks_counted);
 // Deviation 8.9: as above.
-static volatile uint8_t ticks_taken;
+PORT_BYTE(0x21, ticks_taken);
 
-// Writing TMR0 clears its prescaler, and with it the time since the last count.
-// So the interrupt waits for the first count, which comes 32 cycles after the
-// overflow, and then writes: its latency does not enter the period.
+// Timer1 has counted on since its overflow and keeps that, so the interrupt's
+// latency does not enter the period. While it is written it stands still,
+// always for the same time.
+#if defined(__SDCC)
+// The same as below, saving only what it changes.
+// clang-format off
+static void tick(void) __interrupt(0) __naked
+{
+    __asm
+    movwf   WSAVE
+    swapf   STATUS, W
+    clrf    STATUS
+    movwf   SSAVE
+    bcf     _T1CON, 0               ; TMR1ON
+    movlw   TICK_SKIP_LOW
+    addwf   _TMR1L, F
+    btfsc   STATUS, 0
+    incf    _TMR1H, F
+    movlw   TICK_SKIP_HIGH
+    addwf   _TMR1H, F
+    bsf     _T1CON, 0
+    bcf     _PIR1, 0                ; TMR1IF
+    incf    _ticks_counted, W
+    xorwf   _ticks_taken, W
+    btfss   STATUS, 2               ; 255 ahead: it stays there
+    incf    _ticks_counted, F
+    swapf   SSAVE, W
+    movwf   STATUS
+    swapf   WSAVE, F
+    swapf   WSAVE, W
+    retfie
+    __endasm;
+}
+// clang-format on
+#else
 PORT_TICK_INTERRUPT()
 {
-    INTCON &= (uint8_t)~INTCON_T0IF;
-    if ((uint8_t)(ticks_counted - ticks_taken) != TICKS_MAX) {
+    T1CON &= (uint8_t)~T1CON_ON;
+    TMR1L = (uint8_t)(TMR1L + (uint8_t)TICK_SKIP_LOW);
+    if (TMR1L < (uint8_t)TICK_SKIP_LOW) {
+        TMR1H += 1u;
+    }
+    TMR1H = (uint8_t)(TMR1H + (uint8_t)TICK_SKIP_HIGH);
+    T1CON |= T1CON_ON;
+    PIR1 &= (uint8_t)~PIR1_TMR1IF;
+    if ((uint8_t)(ticks_counted + 1u) != ticks_taken) {
         ticks_counted += 1u;
     }
-    while (TMR0 == 0u) {
-    }
-    TMR0 += TMR0_LEFT_OUT;
 }
+#endif
 
 // Full drive off, at the end of the PWM period at the latest. The low bits go
 // first: CCPR1L = 0 with low bits would be one of the pulses never made.
@@ -67,16 +101,21 @@ static void init_pins(void)
     TRISA = TRISA_BOARD;
 }
 
+static void wait_for_end_of_period(void)
+{
+    PIR1 &= (uint8_t)~PIR1_TMR2IF;
+    while ((PIR1 & PIR1_TMR2IF) == 0u) {
+    }
+}
+
 // The bridge's pins become outputs last, with no duty.
 static void init_drive(void)
 {
     PR2 = 0x3Fu; // 64 cycles: 31.25 kHz
-    drive_off();
+    CCPR1L = 0u;
     CCP1CON = BRIDGE_FORWARD;
     T2CON = 0x04u; // on, 1:1
-    PIR1 &= (uint8_t)~PIR1_TMR2IF;
-    while ((PIR1 & PIR1_TMR2IF) == 0u) {
-    }
+    wait_for_end_of_period();
     TRISC = TRISC_BOARD;
 }
 
@@ -85,12 +124,15 @@ void port_init(void)
     OSCCON = 0x70u; // 8 MHz
     init_pins();
     init_drive();
-    ADCON1 = 0x20u; // Fosc/32: 4 us a bit
-    ADCON0 = ADCON0_BOARD;
+    ADCON1 = 0x20u;        // Fosc/32: 4 us a bit
     WDTCON = 0x08u;        // 512 cycles of 31 kHz: 17 ms
     PORT_CLEAR_WATCHDOG(); // as the data sheet has it before PSA
     OPTION_REG = 0x84u;    // pull-ups off, Timer0 counts 32 cycles
-    INTCON = 0xA0u;        // GIE, T0IE
+    TMR1L = 0u;
+    TMR1H = (uint8_t)TICK_SKIP_HIGH;
+    T1CON = T1CON_ON;
+    PIE1 = 0x01u;   // TMR1IE
+    INTCON = 0xC0u; // GIE, PEIE
 }
 
 bool port_running(void)
@@ -119,19 +161,19 @@ uint8_t port_wait_tick(void)
     return ticks;
 }
 
+// Timer0 counts after 32 cycles: 8 us of rest after the last conversion, and
+// 5 us for the input capacitor behind a potentiometer of 10 kOhm.
 uint16_t port_read(uint8_t channel)
 {
-    uint8_t turn = ACQUISITION_TURNS;
-
     ADCON0 = (uint8_t)(ADCON0_BOARD | (uint8_t)(channel << 2));
-    do {
-        PORT_NOP();
-        turn--;
-    } while (turn != 0u);
+    TMR0 = 0u;
+    while (TMR0 == 0u) {
+    }
     ADCON0 |= ADCON0_GO;
     while ((ADCON0 & ADCON0_GO) != 0u) {
     }
-    return (uint16_t)((uint16_t)((uint16_t)ADRESH << 8) | ADRESL);
+    const uint8_t low = ADRESL;
+    return (uint16_t)(((uint16_t)ADRESH << 8) | low);
 }
 
 // The data sheet's way to turn a bridge around without both of its switches on:
@@ -140,9 +182,7 @@ uint16_t port_read(uint8_t channel)
 static void turn_around(uint8_t bridge)
 {
     drive_off();
-    PIR1 &= (uint8_t)~PIR1_TMR2IF;
-    while ((PIR1 & PIR1_TMR2IF) == 0u) {
-    }
+    wait_for_end_of_period();
     // Masked, or SDCC 4.2.0 may move the plain copy before the call.
     CCP1CON = (uint8_t)(bridge & BRIDGE_REVERSE);
 }
@@ -156,16 +196,17 @@ void port_drive(int16_t duty)
         magnitude = (uint16_t)(0u - magnitude);
         bridge = BRIDGE_REVERSE;
     }
-    if (magnitude > (uint16_t)PORT_DRIVE_FULL) {
+    if ((magnitude & 0xFF00u) != 0u) {
         magnitude = (uint16_t)PORT_DRIVE_FULL;
     }
-    if (magnitude < (uint16_t)PORT_DRIVE_LEAST) {
+    const uint8_t quarter = (uint8_t)(magnitude >> 2);
+    if (quarter == 0u) {
         drive_off();
         return;
     }
     if (((CCP1CON ^ bridge) & CCP1CON_P1M1) != 0u) {
         turn_around(bridge);
     }
-    CCPR1L = (uint8_t)(magnitude >> 2);
+    CCPR1L = quarter;
     CCP1CON = (uint8_t)(bridge | (uint8_t)(((uint8_t)magnitude & 3u) << 4));
 }

@@ -3,7 +3,7 @@
 #ifndef PORT_BOARD_H
 #define PORT_BOARD_H
 
-// Timer0 makes it 255.95.
+// Timer1 makes it 256.02.
 #define PORT_TICKS_PER_SECOND 256u
 
 // Full bridge on P1A to P1D at 31.25 kHz (PR2 = 0x3F).

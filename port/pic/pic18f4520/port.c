@@ -12,48 +12,74 @@
 #define TRISA_BOARD 0xC7u
 #define LATC_REVERSE 0x01u
 
-// 10000 instruction cycles.
-#define TICK_HIGH 0x27u
-#define TICK_LOW 0x10u
+// 10000 instruction cycles; without suffixes, for the assembler, too.
+#define TICK_HIGH 0x27
+#define TICK_LOW 0x10
 
 // Where the first tick is, so that none is at 0, which gpsim misses.
 #define FIRST_LOW 0x18u
 
 #define CCP1CON_PWM 0x0Cu
-#define TICKS_MAX 255u
 
 // The interrupt writes only the first and the loop only the second, so neither
 // ever waits for the other or masks it. Their difference is the ticks to tell.
 // Deviation 8.9: the interrupt uses them, too.
-static volatile uint8_t ticks_counted;
+PORT_BYTE(0x7B, ticks_counted);
 // Deviation 8.9: as above.
-static volatile uint8_t ticks_taken;
+PORT_BYTE(0x7C, ticks_taken);
 
-// The Timer1 count of the next tick, in halves, which an interrupt of SDCC adds
-// to without temporaries that it would have to save.
-// Deviation 8.9: the interrupt uses them, too.
-static uint8_t match_low;
+// Of the next tick's Timer1 count. The low half is CCPR2L; CCPR2H itself will
+// not do, as gpsim 0.31 overwrites it.
 // Deviation 8.9: as above.
-static uint8_t match_high;
+PORT_BYTE(0x7D, match_high);
 
 // Timer1 is never written: whatever the interrupt's latency was, the next match
-// is 10000 cycles after this one. While only a half of it is written, it is far
-// away, for Timer1 may be about to reach the one half with the other old.
+// is 10000 cycles after this one. The flag is cleared last, as a match with
+// only the low half moved on, 16 cycles after this one, is not a tick.
+#if defined(__SDCC)
+PORT_BYTE(0x7E, w_saved);
+PORT_BYTE(0x7F, status_saved);
+
+// The same as below, saving only what it changes.
+// clang-format off
+#define STATUS 0xFD8
+#pragma code tick 0x0008
+static void tick(void) __naked
+{
+    __asm
+    movwf   _w_saved, 0
+    movff   STATUS, _status_saved
+    movlw   TICK_LOW
+    addwf   _CCPR2L, 1, 0
+    movlw   TICK_HIGH
+    addwfc  _match_high, 0, 0
+    movwf   _match_high, 0
+    movwf   _CCPR2H, 0
+    incf    _ticks_counted, 0, 0
+    cpfseq  _ticks_taken, 0         ; 255 ahead: it stays there
+    movwf   _ticks_counted, 0
+    bcf     _PIR2, 0, 0             ; CCP2IF
+    movf    _w_saved, 0, 0
+    movff   _status_saved, STATUS
+    retfie  0
+    __endasm;
+}
+// clang-format on
+#else
 PORT_TICK_INTERRUPT()
 {
-    PIR2 &= (uint8_t)~PIR2_CCP2IF;
-    match_high += TICK_HIGH;
-    if (match_low >= (uint8_t)(256u - TICK_LOW)) {
+    CCPR2L = (uint8_t)(CCPR2L + (uint8_t)TICK_LOW);
+    if (CCPR2L < (uint8_t)TICK_LOW) {
         match_high += 1u;
     }
-    match_low += TICK_LOW;
-    CCPR2H = match_high ^ 0x80u;
-    CCPR2L = match_low;
+    match_high += (uint8_t)TICK_HIGH;
     CCPR2H = match_high;
-    if ((uint8_t)(ticks_counted - ticks_taken) != TICKS_MAX) {
+    if ((uint8_t)(ticks_counted + 1u) != ticks_taken) {
         ticks_counted += 1u;
     }
+    PIR2 &= (uint8_t)~PIR2_CCP2IF;
 }
+#endif
 
 // Full drive off, at the end of the PWM period at the latest. The low bits go
 // first: CCPR1L = 0 with low bits would be one of the pulses never made.
@@ -100,10 +126,9 @@ static void init_tick(void)
     T1CON = 0x81u;   // on, 16-bit access, 1:1 of the instruction clock
     T3CON = 0x00u;   // Timer1 is CCP2's time base
     CCP2CON = 0x0Au; // compare, interrupt only
-    match_low = FIRST_LOW;
     match_high = TICK_HIGH;
-    CCPR2L = match_low;
-    CCPR2H = match_high;
+    CCPR2L = FIRST_LOW;
+    CCPR2H = TICK_HIGH;
     PIR2 &= (uint8_t)~PIR2_CCP2IF;
     PIE2 = 0x01u; // CCP2IE
     IPR2 = 0x01u; // CCP2IP

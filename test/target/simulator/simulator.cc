@@ -434,6 +434,28 @@ void timer0_is_right(Chip &chip)
     expect(exact, "8192 cycles, to an instruction");
 }
 
+// Timer1 stands still while it is off, and counts each cycle from what was
+// written then.
+void timer1_is_right(Chip &chip)
+{
+    const auto count = [&] { return (chip.peek(0x0F) << 8) | chip.peek(0x0E); };
+    idle_14(chip);
+    chip.write(0x10, 0x00); // T1CON: off
+    chip.write(0x0F, 0x12);
+    chip.write(0x0E, 0xF0);
+    (void)chip.run(100);
+    expect_equal(count(), 0x12F0, "stands still");
+    const uint64_t start = chip.cycle();
+    chip.write(0x10, 0x01); // on, 1:1
+    (void)chip.run(1000);
+    chip.write(0x10, 0x00);
+    expect_equal(count(), 0x12F0 + (double)(chip.cycle() - start), "counts");
+    chip.write(0x0E, (chip.peek(0x0E) + 0x10) & 0xFF);
+    const unsigned written = count();
+    (void)chip.run(100);
+    expect_equal(count(), written, "stands still again");
+}
+
 // ---- The cases ----
 
 using Body = void (*)(Chip &);
@@ -510,6 +532,7 @@ const Case cases[] = {
     {"compare_18", "defects18", compare_is_spoiled},
     {"compare_zero_18", "defects18", compare_with_zero_is_missed},
     {"timer0_14", "defects14", timer0_is_right},
+    {"timer1_14", "defects14", timer1_is_right},
 };
 
 int run(const Case &which, const std::string &folder)
