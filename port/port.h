@@ -7,7 +7,9 @@
 //   PORT_TICKS_PER_SECOND  the nominal tick rate
 //   PORT_DRIVE_FULL        the duty count of full drive
 //   PORT_DRIVE_LEAST       the least one that is more than off
-//   PORT_...               one A/D channel name per sensor or potentiometer
+//   PORT_...               one A/D channel name per sensor or potentiometer, a
+//                          byte that port_read understands
+//   port_running()         true, where a constant saves flash
 #ifndef PORT_H
 #define PORT_H
 #include <stdbool.h>
@@ -19,7 +21,9 @@
 void port_init(void);
 
 // True on a chip, always; on the host until the scenario ends.
+#ifndef port_running
 bool port_running(void);
+#endif
 
 // Timer ticks since the last call to this or to port_wait_tick, saturating at
 // 255; 0 if there was none. Feeds the watchdog when there was one.

@@ -15,31 +15,37 @@
 
 #define UPRIGHT_COUNTS 512
 #define ANGLE_LIMIT_COUNTS 341 // 20 degrees
+#define NO_DRIFT 16
 
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an964 pendulum;
 
 static int8_t drift_offset;
 
-// The offset / 8 toward zero; by magnitude, as a PIC16 has no division.
-static int16_t drift_counts(void)
+// The offset / 8 toward zero, and NO_DRIFT: without a sign it is divided by a
+// shift, as a PIC16 has no division.
+static uint8_t drift_counts(void)
 {
-    if (drift_offset < 0) {
-        const uint8_t magnitude = (uint8_t)-drift_offset;
-        return (int16_t) - (int16_t)(magnitude >> 3);
+    uint8_t eighths = (uint8_t)((uint8_t)drift_offset + 128u);
+
+    if (eighths < 128u) {
+        eighths += 7u; // at most 127 + 7
     }
-    return (int16_t)((uint8_t)drift_offset >> 3);
+    return (uint8_t)(eighths >> 3);
 }
 
 // A drive that keeps its sign drives the base away: shift the upright angle
 // until it comes back.
 static void follow_drift(int16_t output)
 {
-    if ((output > 0) && (drift_offset < PENDULUM_DRIFT_LIMIT)) {
+    if (output < 0) {
+        if (drift_offset != -PENDULUM_DRIFT_LIMIT) {
+            drift_offset--;
+        }
+    } else if ((output != 0) && (drift_offset != PENDULUM_DRIFT_LIMIT)) {
         drift_offset++;
-    }
-    if ((output < 0) && (drift_offset > -PENDULUM_DRIFT_LIMIT)) {
-        drift_offset--;
+    } else {
+        // neither rises nor falls
     }
 }
 
@@ -50,9 +56,11 @@ static void stop(void)
     drift_offset = 0;
 }
 
-static void balance(int16_t angle)
+static void balance(int16_t conversion)
 {
-    const int16_t error = (int16_t)(angle + drift_counts());
+    const uint8_t drift = drift_counts();
+    const int16_t error =
+        (int16_t)(conversion + drift - (UPRIGHT_COUNTS + NO_DRIFT));
     const int16_t output = fixpid_an964_step(&pendulum, error);
     port_drive(output);
     follow_drift(output);
@@ -75,12 +83,12 @@ int main(void)
     while (port_running()) {
         (void)port_wait_tick();
         read_gains();
-        const int16_t angle =
-            (int16_t)((int16_t)port_read(PORT_ANGLE) - UPRIGHT_COUNTS);
-        if ((angle > ANGLE_LIMIT_COUNTS) || (angle < -ANGLE_LIMIT_COUNTS)) {
+        const int16_t conversion = (int16_t)port_read(PORT_ANGLE);
+        if ((conversion < (UPRIGHT_COUNTS - ANGLE_LIMIT_COUNTS)) ||
+            (conversion > (UPRIGHT_COUNTS + ANGLE_LIMIT_COUNTS))) {
             stop();
         } else {
-            balance(angle);
+            balance(conversion);
         }
     }
     return 0;

@@ -17,31 +17,37 @@
 #define ANGLE_LIMIT_COUNTS 341 // 20 degrees
 #define CONVERSION_MAX 1023
 #define UPRIGHT_BYTE 128
+#define NO_DRIFT 16
 
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an964_8bit pendulum;
 
 static int8_t drift_offset;
 
-// The offset / 8 toward zero; by magnitude, as a PIC16 has no division.
-static int16_t drift_counts(void)
+// The offset / 8 toward zero, and NO_DRIFT: without a sign it is divided by a
+// shift, as a PIC16 has no division.
+static uint8_t drift_counts(void)
 {
-    if (drift_offset < 0) {
-        const uint8_t magnitude = (uint8_t)-drift_offset;
-        return (int16_t) - (int16_t)(magnitude >> 3);
+    uint8_t eighths = (uint8_t)((uint8_t)drift_offset + 128u);
+
+    if (eighths < 128u) {
+        eighths += 7u; // at most 127 + 7
     }
-    return (int16_t)((uint8_t)drift_offset >> 3);
+    return (uint8_t)(eighths >> 3);
 }
 
 // A drive that keeps its sign drives the base away: shift the upright angle
 // until it comes back.
 static void follow_drift(int16_t output)
 {
-    if ((output > 0) && (drift_offset < PENDULUM_DRIFT_LIMIT)) {
+    if (output < 0) {
+        if (drift_offset != -PENDULUM_DRIFT_LIMIT) {
+            drift_offset--;
+        }
+    } else if ((output != 0) && (drift_offset != PENDULUM_DRIFT_LIMIT)) {
         drift_offset++;
-    }
-    if ((output < 0) && (drift_offset > -PENDULUM_DRIFT_LIMIT)) {
-        drift_offset--;
+    } else {
+        // neither rises nor falls
     }
 }
 
@@ -56,7 +62,7 @@ static void stop(void)
 // Subtracting 128 is the note's "add 128 and ignore the carry".
 static int8_t error_byte(int16_t conversion)
 {
-    int16_t counts = (int16_t)(conversion + drift_counts());
+    int16_t counts = (int16_t)(conversion - NO_DRIFT + drift_counts());
     if (counts < 0) {
         counts = 0;
     }

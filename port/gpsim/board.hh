@@ -20,8 +20,7 @@ struct Board {
     uint64_t step_cycles; // the world moves at least this often
     std::vector<unsigned> interrupt_vectors;
     std::vector<AnalogPin> analog_pins;
-    unsigned converter_register; // GO in bit 1, the channel from bit 2
-    unsigned channel_mask;
+    unsigned converter_register; // GO in bit 1, the rest is the channel
     std::vector<unsigned> drive_registers; // a write may change the drive
 };
 

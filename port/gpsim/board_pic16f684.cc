@@ -25,7 +25,6 @@ const Board board = {
      {PORT_KI, "portc0"},
      {PORT_KD, "portc1"}},
     adcon0,
-    0x07,
     {ccpr1l, ccp1con, t2con, trisc},
 };
 

@@ -26,7 +26,6 @@ const Board board = {
      {PORT_TACHOMETER, "porta1"},
      {PORT_TEMPERATURE, "porta2"}},
     adcon0,
-    0x0F,
     {ccpr1l, ccp1con, t2con, trisc, latc},
 };
 

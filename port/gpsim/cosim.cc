@@ -150,7 +150,7 @@ void Cosimulation::wire_converter()
             return;
         }
         catch_up();
-        const unsigned channel = (control >> 2) & board.channel_mask;
+        const unsigned channel = control & ~converter_go;
         const double fraction = world_voltage((uint8_t)channel);
         const auto input = inputs.find(channel);
         if (input == inputs.end()) {

@@ -51,7 +51,7 @@ const Board pic16f684 = {
     7812,
     8,
     23,
-    {{0, "porta0"}, {2, "porta2"}, {4, "portc0"}, {5, "portc1"}},
+    {{0x81, "porta0"}, {0x89, "porta2"}, {0x91, "portc0"}, {0x95, "portc1"}},
     0x13,
     0x15,
     0x87,
@@ -68,7 +68,7 @@ const Board pic18f4520 = {8,
                           10000,
                           8,
                           18,
-                          {{0, "porta0"}, {1, "porta1"}, {2, "porta2"}},
+                          {{0x01, "porta0"}, {0x05, "porta1"}, {0x09, "porta2"}},
                           0xFBE,
                           0xFBD,
                           0xF94,
@@ -253,7 +253,7 @@ void Port::tick_period()
     while (ticks < ticks_measured + 1) {
         call('w');
         told += chip.peek(chip.data("ticks_told"));
-        chip.poke(chip.data("channel"), 0);
+        chip.poke(chip.data("channel"), inputs.begin()->first);
         for (uint64_t count = 0; count < told % 7; count++) {
             call('r');
         }

@@ -108,7 +108,7 @@ void test_balance_drift_offset_counts_to_55_and_adds_an_eighth_to_the_error(
     for (int16_t i = 0; i < 60; i++) {
         const int16_t offset = i < 55 ? i : 55;
         port_drive_Expect((int16_t)((100 + offset / 8) * INT32_C(1023) / 1024));
-        balance(100);
+        balance(512 + 100);
     }
     TEST_ASSERT_EQUAL_INT8(55, drift_offset);
 }
@@ -120,7 +120,7 @@ void test_balance_drift_offset_counts_down_to_minus_55(void)
         const int16_t offset = i < 55 ? i : 55;
         port_drive_Expect(
             (int16_t)(-(100 + offset / 8) * INT32_C(1023) / 1024));
-        balance(-100);
+        balance(512 - 100);
     }
     TEST_ASSERT_EQUAL_INT8(-55, drift_offset);
 }

@@ -17,9 +17,6 @@
 #define BRIDGE_FORWARD 0x4Cu
 #define BRIDGE_REVERSE 0xCCu
 
-// ADCON0: right justified, reference VDD, converter on; the channel from bit 2.
-#define ADCON0_BOARD 0x81u
-
 // What the interrupt adds to Timer1, which it stops for 7 cycles: without
 // suffixes, for the assembler, too. 65536 + 7 - 0xE183 are 7812 cycles.
 #define TICK_SKIP_HIGH 0xE1
@@ -92,15 +89,6 @@ static void drive_off(void)
     CCPR1L = 0u;
 }
 
-static void init_pins(void)
-{
-    PORTA = 0u;
-    PORTC = 0u;
-    CMCON0 = 0x07u; // comparators off: their pins are digital
-    ANSEL = ANSEL_BOARD;
-    TRISA = TRISA_BOARD;
-}
-
 static void wait_for_end_of_period(void)
 {
     PIR1 &= (uint8_t)~PIR1_TMR2IF;
@@ -108,44 +96,38 @@ static void wait_for_end_of_period(void)
     }
 }
 
-// The bridge's pins become outputs last, with no duty.
-static void init_drive(void)
+// The bridge's pins become outputs last, with no duty; else by banks, as each
+// change of the bank costs a word.
+void port_init(void)
 {
-    PR2 = 0x3Fu; // 64 cycles: 31.25 kHz
+    PORTA = 0u;
+    PORTC = 0u;
+    CMCON0 = 0x07u; // comparators off: their pins are digital
     CCPR1L = 0u;
     CCP1CON = BRIDGE_FORWARD;
-    T2CON = 0x04u; // on, 1:1
+    T2CON = 0x04u;  // on, 1:1
+    WDTCON = 0x08u; // 512 cycles of 31 kHz: 17 ms
+    TMR1L = 0u;
+    TMR1H = (uint8_t)TICK_SKIP_HIGH;
+    T1CON = T1CON_ON;
+    INTCON = 0xC0u;        // GIE, PEIE
+    PORT_CLEAR_WATCHDOG(); // as the data sheet has it before PSA
+    OPTION_REG = 0x84u;    // pull-ups off, Timer0 counts 32 cycles
+    OSCCON = 0x70u;        // 8 MHz
+    ANSEL = ANSEL_BOARD;
+    TRISA = TRISA_BOARD;
+    PR2 = 0x3Fu;    // 64 cycles: 31.25 kHz
+    ADCON1 = 0x20u; // Fosc/32: 4 us a bit
+    PIE1 = 0x01u;   // TMR1IE
     wait_for_end_of_period();
     TRISC = TRISC_BOARD;
 }
 
-void port_init(void)
-{
-    OSCCON = 0x70u; // 8 MHz
-    init_pins();
-    init_drive();
-    ADCON1 = 0x20u;        // Fosc/32: 4 us a bit
-    WDTCON = 0x08u;        // 512 cycles of 31 kHz: 17 ms
-    PORT_CLEAR_WATCHDOG(); // as the data sheet has it before PSA
-    OPTION_REG = 0x84u;    // pull-ups off, Timer0 counts 32 cycles
-    TMR1L = 0u;
-    TMR1H = (uint8_t)TICK_SKIP_HIGH;
-    T1CON = T1CON_ON;
-    PIE1 = 0x01u;   // TMR1IE
-    INTCON = 0xC0u; // GIE, PEIE
-}
-
-bool port_running(void)
-{
-    return true;
-}
-
 uint8_t port_ticks(void)
 {
-    const uint8_t counted = ticks_counted;
-    const uint8_t ticks = (uint8_t)(counted - ticks_taken);
+    const uint8_t ticks = (uint8_t)(ticks_counted - ticks_taken);
 
-    ticks_taken = counted;
+    ticks_taken += ticks;
     if (ticks != 0u) {
         PORT_CLEAR_WATCHDOG();
     }
@@ -154,18 +136,16 @@ uint8_t port_ticks(void)
 
 uint8_t port_wait_tick(void)
 {
-    uint8_t ticks = 0;
-    do {
-        ticks = port_ticks();
-    } while (ticks == 0u);
-    return ticks;
+    while (ticks_counted == ticks_taken) {
+    }
+    return port_ticks();
 }
 
 // Timer0 counts after 32 cycles: 8 us of rest after the last conversion, and
 // 5 us for the input capacitor behind a potentiometer of 10 kOhm.
 uint16_t port_read(uint8_t channel)
 {
-    ADCON0 = (uint8_t)(ADCON0_BOARD | (uint8_t)(channel << 2));
+    ADCON0 = channel;
     TMR0 = 0u;
     while (TMR0 == 0u) {
     }
@@ -196,10 +176,12 @@ void port_drive(int16_t duty)
         magnitude = (uint16_t)(0u - magnitude);
         bridge = BRIDGE_REVERSE;
     }
+    uint8_t low = (uint8_t)magnitude;
+    uint8_t quarter = (uint8_t)(low >> 2);
     if ((magnitude & 0xFF00u) != 0u) {
-        magnitude = (uint16_t)PORT_DRIVE_FULL;
+        low = 0;
+        quarter = PORT_DRIVE_FULL / 4;
     }
-    const uint8_t quarter = (uint8_t)(magnitude >> 2);
     if (quarter == 0u) {
         drive_off();
         return;
@@ -208,5 +190,5 @@ void port_drive(int16_t duty)
         turn_around(bridge);
     }
     CCPR1L = quarter;
-    CCP1CON = (uint8_t)(bridge | (uint8_t)(((uint8_t)magnitude & 3u) << 4));
+    CCP1CON = (uint8_t)(bridge | (uint8_t)((uint8_t)(low << 4) & CCP1CON_DC1B));
 }

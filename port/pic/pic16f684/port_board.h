@@ -13,10 +13,16 @@
 // a bridge to follow.
 #define PORT_DRIVE_LEAST 4
 
-// Analog inputs AN0, AN2, AN4 and AN5.
-#define PORT_ANGLE 0u // half scale is upright; 1024 counts are 60 degrees
-#define PORT_KP 2u
-#define PORT_KI 4u
-#define PORT_KD 5u
+// Analog inputs AN0, AN2, AN4 and AN5, as ADCON0 has them from bit 2; with it
+// right justified, VDD as the reference and the converter on.
+#define PORT_ANGLE 0x81u // half scale is upright; 1024 counts are 60 degrees
+#define PORT_KP 0x89u
+#define PORT_KI 0x91u
+#define PORT_KD 0x95u
+
+// On the chip; the host has this board, too.
+#if defined(__SDCC) || defined(__XC8)
+#define port_running() true
+#endif
 
 #endif

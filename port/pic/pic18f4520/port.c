@@ -172,7 +172,7 @@ uint8_t port_wait_tick(void)
 
 uint16_t port_read(uint8_t channel)
 {
-    ADCON0 = (uint8_t)((uint8_t)(channel << 2) | 0x01u); // ADON
+    ADCON0 = channel;
     ADCON0 |= ADCON0_GO;
     while ((ADCON0 & ADCON0_GO) != 0u) {
     }

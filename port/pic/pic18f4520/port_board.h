@@ -12,9 +12,10 @@
 // bridge to follow.
 #define PORT_DRIVE_LEAST 4
 
-// Analog inputs AN0, AN1 and AN2.
-#define PORT_SETPOINT 0u
-#define PORT_TACHOMETER 1u
-#define PORT_TEMPERATURE 2u
+// Analog inputs AN0, AN1 and AN2, as ADCON0 has them from bit 2; with the
+// converter on.
+#define PORT_SETPOINT 0x01u
+#define PORT_TACHOMETER 0x05u
+#define PORT_TEMPERATURE 0x09u
 
 #endif
