@@ -5,19 +5,23 @@
 //   firmware FIRMWARE.cod CONTROLLER TICKS
 //
 // Prints one line of figures; all in cycles, without interrupts. A pass is the
-// loop's way from taking the ticks to taking them again.
+// loop's way from taking the ticks to taking them again. On a PIC16F684, where
+// the firmware is compiled as one file, each drive must be what the
+// controller's definition answers to the potentiometers and the error.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
-#include "chip.hh"
+#include "driver.hh"
 
 namespace
 {
 
 constexpr unsigned poison = 0xA5;
-constexpr unsigned wreg = 0xFE8; // of a PIC18
+constexpr unsigned wreg = 0xFE8;                  // of a PIC18
+constexpr unsigned ccpr1l = 0x13, ccp1con = 0x15; // of a PIC16
+constexpr int full = 256, least = 4;              // PORT_DRIVE_FULL, _LEAST
 constexpr uint64_t tick_most =
     50000; // cycles; more than start-up and a tick have
 
@@ -34,6 +38,9 @@ class Firmware
     void ticks_wanted();
     unsigned software_stack() const;
     void poison_stack();
+    void watch_drives(const controller &tested);
+    void define_drive(const controller &tested);
+    void check_drive();
 
     Chip chip;
     unsigned vector;
@@ -44,6 +51,11 @@ class Firmware
     uint64_t start = 0, interrupted = 0;
     uint64_t tick_pass = 0, idle_pass = 0;
     Meter *interrupt, *step, *taken;
+
+    std::vector<unsigned> codes; // of the inputs
+    uint8_t calls = CALL_INIT;   // since the last step
+    int drive = 0;
+    uint64_t drives = 0, different = 0;
 };
 
 Firmware::Firmware(const std::string &cod, const std::string &controller)
@@ -69,8 +81,63 @@ Firmware::Firmware(const std::string &cod, const std::string &controller)
         new_inputs();
     });
     chip.on_execute(chip.code("port_ticks"), [this] { ticks_wanted(); });
+    chip.on_execute(chip.code("port_wait_tick"), [this] { ticks_wanted(); });
     taken = &chip.meter("port_ticks");
     taken->on_return = [this](uint64_t) { ticks_taken(); };
+    if (!chip.is_pic18()) {
+        watch_drives(find_controller(controller));
+    }
+}
+
+void Firmware::watch_drives(const struct controller &tested)
+{
+    chip.meter("fixpid_" + std::string(tested.name) + "_reset").on_call =
+        [this] { calls |= CALL_RESET; };
+    step->on_call = [this, &tested] { define_drive(tested); };
+    chip.on_execute(chip.code("port_drive"), [this] { drives++; });
+}
+
+// The error is the step's last argument; the first is the controller's address.
+void Firmware::define_drive(const controller &tested)
+{
+    question asked = {};
+    answer defined = {};
+
+    if (std::string(tested.name) == "an964") {
+        asked.an964.gains = {static_cast<uint16_t>(codes[1]),
+                             static_cast<uint16_t>(codes[2]),
+                             static_cast<uint16_t>(codes[3])};
+        asked.an964.error =
+            static_cast<int16_t>((chip.peek(chip.data("STK01")) << 8) |
+                                 chip.peek(chip.data("STK02")));
+        asked.an964.calls = calls | CALL_SET_GAINS;
+    } else {
+        asked.an964_8bit.gains = {static_cast<uint8_t>(codes[1] >> 3),
+                                  static_cast<uint8_t>(codes[2] >> 3),
+                                  static_cast<uint8_t>(codes[3] >> 3)};
+        asked.an964_8bit.error =
+            static_cast<int8_t>(chip.peek(chip.data("STK01")));
+        asked.an964_8bit.calls = calls | CALL_SET_GAINS;
+    }
+    calls = 0;
+    tested.define(&asked, &defined);
+    drive = defined.an964.output;
+}
+
+// At the end of a pass: a drive that was not a step's is 0.
+void Firmware::check_drive()
+{
+    const int magnitude = std::min(std::abs(drive), full);
+    const int made = magnitude < least ? 0 : magnitude;
+    const unsigned control = chip.peek(ccp1con);
+    const int counts =
+        static_cast<int>((chip.peek(ccpr1l) << 2) | ((control >> 4) & 3u));
+
+    if (counts != made ||
+        (made != 0 && ((control & 0x80) != 0) != (drive < 0))) {
+        different++;
+    }
+    drive = 0;
 }
 
 // The middle often, where a pendulum stands; and the ends.
@@ -95,8 +162,10 @@ unsigned Firmware::any_code()
 
 void Firmware::new_inputs()
 {
+    codes.clear();
     for (const unsigned input : inputs) {
-        chip.set_code(input, any_code());
+        codes.push_back(any_code());
+        chip.set_code(input, codes.back());
     }
 }
 
@@ -106,6 +175,9 @@ void Firmware::ticks_wanted()
         return;
     }
     passing = false;
+    if (!chip.is_pic18()) {
+        check_drive();
+    }
     const uint64_t cycles =
         chip.cycle() - start - (chip.interrupt_cycles() - interrupted);
     uint64_t &most = with_tick ? tick_pass : idle_pass;
@@ -154,6 +226,12 @@ void Firmware::run(uint64_t count)
     const std::string printed = chip.messages();
     if (!printed.empty()) {
         throw ChipError("gpsim: " + printed);
+    }
+    if (!chip.is_pic18()) {
+        std::printf("drives %lu different %lu\n", drives, different);
+    }
+    if (different != 0 || (drives == 0 && !chip.is_pic18())) {
+        throw ChipError("wrong drives");
     }
     std::printf("%s tick %lu idle %lu interrupt %lu step %lu stack %u "
                 "software %u\n",
