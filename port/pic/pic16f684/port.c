@@ -81,20 +81,8 @@ PORT_TICK_INTERRUPT()
 }
 #endif
 
-// Full drive off, at the end of the PWM period at the latest. The low bits go
-// first: CCPR1L = 0 with low bits would be one of the pulses never made.
-static void drive_off(void)
-{
-    CCP1CON &= (uint8_t)~CCP1CON_DC1B;
-    CCPR1L = 0u;
-}
-
-static void wait_for_end_of_period(void)
-{
-    PIR1 &= (uint8_t)~PIR1_TMR2IF;
-    while ((PIR1 & PIR1_TMR2IF) == 0u) {
-    }
-}
+// Deviation 20.1: it uses the bytes above.
+#include "pic/port_common.h"
 
 // The bridge's pins become outputs last, with no duty; else by banks, as each
 // change of the bank costs a word.
@@ -121,24 +109,6 @@ void port_init(void)
     PIE1 = 0x01u;   // TMR1IE
     wait_for_end_of_period();
     TRISC = TRISC_BOARD;
-}
-
-uint8_t port_ticks(void)
-{
-    const uint8_t ticks = (uint8_t)(ticks_counted - ticks_taken);
-
-    ticks_taken += ticks;
-    if (ticks != 0u) {
-        PORT_CLEAR_WATCHDOG();
-    }
-    return ticks;
-}
-
-uint8_t port_wait_tick(void)
-{
-    while (ticks_counted == ticks_taken) {
-    }
-    return port_ticks();
 }
 
 // Timer0 counts after 32 cycles: 8 us of rest after the last conversion, and

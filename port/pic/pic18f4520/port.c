@@ -81,20 +81,8 @@ PORT_TICK_INTERRUPT()
 }
 #endif
 
-// Full drive off, at the end of the PWM period at the latest. The low bits go
-// first: CCPR1L = 0 with low bits would be one of the pulses never made.
-static void drive_off(void)
-{
-    CCP1CON &= (uint8_t)~CCP1CON_DC1B;
-    CCPR1L = 0u;
-}
-
-static void wait_for_end_of_period(void)
-{
-    PIR1 &= (uint8_t)~PIR1_TMR2IF;
-    while ((PIR1 & PIR1_TMR2IF) == 0u) {
-    }
-}
+// Deviation 20.1: it uses the bytes above.
+#include "pic/port_common.h"
 
 static void init_pins(void)
 {
@@ -147,27 +135,6 @@ void port_init(void)
 bool port_running(void)
 {
     return true;
-}
-
-uint8_t port_ticks(void)
-{
-    const uint8_t counted = ticks_counted;
-    const uint8_t ticks = (uint8_t)(counted - ticks_taken);
-
-    ticks_taken = counted;
-    if (ticks != 0u) {
-        PORT_CLEAR_WATCHDOG();
-    }
-    return ticks;
-}
-
-uint8_t port_wait_tick(void)
-{
-    uint8_t ticks = 0;
-    do {
-        ticks = port_ticks();
-    } while (ticks == 0u);
-    return ticks;
 }
 
 uint16_t port_read(uint8_t channel)
