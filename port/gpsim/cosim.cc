@@ -81,6 +81,7 @@ class Cosimulation
     void wire_drive();
     void watch_loop();
     void wait_begins();
+    void copy_objects();
     void wait_ends();
     void catch_up();
     void check_world();
@@ -97,7 +98,7 @@ class Cosimulation
     std::vector<const Meter *> meters;
     std::vector<const Meter *> interrupts;
     std::vector<std::pair<size_t, Bound>> watched; // by index in the trace
-    unsigned object = 0;
+    std::vector<unsigned> objects; // of the application, their addresses
 };
 
 Cosimulation::Cosimulation() : chip(firmware, board.processor)
@@ -114,7 +115,9 @@ Cosimulation::Cosimulation() : chip(firmware, board.processor)
         throw ChipError("gpsim would get this firmware wrong: " + findings[0]);
     }
     watch_bounds();
-    object = chip.data(probe_name);
+    for (size_t i = 0; i < probe_object_count; i++) {
+        objects.push_back(chip.data(probe_objects[i].name));
+    }
     for (const std::string &name : metered) {
         meters.push_back(&chip.meter(name));
     }
@@ -194,10 +197,17 @@ void Cosimulation::wait_begins()
     pass.most = std::max(pass.most, cycles);
     pass.shown = pass.row_has_one ? std::max(pass.shown, cycles) : cycles;
     pass.row_has_one = true;
-    // Between two steps, so never half of one.
-    auto *const bytes = static_cast<unsigned char *>(probe_object);
-    for (unsigned i = 0; i < probe_size; i++) {
-        bytes[i] = (unsigned char)chip.peek(object + i);
+    copy_objects(); // between two steps, so never half of one
+}
+
+void Cosimulation::copy_objects()
+{
+    for (size_t i = 0; i < objects.size(); i++) {
+        auto *const bytes =
+            static_cast<unsigned char *>(probe_objects[i].bytes);
+        for (unsigned j = 0; j < probe_objects[i].size; j++) {
+            bytes[j] = (unsigned char)chip.peek(objects[i] + j);
+        }
     }
 }
 

@@ -18,6 +18,10 @@ struct host_terms {
 // port need not know it.
 void host_probe(struct host_terms *terms);
 
+// Bound in the same way: prints what the application has found out, if
+// anything, when it has come to its end.
+void host_report(void);
+
 // The application's `main`, renamed by the build.
 int application_main(void);
 

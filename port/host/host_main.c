@@ -147,6 +147,7 @@ static int run(const struct request *request)
         return EXIT_FAILURE;
     }
     int status = application_main();
+    host_report();
     if (!host_trace_close()) {
         (void)fprintf(stderr, "%s: could not write all of %s\n", program,
                       request->csv);

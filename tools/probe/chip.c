@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A home for the application's controller where there is no application: the
-// co-simulation fills it from the chip's RAM. The build names the controller,
-// as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964.
+// A home for the application's objects where there is no application: the
+// co-simulation fills them from the chip's RAM. The build names the controller,
+// as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964, and where
+// there are any, the gains that the application has found: -DPROBE_GAINS=name.
 //
-// A controller has no padding and no pointer, so it has the same bytes here and
-// under SDCC, on any machine that stores the low byte first.
+// They have no pointer and no padding but at their end, so they have the same
+// bytes here and under SDCC, on any machine that stores the low byte first.
 #include "probe.h"
 
 // For tools that read this file alone.
@@ -18,10 +19,27 @@
 #define TEXT_OF(name) #name
 #define TEXT(name) TEXT_OF(name)
 
+#define HOME(object)                                                           \
+    {                                                                          \
+        TEXT(object), &(object), sizeof(object)                                \
+    }
+
 // Deviation 8.5: an application has no header.
 extern struct PROBE_TYPE HOST_PROBE_OBJECT;
 struct PROBE_TYPE HOST_PROBE_OBJECT;
 
-const char *const probe_name = TEXT(HOST_PROBE_OBJECT);
-void *const probe_object = &HOST_PROBE_OBJECT;
-const size_t probe_size = sizeof(HOST_PROBE_OBJECT);
+#ifdef PROBE_GAINS
+// Deviation 8.5: an application has no header.
+extern struct fixpid_pid_gains PROBE_GAINS;
+struct fixpid_pid_gains PROBE_GAINS;
+#define HOME_OF_GAINS HOME(PROBE_GAINS),
+#else
+#define HOME_OF_GAINS
+#endif
+
+const struct probe_object probe_objects[] = {
+    HOME(HOST_PROBE_OBJECT),
+    HOME_OF_GAINS // or nothing
+};
+const size_t probe_object_count =
+    sizeof(probe_objects) / sizeof(probe_objects[0]);
