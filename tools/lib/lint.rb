@@ -7,7 +7,7 @@ require 'open3'
 STRICT = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
             -Wundef -Wstrict-prototypes -Wmissing-prototypes -Wredundant-decls -Werror].freeze
 OBJECT_MODE = %w[AN937 AN964 AN964_8BIT PID AUTOTUNE].map { |name| "-DFIXPID_#{name}_OBJECT=#{name.downcase}_controller" }.freeze
-BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven/ }.freeze
+BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|autotune/ }.freeze
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
 

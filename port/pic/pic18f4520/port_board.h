@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board of the motor and the oven: PIC18F4520 at 40 MHz.
+// The board of the motor and the ovens: PIC18F4520 at 40 MHz.
 #ifndef PORT_BOARD_H
 #define PORT_BOARD_H
 
@@ -13,9 +13,10 @@
 #define PORT_DRIVE_LEAST 4
 
 // Analog inputs AN0, AN1 and AN2, as ADCON0 has them from bit 2; with the
-// converter on.
+// converter on. A thermostat has its selector where a motor has its tachometer.
 #define PORT_SETPOINT 0x01u
 #define PORT_TACHOMETER 0x05u
+#define PORT_SELECTOR PORT_TACHOMETER
 #define PORT_TEMPERATURE 0x09u
 
 #endif

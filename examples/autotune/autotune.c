@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// An oven that finds its own gains: a relay experiment around the setpoint from
+// power-on, then a controller with what it found.
+#include "fixpid_autotune.h"
+#include "fixpid_pid.h"
+#include "port.h"
+
+// The rule that makes gains of the experiment, an enum fixpid_autotune_rule.
+#ifndef AUTOTUNE_RULE
+#define AUTOTUNE_RULE FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID
+#endif
+
+#define CONTROL_PERIOD_MS 100u
+
+// The heater of the experiment is off or at 30 %, which leaves the 15 % that
+// the setpoint needs in the middle.
+#define RELAY_HIGH ((PORT_DRIVE_FULL * 3) / 10)
+#define SEED (RELAY_HIGH / 2)
+
+// In counts of temperature, of which a degree has 16.
+#define COLDEST 16
+#define HOTTEST 4000 // 250 C: the sensor's end is 256
+#define HYSTERESIS 8u
+#define TIMEOUT_STEPS 600u // a minute for half a cycle
+#define CYCLES 4u
+
+// Deviation 8.4: the application's one controller, found by its name.
+FIXPID_DATA struct fixpid_pid oven;
+// Deviation 8.4: and its one experiment.
+FIXPID_DATA struct fixpid_autotune tuner;
+
+// What the experiment found, for a debugger to read; a product would keep it in
+// its EEPROM and not tune again. All 0 before, and after a failure.
+// Deviation 8.4: found by its name.
+struct fixpid_pid_gains tuned_gains;
+
+// Four conversions, added, average their noise: 1/16 of a degree.
+static int16_t temperature(void)
+{
+    uint16_t sum = 0;
+    for (uint8_t i = 0; i < 4u; i++) {
+        sum = (uint16_t)(sum + port_read(PORT_TEMPERATURE));
+    }
+    return (int16_t)sum;
+}
+
+// A controller without gains: its output is 0, and stays so after a failure.
+static void start(void)
+{
+    static const struct fixpid_autotune_config experiment = {
+        .output_low = 0,
+        .output_high = RELAY_HIGH,
+        .output_rest = 0,
+        .measurement_min = COLDEST,
+        .measurement_max = HOTTEST,
+        .hysteresis = HYSTERESIS,
+        .timeout_steps = TIMEOUT_STEPS,
+        .cycles = CYCLES,
+    };
+    static const struct fixpid_pid_config controller = {
+        .output_min = 0,
+        .output_max = PORT_DRIVE_FULL,
+        .integral_min = -32767, // it needs no range of its own
+        .integral_max = 32767,
+        .setpoint_weight_q8 = 256,
+    };
+
+    (void)fixpid_autotune_init(&tuner, &experiment);
+    (void)fixpid_pid_init(&oven, &controller);
+}
+
+// The controller goes on from the middle of the relay. The result divides: for
+// a small chip this is the longest pass of all, and may take more than a tick.
+static void take_result(void)
+{
+    if (fixpid_autotune_result(&tuner, AUTOTUNE_RULE, &tuned_gains)) {
+        (void)fixpid_pid_set_gains(&oven, &tuned_gains);
+        fixpid_pid_seed(&oven, SEED);
+    }
+}
+
+static bool experiment_is(enum fixpid_autotune_status status)
+{
+    return fixpid_autotune_status(&tuner) == (uint8_t)status;
+}
+
+static void control(void)
+{
+    const int16_t setpoint = (int16_t)(port_read(PORT_SETPOINT) * 4u);
+    const int16_t measurement = temperature();
+
+    if (experiment_is(FIXPID_AUTOTUNE_RUNNING)) {
+        port_drive(fixpid_autotune_step(&tuner, setpoint, measurement));
+        if (experiment_is(FIXPID_AUTOTUNE_DONE)) {
+            take_result();
+        }
+    } else {
+        port_drive(fixpid_pid_step(&oven, setpoint, measurement));
+    }
+}
+
+static bool control_is_due(uint8_t ticks_ms)
+{
+    static uint16_t waited_ms = 0;
+
+    waited_ms = (uint16_t)(waited_ms + ticks_ms);
+    if (waited_ms < CONTROL_PERIOD_MS) {
+        return false;
+    }
+    waited_ms = (uint16_t)(waited_ms - CONTROL_PERIOD_MS);
+    return true;
+}
+
+int main(void)
+{
+    port_init();
+    start();
+    while (port_running()) {
+        if (control_is_due(port_wait_tick())) {
+            control();
+        }
+    }
+    return 0;
+}

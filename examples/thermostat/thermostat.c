@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// A thermostat on the general-purpose controller: a small oven, heated from
+// cold, that a person may switch off, drive by hand or run on little power
+// while it is hot, without a jump of the heater.
+#include "fixpid_pid.h"
+#include "port.h"
+
+#define CONTROL_PERIOD_MS 100u
+#define STEPS_PER_SECOND 10.0
+
+// Duty counts per count of temperature, of which a degree has 16.
+#define KP 1.3
+#define KI 0.35 // per second
+#define KD 0.8  // seconds
+#define DERIVATIVE_FILTER 1u
+#define SETPOINT_WEIGHT_Q8 179u // 0.7: softens a step of the setpoint
+
+#define KEEP_WARM_DUTY (PORT_DRIVE_FULL / 10)
+#define LOW_POWER_DUTY (PORT_DRIVE_FULL / 8)
+
+// A rotary switch on a ladder of resistors: a quarter of the converter's range
+// for each position, and off when its wire is broken.
+#define SELECTOR_OFF 0u
+#define SELECTOR_AUTOMATIC 1u
+#define SELECTOR_MANUAL 2u
+#define SELECTOR_LOW_POWER 3u
+#define READING_TO_POSITION 8u
+
+// Deviation 8.4: the application's one controller, found by its name.
+FIXPID_DATA struct fixpid_pid thermostat;
+
+static uint8_t position = SELECTOR_OFF;
+
+// From off it starts anew, at full power if it is cold. From manual it takes
+// over where the heater is. Limits may change at any time.
+static void enter(uint8_t next)
+{
+    int16_t most = PORT_DRIVE_FULL;
+    if (next == SELECTOR_LOW_POWER) {
+        most = LOW_POWER_DUTY;
+    }
+    (void)fixpid_pid_set_limits(&thermostat, 0, most);
+    if (next == SELECTOR_OFF) {
+        fixpid_pid_set_manual(&thermostat, 0);
+    } else if (next == SELECTOR_MANUAL) {
+        fixpid_pid_set_manual(&thermostat, KEEP_WARM_DUTY);
+    } else if (position == SELECTOR_OFF) {
+        fixpid_pid_reset(&thermostat);
+    } else {
+        fixpid_pid_set_auto(&thermostat);
+    }
+    position = next;
+}
+
+// A position counts when it is read twice: between two contacts the switch may
+// read anything.
+static void follow_selector(void)
+{
+    static uint8_t last = SELECTOR_OFF;
+    const uint8_t now =
+        (uint8_t)(port_read(PORT_SELECTOR) >> READING_TO_POSITION);
+
+    if ((now == last) && (now != position)) {
+        enter(now);
+    }
+    last = now;
+}
+
+// Four conversions, added, average their noise: 1/16 of a degree.
+static int16_t temperature(void)
+{
+    uint16_t sum = 0;
+    for (uint8_t i = 0; i < 4u; i++) {
+        sum = (uint16_t)(sum + port_read(PORT_TEMPERATURE));
+    }
+    return (int16_t)sum;
+}
+
+static void control(void)
+{
+    follow_selector();
+    const int16_t setpoint = (int16_t)(port_read(PORT_SETPOINT) * 4u);
+    port_drive(fixpid_pid_step(&thermostat, setpoint, temperature()));
+}
+
+static bool control_is_due(uint8_t ticks_ms)
+{
+    static uint16_t waited_ms = 0;
+
+    waited_ms = (uint16_t)(waited_ms + ticks_ms);
+    if (waited_ms < CONTROL_PERIOD_MS) {
+        return false;
+    }
+    waited_ms = (uint16_t)(waited_ms - CONTROL_PERIOD_MS);
+    return true;
+}
+
+int main(void)
+{
+    static const struct fixpid_pid_config config = {
+        .gains = {.ki_q24 = FIXPID_PID_KI(KI, STEPS_PER_SECOND),
+                  .kp_q8 = FIXPID_PID_KP(KP),
+                  .kd_q8 =
+                      FIXPID_PID_KD(KD, STEPS_PER_SECOND, DERIVATIVE_FILTER),
+                  .derivative_filter = DERIVATIVE_FILTER},
+        .output_min = 0,
+        .output_max = PORT_DRIVE_FULL,
+        .integral_min = -32767, // it needs no range of its own
+        .integral_max = 32767,
+        .setpoint_weight_q8 = SETPOINT_WEIGHT_Q8,
+    };
+
+    port_init();
+    (void)fixpid_pid_init(&thermostat, &config);
+    fixpid_pid_set_manual(&thermostat, 0);
+    while (port_running()) {
+        if (control_is_due(port_wait_tick())) {
+            control();
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// The logic of examples/thermostat/ with the port mocked.
+#include "mock_port.h"
+#include "unity.h"
+
+TEST_SOURCE_FILE("src/fixpid_pid.c")
+TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+TEST_INCLUDE_PATH("port/pic/pic18f4520")
+TEST_INCLUDE_PATH("examples/thermostat")
+
+int application_main(void);
+#define main application_main
+#include "thermostat.c"
+#undef main
+
+#define COLD 80  // 20 degrees, in counts of one conversion
+#define SET 320u // 80 degrees
+
+// What a position of the selector reads, in the middle of its quarter.
+static const uint16_t reading_of[] = {128, 384, 640, 896};
+
+static int16_t driven;
+static uint16_t selector_reading;
+static uint16_t temperature_reading;
+
+static void keep_drive(int16_t duty, int calls)
+{
+    (void)calls;
+    driven = duty;
+}
+
+static uint16_t reading(uint8_t channel, int calls)
+{
+    (void)calls;
+    switch (channel) {
+    case PORT_SELECTOR:
+        return selector_reading;
+    case PORT_SETPOINT:
+        return SET;
+    default:
+        return temperature_reading;
+    }
+}
+
+void setUp(void)
+{
+    driven = -1;
+    port_drive_Stub(keep_drive);
+    port_read_Stub(reading);
+    port_init_Ignore();
+    port_running_IgnoreAndReturn(false);
+    TEST_ASSERT_EQUAL_INT(0, application_main()); // a good configuration
+    position = SELECTOR_OFF;
+}
+
+void tearDown(void)
+{
+}
+
+// One control period; returns the drive it led to.
+static int16_t period(uint8_t selector, uint16_t counts)
+{
+    selector_reading = reading_of[selector];
+    temperature_reading = counts;
+    control();
+    return driven;
+}
+
+// Turned to a position, and read twice there.
+static int16_t turned_to(uint8_t selector, uint16_t counts)
+{
+    (void)period(selector, counts);
+    return period(selector, counts);
+}
+
+static void run(uint8_t selector, uint16_t counts, int periods)
+{
+    for (int i = 0; i < periods; i++) {
+        (void)period(selector, counts);
+    }
+}
+
+void test_main_heater_is_off_at_power_on(void)
+{
+    TEST_ASSERT_EQUAL_INT16(0, turned_to(SELECTOR_OFF, COLD));
+}
+
+void test_main_control_runs_once_in_100_ticks(void)
+{
+    port_running_ExpectAndReturn(true);
+    port_wait_tick_ExpectAndReturn(99);
+    port_running_ExpectAndReturn(true);
+    port_wait_tick_ExpectAndReturn(1);
+    port_running_ExpectAndReturn(true);
+    port_wait_tick_ExpectAndReturn(99);
+    port_running_ExpectAndReturn(false);
+    TEST_ASSERT_EQUAL_INT(0, application_main());
+    TEST_ASSERT_EQUAL_INT16(0, driven);
+    TEST_ASSERT_TRUE(control_is_due(1));
+}
+
+void test_control_is_due_late_ticks_are_not_lost(void)
+{
+    TEST_ASSERT_TRUE(control_is_due(150));
+    TEST_ASSERT_FALSE(control_is_due(49));
+    TEST_ASSERT_TRUE(control_is_due(1));
+}
+
+void test_selector_counts_when_it_is_read_twice(void)
+{
+    (void)turned_to(SELECTOR_OFF, COLD);
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_LOW_POWER, COLD));
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
+    TEST_ASSERT_GREATER_THAN_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
+}
+
+// P is 1.3 times (0.7 of the setpoint, 895 quarter counts, less 320).
+void test_off_to_automatic_starts_anew(void)
+{
+    (void)turned_to(SELECTOR_OFF, COLD);
+    const int16_t first = turned_to(SELECTOR_AUTOMATIC, COLD);
+    TEST_ASSERT_INT16_WITHIN(1, (int16_t)(1.3 * (895 - 320) + 0.035 * 960),
+                             first);
+}
+
+void test_temperature_is_the_sum_of_four_conversions(void)
+{
+    port_read_Stub(NULL);
+    for (uint16_t i = 0; i < 4; i++) {
+        port_read_ExpectAndReturn(PORT_TEMPERATURE, (uint16_t)(1020 + i));
+    }
+    TEST_ASSERT_EQUAL_INT16(4086, temperature());
+}
+
+void test_manual_keeps_warm_whatever_the_temperature(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    TEST_ASSERT_EQUAL_INT16(102, turned_to(SELECTOR_MANUAL, SET));
+    TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, COLD));
+    TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, 1023));
+}
+
+void test_manual_to_automatic_goes_on_from_the_same_drive(void)
+{
+    (void)turned_to(SELECTOR_MANUAL, 240);
+    run(SELECTOR_MANUAL, 240, 5);
+    TEST_ASSERT_EQUAL_INT16(102, turned_to(SELECTOR_AUTOMATIC, 240));
+    // Then ki of an error of 20 degrees, 320 counts: 0.035 * 320.
+    TEST_ASSERT_INT16_WITHIN(1, 102 + 11, period(SELECTOR_AUTOMATIC, 240));
+}
+
+void test_low_power_limits_the_drive_at_once_and_gives_it_back(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, COLD);
+    TEST_ASSERT_GREATER_THAN_INT16(127, period(SELECTOR_AUTOMATIC, COLD));
+    TEST_ASSERT_EQUAL_INT16(127, turned_to(SELECTOR_LOW_POWER, COLD));
+    run(SELECTOR_LOW_POWER, COLD, 100);
+    TEST_ASSERT_EQUAL_INT16(127, period(SELECTOR_LOW_POWER, COLD));
+    TEST_ASSERT_GREATER_THAN_INT16(127, turned_to(SELECTOR_AUTOMATIC, COLD));
+}
+
+void test_low_power_does_not_wind_up(void)
+{
+    (void)turned_to(SELECTOR_LOW_POWER, COLD);
+    run(SELECTOR_LOW_POWER, COLD, 1000);
+    // Above the setpoint at once by 1 degree, 16 counts, P falls by more than
+    // the limit and D by more still.
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_LOW_POWER, SET + 4));
+}
+
+void test_drive_never_cools_and_is_limited_to_full(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 1023));
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 0));
+}
+
+void test_broken_wire_of_the_selector_switches_off(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, COLD);
+    selector_reading = 0;
+    control();
+    control();
+    TEST_ASSERT_EQUAL_INT16(0, driven);
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Shows the host's trace the terms of the application's controller, which the
+// build names, as in -DHOST_PROBE_OBJECT=thermostat. With the name of gains
+// that the application finds, -DPROBE_GAINS=name, it prints them in the end.
+#include "fixpid_pid.h"
+
+#include <inttypes.h>
+#include <stdio.h> // Deviation 21.6: a program for a PC
+
+#include "host.h"
+
+// Deviation 8.5: an application has no header.
+extern FIXPID_DATA struct fixpid_pid HOST_PROBE_OBJECT;
+
+void host_probe(struct host_terms *terms)
+{
+    terms->proportional =
+        (double)fixpid_pid_proportional(&HOST_PROBE_OBJECT) / 256.0;
+    terms->integral = (double)fixpid_pid_integral(&HOST_PROBE_OBJECT) / 65536.0;
+    terms->derivative =
+        (double)fixpid_pid_derivative(&HOST_PROBE_OBJECT) / 256.0;
+}
+
+#ifdef PROBE_GAINS
+// Deviation 8.5: an application has no header.
+extern struct fixpid_pid_gains PROBE_GAINS;
+
+void host_report(void)
+{
+    (void)printf("gains: kp_q8 %" PRIu16 ", ki_q24 %" PRIu32 ", kd_q8 %" PRIu16
+                 ", filter %u\n",
+                 PROBE_GAINS.kp_q8, PROBE_GAINS.ki_q24, PROBE_GAINS.kd_q8,
+                 (unsigned)PROBE_GAINS.derivative_filter);
+}
+#else
+void host_report(void)
+{
+    // nothing but its terms
+}
+#endif
