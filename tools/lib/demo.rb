@@ -14,6 +14,10 @@ require_relative 'demo/pendulum'
 require_relative 'demo/motor'
 require_relative 'demo/oven'
 require_relative 'demo/tuning'
+require_relative 'demo/thermostat'
+require_relative 'demo/loops'
+require_relative 'demo/autotune'
+require_relative 'demo/others'
 require_relative 'demo/chip'
 
 Encoding.default_external = 'UTF-8'
@@ -25,6 +29,9 @@ LOOPS = {
   'motor' => -> { motor },
   'oven' => -> { oven },
   'tuning' => -> { tuning },
+  'thermostat' => -> { thermostat },
+  'autotune' => -> { autotune },
+  'others' => -> { others },
   'chip' => -> { chip }
 }.freeze
 

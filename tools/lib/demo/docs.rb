@@ -1,33 +1,46 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'tables'
+
 # The parts of the documents that come from the demo's runs.
 module Docs
-  BEGIN_MARK = '<!-- tuning:begin -->'
-  END_MARK = '<!-- tuning:end -->'
-  PICTURES = %w[pendulum motor oven tuning chip].freeze
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune others chip]
+             .freeze
+
+  # Document, its parts between markers, and what makes each of them.
+  PARTS = {
+    'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
+                          'autotune' => :autotune },
+    'docs/behaviour.md' => { 'five' => :five, 'bumps' => :bumps,
+                             'drift' => :drift }
+  }.freeze
 
   class << self
     # True unless mode asks for a check that fails.
     def update(mode, root)
       return true if mode == 'run'
 
-      path = "#{root}/docs/tuning.md"
-      text = File.read(path)
-      renewed = with_table(text)
-      return compare(path, text, renewed) if mode == 'check-docs'
-
-      Report.replace(path, renewed)
-      copy_pictures(root)
-      true
+      stale = PARTS.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
+      copy_pictures(root) if mode == 'docs'
+      stale.none?
     end
 
     private
 
-    def compare(path, text, renewed)
-      return true if text == renewed
+    # True where a document is stale and stays so.
+    def renew(mode, path, parts)
+      text = File.read(path)
+      renewed = parts.reduce(text) do |so_far, (name, table)|
+        with_part(path, so_far, name, Tables.public_send(table))
+      end
+      return false if renewed == text
 
-      warn "demo: #{path} is stale; tools/demo --docs renews it"
+      if mode == 'check-docs'
+        warn "demo: #{path} is stale; tools/demo --docs renews it"
+        return true
+      end
+      Report.replace(path, renewed)
       false
     end
 
@@ -38,33 +51,12 @@ module Docs
       end
     end
 
-    def with_table(text)
-      head, rest = text.split(BEGIN_MARK, 2)
-      tail = rest&.split(END_MARK, 2)&.last
-      tail or raise Host::Failure, 'docs/tuning.md has lost its markers'
-      [head, BEGIN_MARK, "\n", table, END_MARK, tail].join
-    end
-
-    def table
-      rows = ['| step | KP | KI | KD | upright | base moves | ' \
-              'base reverses | swing at the end |',
-              '|---|---|---|---|---|---|---|---|']
-      rows += STAGES.map { |stage| row(stage, Report.numbers['tuning']) }
-      "#{rows.join("\n")}\n"
-    end
-
-    def row(stage, numbers)
-      upright, base, reversals, swing =
-        %w[upright_s base_m reversals swing_degrees]
-        .map { |what| numbers["#{stage.name}_#{what}"] }
-      ['', stage.steps, stage.kp, stage.ki, stage.kd,
-       upright < TUNING_S ? format('%.2f s', upright) : 'to the end',
-       format('%.2f m', base), times(reversals),
-       swing ? format('%.1f degrees', swing) : 'fallen', ''].join(' | ').strip
-    end
-
-    def times(count)
-      { 0 => 'never', 1 => 'once' }.fetch(count, "#{count} times")
+    def with_part(path, text, name, table)
+      begin_mark, end_mark = %w[begin end].map { |at| "<!-- #{name}:#{at} -->" }
+      head, rest = text.split(begin_mark, 2)
+      tail = rest&.split(end_mark, 2)&.last
+      tail or raise Host::Failure, "#{path} has lost its markers"
+      [head, begin_mark, "\n", table, end_mark, tail].join
     end
   end
 end

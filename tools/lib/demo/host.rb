@@ -84,8 +84,21 @@ module Host
       options = ['--csv', csv]
       options += ['--every', every.to_s] if every
       scenario.each { |key, value| options += ['--set', "#{key}=#{value}"] }
-      execute({}, "#{@programs}/#{program}", *options)
+      execute({}, "#{@programs}/#{program}", *options,
+              { out: "#{folder}/#{name}.txt" })
       Trace.new(csv)
+    end
+
+    # What the program of the run `name` printed.
+    def printed(name)
+      File.read("#{folder}/#{name}.txt")
+    end
+
+    # What a program prints, kept as build/demo/<name>; its path.
+    def print(program, name, *arguments)
+      path = "#{folder}/#{name}"
+      execute({}, "#{@programs}/#{program}", *arguments, { out: path })
+      path
     end
 
     private

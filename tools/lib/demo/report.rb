@@ -18,7 +18,7 @@ module Report
   @numbers = {}
 
   class << self
-    attr_reader :checks, :numbers
+    attr_reader :checks, :numbers, :loop
 
     def start(name)
       @loop = name
@@ -31,6 +31,10 @@ module Report
 
     def at_least(what, measured, limit, unit = '')
       @checks << Check.new(@loop, what, :>=, limit, measured, unit)
+    end
+
+    def exactly(what, measured, value, unit = '')
+      @checks << Check.new(@loop, what, :==, value, measured, unit)
     end
 
     # A number for the documents that is not a check by itself.

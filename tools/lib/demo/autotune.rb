@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# In the thermostat's world: the experiment at 80 C, later 100 C and the door.
+TUNE_SCENE = { seconds: 100, setpoint_at: 50, setpoint_then: 100, door_at: 75,
+               door_for: 5 }.freeze
+RELAY_HIGH_COUNTS = 306
+HOTTER_C = 100.0
+HOTTER_AT_S = 50.0
+TUNE_DOOR_S = 75.0
+TUNE_DOOR_END_S = 80.0
+TUNE_END_S = 100.0
+HOTTER_BAND_C = 0.02 * 80.0 # of what it is above the air
+RULES = { 'PI' => 'autotune_pi', 'PID' => 'autotune' }.freeze
+TUNED_OVERSHOOT = { 'PI' => 18.0, 'PID' => 4.0 }.freeze
+DONE = 2 # FIXPID_AUTOTUNE_DONE
+
+# What a plant's loop with the found gains may have: overshoot in percent of the
+# setpoint, steps until it stays within 2 %, sum of the error's magnitude.
+TUNED_LIMITS = {
+  'lag 50, dead time 3' => { 'PI' => [0.1, 124, 21_560],
+                             'PID' => [0.1, 106, 20_357] },
+  'lags 20 and 10' => { 'PI' => [0.1, 120, 12_609],
+                        'PID' => [0.1, 88, 11_213] },
+  'integrator, dead time 4' => { 'PI' => [4.4, 144, 13_543],
+                                 'PID' => [4.0, 144, 13_568] },
+  'motor, lag 25, noise 2' => { 'PI' => [0.2, 58, 23_293],
+                                'PID' => [0.2, 52, 22_567] },
+  'oven, lag 2000, dead time 40' => { 'PI' => [0.2, 1726, 424_538],
+                                      'PID' => [0.2, 1668, 421_958] }
+}.freeze
+
+def autotune
+  runs = RULES.transform_values do |program|
+    Host.run(program, program, every: 0.02, **TUNE_SCENE)
+  end
+  RULES.each { |rule, program| tell_gains(rule, Host.printed(program)) }
+  check_experiment(runs['PID'])
+  runs.each { |rule, run| check_tuned(rule, run) }
+  check_tuned_plants(Loops.table('autotune'))
+  check_failed_experiments(Loops.table('failures'))
+  draw_autotune(runs)
+end
+
+# kp_q8, ki_q24, kd_q8 and the filter, as the program printed them.
+def found_gains(text)
+  pattern = /^gains: kp_q8 (\d+), ki_q24 (\d+), kd_q8 (\d+), filter (\d+)$/
+  pattern.match(text)&.captures&.map(&:to_i) or
+    raise Host::Failure, "the autotuner's program printed no gains"
+end
+
+def tell_gains(rule, text)
+  kp, ki, kd, filter = found_gains(text)
+  gains = { 'kp' => kp / 256.0, 'ki_per_s' => ki * 10.0 / (1 << 24),
+            'kd_s' => (kd << filter) / 2560.0, 'filter' => filter }
+  gains.each { |name, value| Report.number("#{rule.downcase}_#{name}", value) }
+  puts format('      Tyreus-Luyben %<rule>s: kp %<kp>.2f, ki %<ki>.3f /s, ' \
+              'kd %<kd>.2f s, filter %<filter>d',
+              rule: rule, kp: gains['kp'], ki: gains['ki_per_s'],
+              kd: gains['kd_s'], filter: filter)
+  Report.at_least("#{rule}: gains found, kp", gains['kp'], 1.0 / 256.0)
+end
+
+# When the controller took over: the first drive that is not the relay's.
+def taken_over_s(run)
+  row = run.times.zip(run.values('drive_counts'))
+           .find { |_, drive| drive != 0.0 && drive != RELAY_HIGH_COUNTS }
+  row ? row[0] : raise(Host::Failure, 'the experiment did not end')
+end
+
+def check_experiment(run)
+  over = taken_over_s(run)
+  Report.number('experiment_s', over)
+  Report.at_most('the experiment ends after', over, 30.0, 's')
+  Report.at_most('and swings from side to side by',
+                 run.swing('temperature_c', over - 10.0, over), 15.0, 'C')
+end
+
+def check_tuned(rule, run)
+  over = taken_over_s(run)
+  hotter = run.values('temperature_c', HOTTER_AT_S, TUNE_DOOR_S)
+  Report.at_most("#{rule}: first drive, off the relay's middle by",
+                 (run.values('drive_counts', over, over + 0.05)[0] -
+                  RELAY_HIGH_COUNTS / 2).abs, 0.0, 'counts')
+  Report.at_most("#{rule}: 80 C held within 2 %, after",
+                 settled(run, over, HOTTER_AT_S), 10.0, 's')
+  Report.at_most("#{rule}: to 100 C, overshoot of the step",
+                 (hotter.max - HOTTER_C) * 5.0, TUNED_OVERSHOOT.fetch(rule),
+                 '%')
+  Report.at_most("#{rule}: 100 C within 2 % after",
+                 run.settling('temperature_c', HOTTER_C, HOTTER_BAND_C,
+                              HOTTER_AT_S, TUNE_DOOR_S), 12.0, 's')
+  Report.at_most("#{rule}: door shut, within 2 % after",
+                 run.settling('temperature_c', HOTTER_C, HOTTER_BAND_C,
+                              TUNE_DOOR_END_S, TUNE_END_S), 13.0, 's')
+end
+
+def check_tuned_plants(rows)
+  Report.number('plants', rows)
+  rows.each do |row|
+    what = "#{row['plant']}, #{row['rule']}"
+    overshoot, settled, iae = TUNED_LIMITS.fetch(row['plant'])
+                                          .fetch(row['rule'])
+    Report.exactly("#{what}: experiment's status", row['status'].to_i, DONE)
+    Report.at_most("#{what}: overshoot", row['overshoot'].to_f, overshoot, '%')
+    Report.at_most("#{what}: settles within 2 % after", row['settled'].to_i,
+                   settled, 'steps')
+    Report.at_most("#{what}: sum of errors", row['iae'].to_f.ceil, iae)
+  end
+end
+
+def check_failed_experiments(rows)
+  rows.each do |row|
+    Report.exactly("#{row['what']}: experiment's status", row['status'].to_i,
+                   row['expected'].to_i)
+    Report.exactly("#{row['what']}: result refused", row['refused'].to_i, 1)
+  end
+end
+
+TUNE_COLORS = { 'PI' => Plot::GREEN, 'PID' => Plot::BLUE }.freeze
+
+def draw_autotune(runs)
+  plot = Plot.new('autotune', 'An oven that finds its own gains, by a relay ' \
+                              'experiment from power-on',
+                  height: 620, rows: [1.5, 1.0],
+                  margins: { bottom: 0.095 })
+  autotune_temperature(plot, runs)
+  autotune_drive(plot, runs)
+  plot.draw
+end
+
+def autotune_marks(over, top, named)
+  area = "set object 1 rectangle from 0, graph 0 to #{over}, graph #{top} " \
+         "behind fillcolor '#E8E8E8' fillstyle solid noborder"
+  door = "set object 2 rectangle from #{TUNE_DOOR_S}, graph 0 to " \
+         "#{TUNE_DOOR_END_S}, graph #{top} behind fillcolor '#E8E8E8' " \
+         'fillstyle solid noborder'
+  labels = [['relay experiment', over / 2.0],
+            ['its gains', (over + HOTTER_AT_S) / 2.0],
+            ['another setpoint', (HOTTER_AT_S + TUNE_DOOR_S) / 2.0],
+            ['door open', (TUNE_DOOR_S + TUNE_DOOR_END_S) / 2.0]]
+           .map { |text, at| "set label \"#{text}\" at #{at}, graph 0.06 center" }
+  [area, door, *(named ? labels : [])]
+end
+
+def autotune_temperature(plot, runs)
+  over = taken_over_s(runs['PID'])
+  curves = [Plot.curve(runs['PI'], 'setpoint_c', 'setpoint', Plot::BLACK,
+                       style: 'dashtype 2', width: 1.2)]
+  curves += runs.map do |rule, run|
+    Plot.curve(run, 'temperature_c', "Tyreus-Luyben #{rule}", TUNE_COLORS[rule])
+  end
+  plot.panel(0, 0, curves,
+             [*autotune_marks(over, 0.86, true), 'set xrange [0:100]',
+              "set format x ''", 'set yrange [10:125]', 'set ytics 20',
+              *y_label(0, 'temperature, °C')])
+end
+
+def autotune_drive(plot, runs)
+  over = taken_over_s(runs['PID'])
+  curves = runs.map do |rule, run|
+    Plot.curve(run, "(column('drive_counts')/10.23)", rule, TUNE_COLORS[rule],
+               width: 1.2)
+  end
+  plot.panel(1, 0, curves,
+             [*autotune_marks(over, 0.83, false), 'set xrange [0:100]',
+              "set xlabel 'time, s'", 'set yrange [0:72]', 'set ytics 15',
+              *y_label(0, 'drive, %')])
+end

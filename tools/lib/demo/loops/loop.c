@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "loops.h"
+
+struct fixpid_pid_config loop_config(const struct law_gains *gains,
+                                     double setpoint_weight, double output_min,
+                                     double output_max)
+{
+    const double kd = gains->kd / (double)(1 << gains->filter);
+    return (struct fixpid_pid_config){
+        .gains = {.ki_q24 = (uint32_t)lround(gains->ki * 16777216.0),
+                  .kp_q8 = (uint16_t)lround(gains->kp * 256.0),
+                  .kd_q8 = (uint16_t)lround(kd * 256.0),
+                  .derivative_filter = (uint8_t)gains->filter},
+        .output_min = (int16_t)output_min,
+        .output_max = (int16_t)output_max,
+        .integral_min = -32767,
+        .integral_max = 32767,
+        .setpoint_weight_q8 = (uint16_t)lround(setpoint_weight * 256.0),
+    };
+}
+
+void loop_start(struct loop *self, const struct plant *plant, bool fixed,
+                enum law_without without)
+{
+    const struct fixpid_pid_config config =
+        loop_config(&plant->gains, plant->setpoint_weight, plant->output_min,
+                    plant->output_max);
+
+    self->fixed = fixed;
+    if (!fixpid_pid_init(&self->pid, &config)) {
+        (void)fprintf(stderr, "%s: refused\n", plant->name);
+        exit(EXIT_FAILURE);
+    }
+    law_init(&self->law, without, &plant->gains, plant->setpoint_weight,
+             plant->output_min, plant->output_max);
+    motion_start(&self->motion, plant);
+    self->output = 0.0;
+}
+
+void loop_step(struct loop *self, double setpoint)
+{
+    const int16_t reading = motion_read(&self->motion);
+    if (self->fixed) {
+        self->output = fixpid_pid_step(&self->pid, (int16_t)setpoint, reading);
+    } else {
+        self->output =
+            floor(law_step(&self->law, setpoint, (double)reading) + 0.5);
+    }
+    motion_move(&self->motion, self->output);
+}
+
+void loop_set_limits(struct loop *self, double output_min, double output_max)
+{
+    (void)fixpid_pid_set_limits(&self->pid, (int16_t)output_min,
+                                (int16_t)output_max);
+    law_set_limits(&self->law, output_min, output_max);
+}
+
+void loop_set_manual(struct loop *self, double output)
+{
+    fixpid_pid_set_manual(&self->pid, (int16_t)output);
+    law_set_manual(&self->law, output);
+}
+
+void loop_set_auto(struct loop *self)
+{
+    fixpid_pid_set_auto(&self->pid);
+    law_set_auto(&self->law);
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The comparisons: each prints rows of comma-separated values.
+#ifndef LOOPS_H
+#define LOOPS_H
+#include "fixpid_pid.h"
+#include "plants.h"
+
+// fixpid_pid, or what it is compared with, as one thing in a loop.
+struct loop {
+    bool fixed; // fixpid_pid; else the law
+    struct fixpid_pid pid;
+    struct law law;
+    struct motion motion;
+    double output; // counts, as last given to the plant
+};
+
+// The configuration of fixpid_pid that comes closest to real gains.
+struct fixpid_pid_config loop_config(const struct law_gains *gains,
+                                     double setpoint_weight, double output_min,
+                                     double output_max);
+
+// Both controllers of a plant's gains, its plant at rest. The actuator takes
+// whole counts, of either of them.
+void loop_start(struct loop *self, const struct plant *plant, bool fixed,
+                enum law_without without);
+
+// One step; self->motion.value is what it led to.
+void loop_step(struct loop *self, double setpoint);
+
+void loop_set_limits(struct loop *self, double output_min, double output_max);
+void loop_set_manual(struct loop *self, double output);
+void loop_set_auto(struct loop *self);
+
+void print_five(void);      // fixpid_pid against the law on five plants
+void print_agreement(void); // step by step, on the same readings
+void print_bumps(void);
+void print_drift(void);
+void print_autotune(void);
+void print_failures(void);
+
+// What happens without one feature; false where there is no such scene.
+bool print_scene(const char *name);
+
+#endif

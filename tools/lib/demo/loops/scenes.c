@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// What one missing feature does: the same scene three times, with fixpid_pid,
+// with the whole law, and with the law without the feature.
+#include <stdio.h>
+#include <string.h>
+
+#include "loops.h"
+
+struct event {
+    int step;
+    enum { SETPOINT, LIMIT, MANUAL, AUTO } what;
+    double value;
+};
+
+#define EVENTS_MAX 4
+
+struct scene {
+    const char *name;
+    enum law_without without;
+    int plant;
+    struct law_gains gains; // all 0: the plant's own
+    double setpoint_weight; // with those gains
+    int steps;
+    struct event events[EVENTS_MAX]; // the first is the setpoint at step 0
+    int event_count;
+};
+
+static const struct scene scenes[] = {
+    {.name = "windup",
+     .without = LAW_NO_ANTI_WINDUP,
+     .plant = 0,
+     .steps = 400,
+     .events = {{0, SETPOINT, 700.0}},
+     .event_count = 1},
+    {.name = "sign_blind",
+     .without = LAW_SIGN_BLIND,
+     .plant = 0,
+     .gains = {0.5, 0.02, 0.0, 0},
+     .setpoint_weight = 0.7,
+     .steps = 900,
+     .events = {{0, SETPOINT, 700.0},
+                {300, LIMIT, 100.0},
+                {600, SETPOINT, 330.0}},
+     .event_count = 3},
+    {.name = "clamped",
+     .without = LAW_INTEGRAL_CLAMPED,
+     .plant = 4,
+     .steps = 9000,
+     .events = {{0, SETPOINT, 600.0}},
+     .event_count = 1},
+    {.name = "kick",
+     .without = LAW_DERIVATIVE_ON_ERROR,
+     .plant = 1,
+     .steps = 500,
+     .events = {{0, SETPOINT, 400.0}, {300, SETPOINT, 440.0}},
+     .event_count = 2},
+    {.name = "eight_bits",
+     .without = LAW_EIGHT_FRACTIONAL_BITS,
+     .plant = 4,
+     .gains = {2.0, 0.0015, 0.0, 0},
+     .setpoint_weight = 1.0,
+     .steps = 9000,
+     .events = {{0, SETPOINT, 600.0}},
+     .event_count = 1},
+    {.name = "no_seed",
+     .without = LAW_NO_SEED,
+     .plant = 0,
+     .steps = 800,
+     .events = {{0, SETPOINT, 700.0}, {300, MANUAL, 120.0}, {450, AUTO, 0.0}},
+     .event_count = 3},
+};
+
+static void happen(struct loop *loop, const struct event *event,
+                   double *setpoint)
+{
+    switch (event->what) {
+    case SETPOINT:
+        *setpoint = event->value;
+        break;
+    case LIMIT:
+        loop_set_limits(loop, 0.0, event->value);
+        break;
+    case MANUAL:
+        loop_set_manual(loop, event->value);
+        break;
+    default:
+        loop_set_auto(loop);
+        break;
+    }
+}
+
+static void print_steps(const struct scene *scene, const struct plant *plant)
+{
+    struct loop loops[3];
+    double setpoint = 0.0;
+
+    loop_start(&loops[0], plant, true, LAW_WHOLE);
+    loop_start(&loops[1], plant, false, LAW_WHOLE);
+    loop_start(&loops[2], plant, false, scene->without);
+    (void)printf("step,setpoint,fixpid,fixpid_output,law,law_output,"
+                 "without,without_output\n");
+    for (int step = 0; step < scene->steps; step++) {
+        (void)printf("%d", step);
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < scene->event_count; j++) {
+                if (scene->events[j].step == step) {
+                    happen(&loops[i], &scene->events[j], &setpoint);
+                }
+            }
+            if (i == 0) {
+                (void)printf(",%g", setpoint);
+            }
+            loop_step(&loops[i], setpoint);
+            (void)printf(",%.9g,%g", loops[i].motion.value, loops[i].output);
+        }
+        (void)printf("\n");
+    }
+}
+
+bool print_scene(const char *name)
+{
+    for (size_t i = 0; i < sizeof(scenes) / sizeof(scenes[0]); i++) {
+        if (strcmp(scenes[i].name, name) == 0) {
+            struct plant plant = plants[scenes[i].plant];
+            if (scenes[i].gains.kp > 0.0) {
+                plant.gains = scenes[i].gains;
+                plant.setpoint_weight = scenes[i].setpoint_weight;
+            }
+            print_steps(&scenes[i], &plant);
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# The tables of the documents, from the numbers that the loops reported.
+module Tables
+  class << self
+    def tuning
+      table('step', 'KP', 'KI', 'KD', 'upright', 'base moves', 'base reverses',
+            'swing at the end',
+            STAGES.map { |stage| stage_row(stage, Report.numbers['tuning']) })
+    end
+
+    def found_gains
+      table('rule', 'kp', 'ki, 1 / s', 'kd, s', 'derivative filter',
+            RULES.keys.map do |rule|
+              kp, ki, kd, filter = %w[kp ki_per_s kd_s filter].map do |name|
+                Report.numbers['autotune']["#{rule.downcase}_#{name}"]
+              end
+              ["Tyreus-Luyben #{rule}", format('%.3f', kp), format('%.4f', ki),
+               format('%.3f', kd), filter]
+            end)
+    end
+
+    def autotune
+      rows = Report.numbers['autotune']['plants'].map do |row|
+        [row['plant'], row['steps'], row['rule'], format('%.3f', row['kp']),
+         format('%.5f', row['ki']), format('%.2f', row['kd']),
+         format('%.1f %%', row['overshoot']), row['settled']]
+      end
+      table('plant', 'steps of the experiment', 'rule', 'kp', 'ki per step',
+            'kd', 'overshoot', 'settled after', rows)
+    end
+
+    def five
+      numbers = Report.numbers['others']
+      rows = LOOP_LIMITS.keys.flat_map do |plant|
+        numbers[plant].map { |row| loop_row(row) }
+      end
+      table('plant', 'controller', 'overshoot', 'settled after',
+            'sum of errors', 'and after the large setpoint', rows)
+    end
+
+    def bumps
+      rows = Report.numbers['others']['bumps']
+                   .select { |row| BUMP_LIMITS.key?(row['event']) }
+                   .map { |row| row.values_at('event', 'before', 'first', 'largest') }
+      table('event', 'output before', 'first after', 'largest step of 20', rows)
+    end
+
+    def drift
+      rows = Report.numbers['others']['drift'].map do |row|
+        there, exact, back = %w[after_q16 exact_q16 back_q16]
+                             .map { |name| row[name].to_i / 65_536.0 }
+        [row['ki_q24'], row['error'], format('%.4f', there),
+         format('%.4f', exact), format('%.4f', back)]
+      end
+      table('ki, 1/2^24', 'error', 'integral after 10^6 steps', 'exact',
+            'and after as many back', rows)
+    end
+
+    private
+
+    def table(*head, rows)
+      lines = [head, head.map { '---' }, *rows]
+      lines.map { |row| "| #{row.join(' | ')} |\n" }.join
+           .gsub(/^\| ---.*/) { |line| line.delete(' ') }
+    end
+
+    def loop_row(row)
+      name = row['controller']
+      shown = { 'fixpid_pid' => '`fixpid_pid`', 'law' => 'double precision' }
+              .fetch(name, "double, #{name}")
+      [row['plant'], shown, format('%.1f %%', row['overshoot']),
+       row['settled'], row['iae'].to_f.round, row['iae_after'].to_f.round]
+    end
+
+    def stage_row(stage, numbers)
+      upright, base, reversals, swing =
+        %w[upright_s base_m reversals swing_degrees]
+        .map { |what| numbers["#{stage.name}_#{what}"] }
+      [stage.steps, stage.kp, stage.ki, stage.kd,
+       upright < TUNING_S ? format('%.2f s', upright) : 'to the end',
+       format('%.2f m', base), times(reversals),
+       swing ? format('%.1f degrees', swing) : 'fallen']
+    end
+
+    def times(count)
+      { 0 => 'never', 1 => 'once' }.fetch(count, "#{count} times")
+    end
+  end
+end

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# The scenario of port/host/world_thermostat.c, in seconds.
+Stretch = Struct.new(:from, :to, :title)
+
+MANUAL = Stretch.new(20.0, 35.0, 'manual, 10 %')
+LOW_POWER = Stretch.new(55.0, 70.0, 'limit 12.5 %')
+DOOR = Stretch.new(90.0, 95.0, 'door open')
+THERMOSTAT_END_S = 110.0
+KEEP_WARM = 102
+LOW_LIMIT = 127
+SEEN_S = 0.35 # a turn of the selector counts when it is read twice
+
+def thermostat
+  run = Host.run('thermostat', 'thermostat', every: 0.02)
+  check_warming(run)
+  check_manual(run)
+  check_low_power(run)
+  check_door(run)
+  check_thermostat_integration(run)
+  draw_thermostat(run)
+end
+
+def settled(run, from, to)
+  run.settling('temperature_c', OVEN_SET_C, BAND_C, from, to)
+end
+
+def overshoot_percent(run, from, to)
+  (run.values('temperature_c', from, to).max - OVEN_SET_C) * 100.0 / OVEN_STEP_C
+end
+
+def check_warming(run)
+  Report.at_most('from cold: overshoot',
+                 overshoot_percent(run, 0.0, MANUAL.from), 0.5, '%')
+  Report.at_most('from cold: settles within 2 % after',
+                 settled(run, 0.0, MANUAL.from), 6.0, 's')
+  Report.at_most('from cold: remaining offset',
+                 (OVEN_SET_C - run.mean('temperature_c', 15.0, 20.0)).abs, 0.1,
+                 'C')
+end
+
+# The drive may go on from the error alone: in a period of 0.1 s, ki times it.
+def check_manual(run)
+  by_hand = run.values('drive_counts', MANUAL.from + SEEN_S, MANUAL.to)
+  Report.at_most('manual: the drive leaves its 10 % by',
+                 by_hand.map { |v| (v - KEEP_WARM).abs }.max, 0.0, 'counts')
+  Report.at_least('manual: the temperature falls by',
+                  OVEN_SET_C - run.values('temperature_c', MANUAL.from,
+                                          MANUAL.to).last, 15.0, 'C')
+  Report.at_most('back to automatic: largest step of the drive in 1 s',
+                 largest_step(run, 'drive_counts', MANUAL.to, MANUAL.to + 1.0),
+                 0.025 * 1023.0, 'counts')
+  Report.at_most('back to automatic: overshoot',
+                 overshoot_percent(run, MANUAL.to, LOW_POWER.from), 0.5, '%')
+  Report.at_most('back to automatic: settles within 2 % after',
+                 settled(run, MANUAL.to, LOW_POWER.from), 10.0, 's')
+end
+
+def largest_step(run, column, from, to)
+  run.values(column, from, to).each_cons(2).map { |a, b| (b - a).abs }.max
+end
+
+def check_low_power(run)
+  limited = run.values('drive_counts', LOW_POWER.from + SEEN_S, LOW_POWER.to)
+  Report.at_most('limit lowered: the drive, at once', limited.max,
+                 LOW_LIMIT, 'counts')
+  Report.at_least('limit lowered: the temperature falls by',
+                  OVEN_SET_C - run.values('temperature_c', LOW_POWER.from,
+                                          LOW_POWER.to).last, 5.0, 'C')
+  Report.at_most('limit raised: overshoot',
+                 overshoot_percent(run, LOW_POWER.to, DOOR.from), 5.0, '%')
+  Report.at_most('limit raised: settles within 2 % after',
+                 settled(run, LOW_POWER.to, DOOR.from), 7.0, 's')
+end
+
+def check_door(run)
+  low = run.values('temperature_c', DOOR.from, THERMOSTAT_END_S).min
+  Report.number('door_dip_c', OVEN_SET_C - low)
+  Report.at_most('door open: the temperature falls by', OVEN_SET_C - low, 10.0,
+                 'C')
+  Report.at_most('door shut: settles within 2 % after',
+                 settled(run, DOOR.to, THERMOSTAT_END_S), 7.0, 's')
+end
+
+def check_thermostat_integration(run)
+  half = Host.run('thermostat', 'thermostat-half_step', every: 0.02,
+                                                        plant_step: 0.5e-3)
+  Report.at_most('half the integrator\'s step changes the temperature by',
+                 largest_difference(run, half, 'temperature_c'), 0.001, 'C')
+end
+
+def draw_thermostat(run)
+  plot = Plot.new('thermostat', 'A thermostat: from cold, by hand, on less ' \
+                                'power, with the door open',
+                  height: 760, rows: [1.5, 1.1, 1.1])
+  thermostat_temperature(plot, run)
+  thermostat_terms(plot, run)
+  thermostat_drive(plot, run)
+  plot.draw
+end
+
+# What the person does, as grey stretches; named in the topmost panel.
+def stretches(top, named: false)
+  [MANUAL, LOW_POWER, DOOR].each_with_index.flat_map do |stretch, i|
+    area = "set object #{i + 1} rectangle from #{stretch.from}, graph 0 to " \
+           "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
+           'solid noborder'
+    middle = (stretch.from + stretch.to) / 2.0
+    label = "set label \"#{stretch.title}\" at #{middle}, graph 0.06 center " \
+            "font ',10'"
+    named ? [area, label] : [area]
+  end
+end
+
+def thermostat_temperature(plot, run)
+  plot.panel(0, 0,
+             [Plot.curve(run, 'setpoint_c', 'setpoint', Plot::BLACK,
+                         style: 'dashtype 2', width: 1.2),
+              Plot.curve(run, 'temperature_c', 'temperature', Plot::BLUE)],
+             [*stretches(0.85, named: true), 'set xrange [0:110]', "set format x ''",
+              'set yrange [10:115]', 'set ytics 20', *y_label(0, 'temperature, °C')])
+end
+
+def thermostat_terms(plot, run)
+  curves = [['proportional', 'P', Plot::BLUE], ['integral', 'I', Plot::RED],
+            ['derivative', 'D', Plot::GREEN]].map do |name, title, color|
+    Plot.curve(run, name, title, color, width: 1.2)
+  end
+  plot.panel(1, 0, curves,
+             [*stretches(0.84), 'set xrange [0:110]', "set format x ''",
+              'set yrange [-750:1150]', 'set ytics 500',
+              *y_label(0, 'terms, duty counts')])
+end
+
+def thermostat_drive(plot, run)
+  limit = "(column('selector') == 3 ? 12.5 : 100)"
+  plot.panel(2, 0,
+             [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
+                         Plot::PURPLE, width: 1.2),
+              Plot.curve(run, limit, 'limit', Plot::GREY, style: 'dashtype 3',
+                                                          width: 1.2)],
+             [*stretches(0.77), 'set xrange [0:110]', "set xlabel 'time, s'",
+              'set yrange [0:130]', 'set ytics 25', *y_label(0, 'drive, %')])
+end
