@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board of the motor and the oven: PWM on CCP1 (RC2), the direction on RC0.
+// The board of the motor and ovens: PWM on CCP1 (RC2), the direction on RC0.
 #include "board.hh"
 
 #include "port_board.h"
