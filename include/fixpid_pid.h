@@ -70,7 +70,7 @@ FIXPID_C_BEGIN
 #define FIXPID_PID_FOLDED(value) ((uint32_t)((value) + 0.5))
 #define FIXPID_PID_KI_Q24(ki, rate) ((ki)*16777216.0 / (rate))
 #define FIXPID_PID_KD_Q8(kd, rate, filter)                                     \
-    ((kd)*256.0 * (rate) / (1 << ((filter)&7)))
+    ((kd)*256.0 * (rate) / (1u << ((filter)&7u)))
 
 struct fixpid_pid_gains {
     // Integral gain per step x 2^24; 0..0x7FFF0000. Above 32767 it is kept to
