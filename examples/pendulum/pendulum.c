@@ -28,7 +28,7 @@ static uint8_t drift_counts(void)
 {
     uint8_t eighths = (uint8_t)((uint8_t)drift_offset + 128u);
 
-    if (eighths < 128u) {
+    if ((eighths & 128u) == 0u) {
         eighths += 7u; // at most 127 + 7
     }
     return (uint8_t)(eighths >> 3);
@@ -60,7 +60,7 @@ static void balance(int16_t conversion)
 {
     const uint8_t drift = drift_counts();
     const int16_t error =
-        (int16_t)(conversion + drift - (UPRIGHT_COUNTS + NO_DRIFT));
+        (int16_t)(conversion + (int16_t)drift - (UPRIGHT_COUNTS + NO_DRIFT));
     const int16_t output = fixpid_an964_step(&pendulum, error);
     port_drive(output);
     follow_drift(output);

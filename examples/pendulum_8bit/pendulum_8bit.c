@@ -30,7 +30,7 @@ static uint8_t drift_counts(void)
 {
     uint8_t eighths = (uint8_t)((uint8_t)drift_offset + 128u);
 
-    if (eighths < 128u) {
+    if ((eighths & 128u) == 0u) {
         eighths += 7u; // at most 127 + 7
     }
     return (uint8_t)(eighths >> 3);
@@ -62,7 +62,7 @@ static void stop(void)
 // Subtracting 128 is the note's "add 128 and ignore the carry".
 static int8_t error_byte(int16_t conversion)
 {
-    int16_t counts = (int16_t)(conversion - NO_DRIFT + drift_counts());
+    int16_t counts = (int16_t)(conversion + (int16_t)drift_counts() - NO_DRIFT);
     if (counts < 0) {
         counts = 0;
     }

@@ -2,7 +2,8 @@
 // What differs between the compilers of a PIC: SDCC, XC8, and any other, which
 // stands in for them where the ports are only checked, not run.
 //
-// PORT_REGISTER declares a special function register. XC8 has its own; SDCC
+// PORT_REGISTER declares a special function register, PORT_BITS one of them by
+// its bits: SDCC tests a volatile bit in place only so. XC8 has its own; SDCC
 // wants each of them defined once, in support/registers.c, which says
 // PORT_REGISTERS_HERE. PORT_BYTE defines a byte that an interrupt reaches
 // without choosing a bank: in bank 0 of a PIC16, in the access bank of a PIC18;
@@ -15,8 +16,10 @@
 #if defined(__SDCC)
 #if defined(PORT_REGISTERS_HERE)
 #define PORT_REGISTER(address, name) __sfr __at(address) name
+#define PORT_BITS(address, type, name) volatile type __at(address) name
 #else
 #define PORT_REGISTER(address, name) extern __sfr __at(address) name
+#define PORT_BITS(address, type, name) extern volatile type __at(address) name
 #endif
 #define PORT_CLEAR_WATCHDOG() __asm__("clrwdt")
 #if defined(__SDCC_pic14)
@@ -33,6 +36,7 @@
 #include <xc.h>
 // Declares nothing: <xc.h> has the register at the same name.
 #define PORT_REGISTER(address, name) struct port_register_of_xc_h
+#define PORT_BITS(address, type, name) struct port_register_of_xc_h
 #define PORT_CLEAR_WATCHDOG() CLRWDT()
 #define PORT_BYTE(address, name) static volatile __near uint8_t name
 #if defined(_PIC18)
@@ -43,6 +47,7 @@
 
 #else
 #define PORT_REGISTER(address, name) extern volatile uint8_t name
+#define PORT_BITS(address, type, name) extern volatile type name
 #define PORT_AT(address)
 #define PORT_BYTE(address, name) static volatile uint8_t name
 #define PORT_CLEAR_WATCHDOG() ((void)0)

@@ -16,7 +16,7 @@ static void drive_off(void)
 static void wait_for_end_of_period(void)
 {
     PIR1 &= (uint8_t)~PIR1_TMR2IF;
-    while ((PIR1 & PIR1_TMR2IF) == 0u) {
+    while (PIR1bits.TMR2IF == 0u) {
     }
 }
 

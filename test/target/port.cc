@@ -62,22 +62,23 @@ const Board pic16f684 = {
     "portc4", // P1B
     0x3C};
 
-const Board pic18f4520 = {8,
-                          0xFF2,
-                          {0xFA1, 0x01},
-                          10000,
-                          8,
-                          18,
-                          {{0x01, "porta0"}, {0x05, "porta1"}, {0x09, "porta2"}},
-                          0xFBE,
-                          0xFBD,
-                          0xF94,
-                          {0xF8B, 0x01},
-                          1023,
-                          256,
-                          "portc2", // CCP1
-                          "portc2",
-                          0x05};
+const Board pic18f4520 = {
+    8,
+    0xFF2,
+    {0xFA1, 0x01},
+    10000,
+    8,
+    18,
+    {{0x01, "porta0"}, {0x05, "porta1"}, {0x09, "porta2"}},
+    0xFBE,
+    0xFBD,
+    0xF94,
+    {0xF8B, 0x01},
+    1023,
+    256,
+    "portc2", // CCP1
+    "portc2",
+    0x05};
 
 class Port
 {

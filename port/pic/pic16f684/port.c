@@ -120,7 +120,7 @@ uint16_t port_read(uint8_t channel)
     while (TMR0 == 0u) {
     }
     ADCON0 |= ADCON0_GO;
-    while ((ADCON0 & ADCON0_GO) != 0u) {
+    while (ADCON0bits.GO != 0u) {
     }
     const uint8_t low = ADRESL;
     return (uint16_t)(((uint16_t)ADRESH << 8) | low);

@@ -30,6 +30,18 @@ PORT_REGISTER(0x92, PR2);
 PORT_REGISTER(0x9E, ADRESL);
 PORT_REGISTER(0x9F, ADCON1);
 
+struct port_pir1 {
+    unsigned int : 1;
+    unsigned int TMR2IF : 1;
+};
+PORT_BITS(0x0C, struct port_pir1, PIR1bits);
+
+struct port_adcon0 {
+    unsigned int : 1;
+    unsigned int GO : 1;
+};
+PORT_BITS(0x1F, struct port_adcon0, ADCON0bits);
+
 #define PIR1_TMR1IF 0x01u
 #define PIR1_TMR2IF 0x02u
 #define ADCON0_GO 0x02u

@@ -132,7 +132,7 @@ void port_init(void)
     init_tick();
 }
 
-bool port_running(void)
+bool port_running(void) // Deviation 5.5: a constant on a PIC16
 {
     return true;
 }
@@ -141,7 +141,7 @@ uint16_t port_read(uint8_t channel)
 {
     ADCON0 = channel;
     ADCON0 |= ADCON0_GO;
-    while ((ADCON0 & ADCON0_GO) != 0u) {
+    while (ADCON0bits.GO != 0u) {
     }
     return (uint16_t)((uint16_t)((uint16_t)ADRESH << 8) | ADRESL);
 }

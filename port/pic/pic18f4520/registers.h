@@ -36,6 +36,18 @@ PORT_REGISTER(0xFCD, T1CON);
 PORT_REGISTER(0xFD0, RCON);
 PORT_REGISTER(0xFF2, INTCON);
 
+struct port_pir1 {
+    unsigned int : 1;
+    unsigned int TMR2IF : 1;
+};
+PORT_BITS(0xF9E, struct port_pir1, PIR1bits);
+
+struct port_adcon0 {
+    unsigned int : 1;
+    unsigned int GO : 1;
+};
+PORT_BITS(0xFC2, struct port_adcon0, ADCON0bits);
+
 #define PIR1_TMR2IF 0x02u
 #define PIR2_CCP2IF 0x01u
 #define ADCON0_GO 0x02u

@@ -13,6 +13,15 @@ extern volatile unsigned char ADCON0, ADCON1, ADRESH, ADRESL;
 extern volatile unsigned char CCP1CON, CCPR1L, INTCON, PIR1, PR2, T2CON;
 extern volatile unsigned char T1CON, TRISA, TRISC;
 
+extern volatile struct {
+    unsigned : 1;
+    unsigned TMR2IF : 1;
+} PIR1bits;
+extern volatile struct {
+    unsigned : 1;
+    unsigned GO : 1;
+} ADCON0bits;
+
 #if defined(_16F684)
 extern volatile unsigned char ANSEL, CMCON0, OPTION_REG, OSCCON, PIE1;
 extern volatile unsigned char PORTA, PORTC, TMR0, TMR1H, TMR1L, WDTCON;
