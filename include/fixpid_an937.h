@@ -53,26 +53,48 @@ struct fixpid_an937_config {
     uint8_t derivative_period_ticks;
 };
 
-// Private: open only so that the application can allocate it.
+// Private, like all down to the flags: open only so that the application can
+// allocate it. A signed number of 17 bits in one of two forms, as suits the
+// chip.
+union fixpid_an937_number {
+    int32_t value;
+    struct {
+        uint16_t magnitude;
+        uint8_t negative;
+    } parts;
+};
+
+#if defined(__SDCC_pic16) && defined(FIXPID_AN937_OBJECT)
+#if !defined(FIXPID_PRODUCT) || (FIXPID_PRODUCT != 4)
+#define FIXPID_AN937_ROOM
+#endif
+#endif
+
 struct fixpid_an937 {
+    // Each gain is followed by what it multiplies: the kernel relies on it.
     uint8_t kp_q4;
+    union fixpid_an937_number error; // AN937 error
     uint8_t ki_q4;
+    union fixpid_an937_number accumulated_error; // AN937 a_error
     uint8_t kd_q4;
+    union fixpid_an937_number delta; // AN937 d_error
     uint8_t derivative_period_ticks;
+    uint8_t derivative_countdown;
     uint16_t accumulated_error_limit; // 0: refused, gains are 0
+    uint16_t previous_level;          // AN937 p_error, as a level
     volatile uint8_t tick_pending;
     volatile uint8_t tick_overrun;
-    uint8_t derivative_countdown;
     uint8_t step_flags;
-    // Signed 17-bit values as magnitude and sign; a sign may stand by a zero.
-    uint16_t error_magnitude;       // AN937 error
-    uint16_t accumulated_magnitude; // AN937 a_error
-    uint16_t delta_magnitude;       // AN937 d_error
-    int16_t previous_error;         // AN937 p_error
-    uint8_t error_negative;
-    uint8_t accumulated_negative;
-    uint8_t delta_negative;
-    uint8_t sum_negative;
+#ifdef FIXPID_AN937_ROOM // where SDCC puts a product together
+    union {
+        int32_t all;
+        struct {
+            uint8_t lowest;
+            uint16_t middle;
+            uint8_t highest; // always 0
+        } bytes;
+    } room;
+#endif
 };
 
 // Bits of fixpid_an937_flags. The first two describe the last step: the value
@@ -95,13 +117,16 @@ struct fixpid_an937 {
 #define FIXPID_AN937_D_ERR_Z 0x04u // status2: delta is zero
 
 // Object mode, for firmware with one controller: compile the application and
-// fixpid_an937.c with -DFIXPID_AN937_OBJECT=name, and define that object at
-// file scope, not static. Calls stay as they are; the pointer is ignored.
-// FIXPID_AN937_PLACE may put it at an address (PIC18 access RAM: __at(0x20)).
-#ifdef FIXPID_AN937_OBJECT
+// the sources of fixpid_an937 with -DFIXPID_AN937_OBJECT=name, and define that
+// object at file scope, not static. Calls stay as they are; the pointer is
+// ignored. FIXPID_AN937_PLACE, in the definition, too, puts it at an address:
+// in a PIC18's access RAM a step is a little faster. The application then says
+// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`, and each file is
+// compiled with -DFIXPID_AN937_PLACE='__at(0x20)'.
 #ifndef FIXPID_AN937_PLACE
 #define FIXPID_AN937_PLACE
 #endif
+#ifdef FIXPID_AN937_OBJECT
 extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
 #endif
 

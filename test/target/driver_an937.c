@@ -6,7 +6,7 @@
 #define ANSWER an937_exchange.answer
 
 // In object mode the library is built for the object of this name.
-FIXPID_DATA struct fixpid_an937 an937_controller;
+FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE an937_controller;
 
 union an937_exchange an937_exchange;
 

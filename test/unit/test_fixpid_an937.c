@@ -2,10 +2,13 @@
 #include "fixpid_an937.h"
 #include "numbers.h"
 #include "reference.h"
+#include "straight_an937.h"
 #include "unity.h"
 #include "vectors.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
+TEST_SOURCE_FILE("src/fixpid_an937_access.c")
+TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
@@ -386,6 +389,46 @@ void test_step_random_runs_match_the_reference(void)
     }
 }
 
+// The form that tools/cost compares with does the same work.
+void test_step_random_runs_match_the_straightforward_form(void)
+{
+    struct straight_an937 straight;
+
+    for (uint32_t i = 0; i < TEST_RANDOM_STEPS / 4; i++) {
+        const struct fixpid_an937_config config = {
+            (uint8_t)numbers_next(), (uint8_t)numbers_next(),
+            (uint8_t)numbers_next(), (uint16_t)(1 + numbers_below(65535)),
+            (uint8_t)(1 + numbers_below(5))};
+        const int16_t error = numbers_int16();
+
+        if (i % 50 == 0) {
+            fixpid_an937_init(&an937_controller, &config);
+            straight_an937_init(&straight, &config);
+        }
+        for (uint32_t ticks = numbers_below(4); ticks > 1; ticks--) {
+            fixpid_an937_tick(&an937_controller);
+            straight_an937_tick(&straight);
+        }
+        TEST_ASSERT_EQUAL_INT32(straight_an937_step(&straight, error),
+                                fixpid_an937_step(&an937_controller, error));
+        TEST_ASSERT_EQUAL_INT32(
+            straight.accumulated_error,
+            fixpid_an937_accumulated_error(&an937_controller));
+        TEST_ASSERT_EQUAL_INT32(straight.config.kd_q4 * straight.delta,
+                                fixpid_an937_derivative(&an937_controller));
+        TEST_ASSERT_EQUAL_HEX8(
+            (straight.sum_saturated ? FIXPID_AN937_SUM_SATURATED : 0) |
+                (straight.accumulated_error_limited
+                     ? FIXPID_AN937_ACCUMULATED_ERROR_LIMITED
+                     : 0) |
+                (straight.tick_overrun ? FIXPID_AN937_TICK_OVERRUN : 0),
+            fixpid_an937_flags(&an937_controller));
+        TEST_ASSERT_EQUAL(straight.sum >= 0,
+                          (fixpid_an937_status(&an937_controller) &
+                           FIXPID_AN937_PID_SIGN) != 0u);
+    }
+}
+
 void test_set_gains_at_every_step_matches_the_reference(void)
 {
     for (unsigned i = 0; i < 2000; i++) {
@@ -565,6 +608,16 @@ void test_clear_flags_clears_those_of_the_last_step(void)
     tick_and_step(4001);
     fixpid_an937_clear_flags(&an937_controller);
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_flags(&an937_controller));
+}
+
+void test_clear_flags_leaves_the_status_alone(void)
+{
+    tick_and_step(-4001);
+    fixpid_an937_clear_flags(&an937_controller);
+    TEST_ASSERT_EQUAL_HEX8(reference_an937_status(&reference),
+                           fixpid_an937_status(&an937_controller));
+    TEST_ASSERT_BITS_LOW(FIXPID_AN937_PID_SIGN,
+                         fixpid_an937_status(&an937_controller));
 }
 
 void test_status_derivative_sign_is_that_of_the_term(void)

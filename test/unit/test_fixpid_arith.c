@@ -2,8 +2,12 @@
 // Every form of the leaves, over its whole domain or, with 16 x 16 bits and
 // more, over every value of one operand.
 #include "fixpid_arith.h"
+#include "fixpid_kernel_pic18.h"
 #include "numbers.h"
+#include "reference.h"
 #include "unity.h"
+
+TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
 
 #ifndef TEST_STRIDE
 #define TEST_STRIDE 1 // 1 walks a whole domain
@@ -82,24 +86,216 @@ void test_scaled_product_of_8bit_terms_whole_domain(void)
     WALK_SCALED(127u, 127u, 0u, 5u, 2u, uint16_t);
 }
 
-void test_gain_product_whole_domain(void)
+union number {
+    int32_t value;
+    struct {
+        uint16_t magnitude;
+        uint8_t negative;
+    } parts;
+};
+
+// Every form of the sum after one product, and after another one of the
+// opposite sign. A product of 0 may have either sign.
+static uint32_t wrong_sums(uint8_t gain, uint16_t magnitude, uint8_t negative)
+{
+    const int32_t product = (int32_t)gain * magnitude;
+    const int32_t expected = negative != 0u ? -product : product;
+    const union number value = {.value = expected};
+    const union number one = {.value = negative != 0u ? -1 : 1};
+    const union number parts = {.parts = {magnitude, negative}};
+    const union number opposite = {
+        .parts = {magnitude, (uint8_t)(negative ^ 1u)}};
+    uint32_t wrong = 0;
+    int32_t sum;
+
+    FIXPID_VALUE_START(sum, 1, value, none);
+    wrong += sum != expected;
+    FIXPID_VALUE_ADD_PRODUCT(sum, gain, one, none);
+    wrong += sum != expected + (negative != 0u ? -gain : gain);
+    FIXPID_PARTS_START(sum, gain, parts, none);
+    wrong += sum != expected;
+    sum = -5 * expected;
+    FIXPID_PARTS_ADD_PRODUCT(sum, gain, opposite, none);
+    wrong += sum != -6 * expected;
+    FIXPID_KERNEL_START(sum, gain, parts, none);
+    wrong += sum != expected;
+    sum = -5 * expected;
+    FIXPID_KERNEL_ADD_PRODUCT(sum, gain, opposite, none);
+    return wrong + (sum != -6 * expected);
+}
+
+void test_sum_of_products_whole_domain(void)
 {
     uint32_t wrong = 0;
 
-    for (uint32_t gain_value = 0; gain_value <= 255u; gain_value++) {
-        for (uint32_t magnitude_value = 0; magnitude_value <= 65535u;
-             magnitude_value += TEST_STRIDE) {
-            const uint8_t gain = (uint8_t)gain_value;
-            const uint16_t magnitude = (uint16_t)magnitude_value;
-            uint32_t result;
-
-            FIXPID_GAIN_MULTIPLY(result, gain, magnitude);
-            wrong += result != (uint64_t)gain_value * magnitude_value;
-            FIXPID_GAIN_BYTES(result, gain, magnitude);
-            wrong += result != (uint64_t)gain_value * magnitude_value;
+    for (uint32_t gain = 0; gain <= 255u; gain++) {
+        for (uint32_t magnitude = 0; magnitude <= 65535u;
+             magnitude += TEST_STRIDE) {
+            wrong += wrong_sums((uint8_t)gain, (uint16_t)magnitude,
+                                (uint8_t)(magnitude & 1u));
         }
     }
     TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_sum_of_values_whole_rows(void)
+{
+    for (int32_t number = -65535; number <= 65535; number++) {
+        const union number value = {.value = number};
+        const uint8_t gain = (uint8_t)number;
+        int32_t sum;
+
+        FIXPID_VALUE_START(sum, gain, value, none);
+        TEST_ASSERT_EQUAL_INT32(gain * number, sum);
+        sum = 1000;
+        FIXPID_VALUE_ADD_PRODUCT(sum, gain, value, none);
+        TEST_ASSERT_EQUAL_INT32(1000 + gain * number, sum);
+    }
+}
+
+static void check_sixteenth(int64_t total)
+{
+    const int64_t most = 0xFFFFFF;
+    const int64_t limited = reference_clamp(total, -most, most);
+    const uint8_t others = 0x12; // bits that must stay
+    const uint8_t expected =
+        (uint8_t)(others | (total < 0 ? FIXPID_SUM_NEGATIVE : 0u) |
+                  (total != limited ? FIXPID_SUM_SATURATED : 0u));
+    int32_t sum = (int32_t)total, kernel_sum = (int32_t)total;
+    uint8_t flags = others, kernel_flags = others;
+
+    FIXPID_LIMITED_SIXTEENTH(sum, flags);
+    FIXPID_KERNEL_SIXTEENTH(kernel_sum, kernel_flags);
+    if (sum != limited / 16 || flags != expected || kernel_sum != sum ||
+        kernel_flags != expected) {
+        TEST_ASSERT_EQUAL_INT64(limited / 16, sum);
+        TEST_ASSERT_EQUAL_INT32(sum, kernel_sum);
+        TEST_ASSERT_EQUAL_HEX8(expected, flags);
+        TEST_ASSERT_EQUAL_HEX8(expected, kernel_flags);
+    }
+}
+
+void test_sixteenth_of_a_sum_all_over_and_densely_at_its_limits(void)
+{
+    static const int32_t places[] = {0, 0x1000000, 0x2000000, 0x3FE0000};
+
+    for (int32_t total = -0x4000000; total <= 0x4000000; total += 1009) {
+        check_sixteenth(total);
+    }
+    for (unsigned place = 0; place < 4; place++) {
+        for (int32_t near = -40000; near <= 40000; near++) {
+            check_sixteenth(places[place] + near);
+            check_sixteenth(-places[place] + near);
+        }
+    }
+}
+
+// A number in both forms.
+struct both {
+    union number value;
+    union number parts;
+};
+
+static void check_both(int64_t expected, const struct both *numbers)
+{
+    const int32_t parts = FIXPID_PARTS_GET(numbers->parts);
+    const int32_t value = FIXPID_VALUE_GET(numbers->value);
+
+    if (parts != expected || value != expected ||
+        numbers->parts.parts.negative > 1u) {
+        TEST_ASSERT_EQUAL_INT64(expected, value);
+        TEST_ASSERT_EQUAL_INT64(expected, parts);
+        TEST_ASSERT_LESS_OR_EQUAL_UINT8(1, numbers->parts.parts.negative);
+    }
+}
+
+void test_number_set_and_clear_every_error(void)
+{
+    for (int32_t error = INT16_MIN; error <= INT16_MAX; error++) {
+        struct both numbers = {.value = {.value = 7}};
+        const int16_t from = (int16_t)error;
+
+        FIXPID_VALUE_SET(numbers.value, from);
+        FIXPID_PARTS_SET(numbers.parts, from);
+        check_both(error, &numbers);
+        FIXPID_VALUE_CLEAR(numbers.value);
+        FIXPID_PARTS_CLEAR(numbers.parts);
+        check_both(0, &numbers);
+        TEST_ASSERT_EQUAL_UINT8(0, numbers.parts.parts.negative);
+    }
+}
+
+static void check_difference(int16_t left, int16_t right)
+{
+    const uint16_t left_level = FIXPID_LEVEL(left);
+    const uint16_t right_level = FIXPID_LEVEL(right);
+    struct both numbers = {.parts = {.parts = {77, 1}}};
+
+    FIXPID_VALUE_DIFFERENCE(numbers.value, left_level, right_level);
+    FIXPID_PARTS_DIFFERENCE(numbers.parts, left_level, right_level);
+    check_both((int64_t)left - right, &numbers);
+}
+
+void test_number_difference_whole_rows_and_columns(void)
+{
+    for (unsigned i = 0; i < NASTY_COUNT; i++) {
+        for (int32_t other = INT16_MIN; other <= INT16_MAX; other++) {
+            check_difference(nasty[i], (int16_t)other);
+            check_difference((int16_t)other, nasty[i]);
+        }
+    }
+}
+
+// `minus_zero` gives a 0 the sign that an earlier sum may have left.
+static void check_add(int32_t number, int16_t addend, uint16_t limit,
+                      bool minus_zero)
+{
+    const int64_t sum = (int64_t)number + addend;
+    const int64_t expected = reference_clamp(sum, -(int64_t)limit, limit);
+    const bool negative = number < 0 || (number == 0 && minus_zero);
+    struct both numbers = {
+        .value = {.value = number},
+        .parts = {.parts = {(uint16_t)(negative ? -number : number),
+                            negative ? 1 : 0}}};
+    union number other_value, other_parts;
+    uint8_t value_flags = 8, parts_flags = 8;
+
+    FIXPID_VALUE_SET(other_value, addend);
+    FIXPID_PARTS_SET(other_parts, addend);
+    FIXPID_VALUE_ADD(numbers.value, other_value, limit, value_flags, 4);
+    FIXPID_PARTS_ADD(numbers.parts, other_parts, limit, parts_flags, 4);
+    check_both(expected, &numbers);
+    TEST_ASSERT_EQUAL_UINT8(sum != expected ? 4 : 8, value_flags);
+    TEST_ASSERT_EQUAL_UINT8(sum != expected ? 4 : 8, parts_flags);
+}
+
+void test_number_add_nasty_integers_crossed(void)
+{
+    static const uint16_t limits[] = {1,     2,     255,   256,  4000,
+                                      32767, 32768, 65534, 65535};
+
+    for (unsigned i = 0; i < NASTY_COUNT; i++) {
+        for (unsigned j = 0; j < NASTY_COUNT; j++) {
+            for (unsigned k = 0; k < sizeof limits / sizeof limits[0]; k++) {
+                const uint16_t magnitude = (uint16_t)nasty[i];
+                const int16_t addend = nasty[j];
+
+                check_add(magnitude, addend, limits[k], false);
+                check_add(-(int32_t)magnitude, addend, limits[k], true);
+            }
+        }
+    }
+}
+
+void test_number_add_random_integers(void)
+{
+    numbers_seed(17);
+    for (uint32_t i = 0; i < 1000000u / TEST_STRIDE; i++) {
+        const int32_t number = (int32_t)numbers_below(131071) - 65535;
+        const uint16_t limit = (uint16_t)(1u + numbers_below(65535));
+
+        check_add(number, numbers_int16(), limit, (i & 1u) != 0u);
+    }
 }
 
 void test_products_of_nasty_integers_crossed_match_64_bits(void)
@@ -110,14 +306,11 @@ void test_products_of_nasty_integers_crossed_match_64_bits(void)
         for (unsigned j = 0; j < NASTY_COUNT; j++) {
             const uint16_t x = (uint16_t)((uint16_t)nasty[i] & 16383u);
             const uint16_t k = (uint16_t)((uint16_t)nasty[j] & 1023u);
-            const uint16_t magnitude = (uint16_t)nasty[i];
-            const uint8_t gain = (uint8_t)((uint16_t)nasty[j] & 255u);
-            uint32_t result;
 
             CHECK_SCALED(x, k, 0u, 10u, 0u, uint16_t);
             CHECK_SCALED(x, k, 1023u, 10u, 0u, uint16_t);
-            FIXPID_GAIN_BYTES(result, gain, magnitude);
-            wrong += result != (uint64_t)gain * magnitude;
+            wrong += wrong_sums((uint8_t)k, (uint16_t)nasty[i], 0);
+            wrong += wrong_sums((uint8_t)k, (uint16_t)nasty[i], 1);
         }
     }
     TEST_ASSERT_EQUAL_UINT32(0, wrong);

@@ -47,7 +47,7 @@ def warnings(file)
 end
 
 def modes_and_leaves(file)
-  [[], OBJECT_MODE].product([1, 2, 3]).each do |mode, leaf|
+  [[], OBJECT_MODE].product([1, 2, 3, 4]).each do |mode, leaf|
     %w[gcc clang].each do |compiler|
       expect_clean(compiler, *STRICT, '-Iinclude', *mode, "-DFIXPID_PRODUCT=#{leaf}",
                    '-c', file, '-o', '/dev/null')
@@ -88,11 +88,17 @@ def misra(directory, files, defines)
   puts "cppcheck #{directory}", good ? findings.first(20) : output
 end
 
+# Whether the line above a function says why it is longer: path(line).
+def longer?(place)
+  path, line = place.match(/^(.*)\((\d+)\):$/).captures
+  File.readlines(path)[line.to_i - 2].include?('Deviation 40 lines:')
+end
+
 def shape(files)
   output, = run('pmccabe', *files)
   output.lines.each do |line|
     complexity, _, _, _, lines, place, name = line.split("\t").flat_map(&:split)
-    next if complexity.to_i <= COMPLEXITY_MAX && lines.to_i <= LINES_MAX
+    next if complexity.to_i <= COMPLEXITY_MAX && (lines.to_i <= LINES_MAX || longer?(place))
 
     @failures += 1
     puts "#{place} #{name}: #{lines} lines (at most #{LINES_MAX}), " \
@@ -119,7 +125,7 @@ programs = Dir['{port,examples,tools/probe}/**/*.c'].sort.grep_v(%r{/support/|/g
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_leaves(file) }
 (library + programs).each { |file| tidy(file) }
-[[], OBJECT_MODE].product([1, 2, 3]).each do |mode, leaf|
+[[], OBJECT_MODE].product([1, 2, 3, 4]).each do |mode, leaf|
   misra('src', library, mode + ["-DFIXPID_PRODUCT=#{leaf}"])
 end
 programs.group_by { |file| File.dirname(file) }.each do |directory, files|
