@@ -20,7 +20,7 @@
 #define FIXPID_PRODUCT_MULTIPLY 1
 #define FIXPID_PRODUCT_BYTES 2
 #define FIXPID_PRODUCT_SHIFT 3
-#define FIXPID_PRODUCT_KERNEL 4
+#define FIXPID_PRODUCT_KERNEL 4 // in assembly, where the family has a kernel
 
 #ifndef FIXPID_PRODUCT
 #if defined(__SDCC_pic16) || defined(_PIC18)
@@ -451,23 +451,42 @@
         }                                                                      \
     } while (0)
 
+// The leaves that fixpid_pid uses: in assembly for the families that have a
+// kernel, if FIXPID_PRODUCT asks for it, else in C.
+#if FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__AVR_HAVE_MUL__)
+#include "fixpid_kernel_avr.h"
+#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_AVR
+#define FIXPID_SATURATED_SUM FIXPID_SUM_AVR
+#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_AVR
+#elif FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__SDCC_pic16)
+#include "fixpid_kernel_pic18_signed.h"
+#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_PIC18
+#define FIXPID_SATURATED_SUM FIXPID_SUM_PIC18
+#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_PIC18
+#endif
+
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
-#if INT_MAX > 32767
+#if defined(FIXPID_SATURATED_DIFFERENCE)
+#elif INT_MAX > 32767
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_WIDE
 #else
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_NARROW
 #endif
 
-#if defined(__GNUC__)
+#if defined(FIXPID_SATURATED_SUM)
+#elif defined(__GNUC__)
 #define FIXPID_SATURATED_SUM FIXPID_SUM_FLAG
 #else
 #define FIXPID_SATURATED_SUM FIXPID_SUM_PORTABLE
 #endif
 
-#if FIXPID_PRODUCT == FIXPID_PRODUCT_MULTIPLY
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_MULTIPLY
-#else
+#if defined(FIXPID_SIGNED_PRODUCT)
+#elif FIXPID_PRODUCT == FIXPID_PRODUCT_BYTES
 #define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_BYTES
+#elif FIXPID_PRODUCT == FIXPID_PRODUCT_SHIFT
+#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_BYTES
+#else
+#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_MULTIPLY
 #endif
 
 #endif

@@ -15,7 +15,6 @@
 #define WEIGHT_ONE 256u
 #define KI_KEPT_MAX 32767u
 #define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
-#define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)
 
 // The signals of one step. A compiler that inlines keeps them in registers;
 // SDCC reaches an object by name much faster than a local one.
@@ -30,7 +29,7 @@ struct signals {
 #if defined(__SDCC_pic16)
 static FIXPID_DATA struct signals signals;
 #define NOW signals
-#define LOCAL_SIGNALS struct signals *const now = 0
+#define LOCAL_SIGNALS FIXPID_DATA struct signals *const now = &signals
 #else
 #define NOW (*now)
 #define LOCAL_SIGNALS                                                          \
@@ -38,22 +37,46 @@ static FIXPID_DATA struct signals signals;
     struct signals *const now = &signals
 #endif
 
-static bool gains_legal(const struct fixpid_pid_gains *gains)
+// ki becomes 15 bits with one of three exponents, rounded to the nearest.
+static bool take_gains(FIXPID_DATA struct fixpid_pid *self,
+                       const struct fixpid_pid_gains *gains)
 {
+    uint8_t options = (uint8_t)(SELF.options & SPECIAL);
+    uint32_t ki = gains->ki_q24;
+
+    FIXPID_ASSERT(VALID(self));
     if (gains->kp_q8 > FIXPID_PID_KP_MAX) {
-        return false;
-    }
-    if (gains->ki_q24 > FIXPID_PID_KI_MAX) {
         return false;
     }
     if (gains->kd_q8 > FIXPID_PID_KD_MAX) {
         return false;
     }
-    return gains->derivative_filter <= FIXPID_PID_FILTER_MAX;
+    if (gains->derivative_filter > FIXPID_PID_FILTER_MAX) {
+        return false;
+    }
+    if (ki > FIXPID_PID_KI_MAX) {
+        return false;
+    }
+    if (ki <= KI_KEPT_MAX) {
+        options |= KI_FINE;
+    } else {
+        ki = (ki + 128u) >> 8;
+        if (ki > KI_KEPT_MAX) {
+            ki = (gains->ki_q24 + 32768u) >> 16;
+            options |= KI_COARSE;
+        }
+    }
+    SELF.kp = gains->kp_q8;
+    SELF.ki = (uint16_t)ki;
+    SELF.kd = gains->kd_q8;
+    SELF.options = (uint8_t)(options | gains->derivative_filter);
+    return true;
 }
 
-static bool config_legal(const struct fixpid_pid_config *config)
+static bool take_config(FIXPID_DATA struct fixpid_pid *self,
+                        const struct fixpid_pid_config *config)
 {
+    FIXPID_ASSERT(VALID(self));
     if (config->output_min >= config->output_max) {
         return false;
     }
@@ -69,30 +92,19 @@ static bool config_legal(const struct fixpid_pid_config *config)
     if ((config->options & (uint8_t)~PUBLIC_OPTIONS) != 0u) {
         return false;
     }
-    return gains_legal(&config->gains);
-}
-
-// ki becomes 15 bits with one of three exponents, rounded to the nearest.
-static void take_gains(FIXPID_DATA struct fixpid_pid *self,
-                       const struct fixpid_pid_gains *gains)
-{
-    uint8_t options = (uint8_t)(SELF.options & SPECIAL);
-    uint32_t ki = gains->ki_q24;
-
-    FIXPID_ASSERT(VALID(self));
-    if (ki <= KI_KEPT_MAX) {
-        options |= KI_FINE;
-    } else {
-        ki = (ki + 128u) >> 8;
-        if (ki > KI_KEPT_MAX) {
-            ki = (gains->ki_q24 + 32768u) >> 16;
-            options |= KI_COARSE;
-        }
+    SELF.options = config->options;
+    SELF.setpoint_weight = (uint8_t)config->setpoint_weight_q8;
+    if (config->setpoint_weight_q8 < WEIGHT_ONE) {
+        SELF.options |= WEIGHTED;
     }
-    SELF.kp = gains->kp_q8;
-    SELF.ki = (uint16_t)ki;
-    SELF.kd = gains->kd_q8;
-    SELF.options = (uint8_t)(options | gains->derivative_filter);
+    if (!take_gains(self, &config->gains)) {
+        return false;
+    }
+    SELF.output_min = config->output_min;
+    SELF.output_max = config->output_max;
+    SELF.integral_min = config->integral_min;
+    SELF.integral_max = config->integral_max;
+    return true;
 }
 
 bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
@@ -102,7 +114,6 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    legal = config_legal(config);
     SELF.kp = 0;
     SELF.ki = 0;
     SELF.kd = 0;
@@ -110,20 +121,7 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
     SELF.output_max = 0; // refused
     SELF.integral_min = 0;
     SELF.integral_max = 0;
-    SELF.setpoint_weight = 0;
-    SELF.options = 0;
-    if (legal) {
-        SELF.options = config->options;
-        if (config->setpoint_weight_q8 < WEIGHT_ONE) {
-            SELF.setpoint_weight = (uint8_t)config->setpoint_weight_q8;
-            SELF.options |= WEIGHTED;
-        }
-        SELF.output_min = config->output_min;
-        SELF.output_max = config->output_max;
-        SELF.integral_min = config->integral_min;
-        SELF.integral_max = config->integral_max;
-        take_gains(self, &config->gains);
-    }
+    legal = take_config(self, config);
     fixpid_pid_reset(self);
     return legal;
 }
@@ -151,39 +149,48 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
     if (REFUSED) {
         return false;
     }
-    if (!gains_legal(gains)) {
-        return false;
-    }
-    take_gains(self, gains);
-    return true;
+    return take_gains(self, gains);
 }
 
-// Both errors and the derivative's input with a setpoint weight, in reverse, or
-// with the derivative on the error. Reverse takes the mirror images of all
-// three inputs, which turns their differences round.
+// The proportional term's own error: of b * setpoint, rounded half up.
+static void weigh(FIXPID_DATA struct fixpid_pid *self,
+                  FIXPID_DATA struct signals *now, int16_t setpoint)
+{
+    int32_t product; // within 255 * 32768
+    int16_t weighted;
+
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(now == &NOW);
+    FIXPID_SIGNED_PRODUCT(product, SELF.setpoint_weight, setpoint);
+    product += 128;
+    weighted = (int16_t)FIXPID_FLOOR(product, 8);
+    if ((SELF.options & FIXPID_PID_REVERSE) != 0u) {
+        weighted = FIXPID_MIRRORED(weighted);
+    }
+    FIXPID_SATURATED_DIFFERENCE(SELF.proportional_error, weighted, NOW.input);
+}
+
+// The errors in reverse, with a setpoint weight, or with the derivative on the
+// error. Reverse takes the mirror images of all inputs, which turns their
+// differences round.
 static void compare_specially(FIXPID_DATA struct fixpid_pid *self,
-                              struct signals *now, int16_t setpoint,
+                              FIXPID_DATA struct signals *now, int16_t setpoint,
                               int16_t measurement)
 {
     int16_t goal = setpoint;
-    int16_t weighted = setpoint;
 
     FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(now == &NOW);
     NOW.input = measurement;
-    if ((SELF.options & WEIGHTED) != 0u) {
-        int32_t product; // within 255 * 32768
-
-        FIXPID_SIGNED_PRODUCT(product, SELF.setpoint_weight, setpoint);
-        product += 128;
-        weighted = (int16_t)FIXPID_FLOOR(product, 8);
-    }
     if ((SELF.options & FIXPID_PID_REVERSE) != 0u) {
-        goal = FIXPID_MIRRORED(goal);
-        weighted = FIXPID_MIRRORED(weighted);
+        goal = FIXPID_MIRRORED(setpoint);
         NOW.input = FIXPID_MIRRORED(measurement);
     }
     FIXPID_SATURATED_DIFFERENCE(NOW.error, goal, NOW.input);
-    FIXPID_SATURATED_DIFFERENCE(SELF.proportional_error, weighted, NOW.input);
+    SELF.proportional_error = NOW.error;
+    if ((SELF.options & WEIGHTED) != 0u) {
+        weigh(self, now, setpoint);
+    }
     if ((SELF.options & FIXPID_PID_DERIVATIVE_ON_ERROR) != 0u) {
         NOW.input = FIXPID_MIRRORED(NOW.error);
     }
@@ -191,12 +198,13 @@ static void compare_specially(FIXPID_DATA struct fixpid_pid *self,
 
 // D = kd * (fall of the input), through the filter.
 static void differentiate(FIXPID_DATA struct fixpid_pid *self,
-                          struct signals *now)
+                          FIXPID_DATA struct signals *now)
 {
     int32_t derivative;
     int16_t fall;
 
     FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(now == &NOW);
     if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
         SELF.previous = NOW.input;
     }
@@ -212,99 +220,92 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     SELF.derivative = derivative;
 }
 
-// I + ki * error where ki has 8 fractional bits. What does not fit lies beyond
-// every limit, too.
-static void integrate_coarsely(FIXPID_DATA struct fixpid_pid *self,
-                               struct signals *now, int32_t change_q8)
+// The candidate, saturated: what does not fit lies beyond every limit, too.
+static void propose(FIXPID_DATA struct signals *now, int32_t integral_q8)
 {
-    // within 2^23 + 2^30
-    int32_t sum_q8 = FIXPID_FLOOR(SELF.integral, 8) + change_q8;
+    int32_t limited = integral_q8;
 
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_CLAMP(sum_q8, -COUNTS_MAX_Q8, COUNTS_MAX_Q8);
-    NOW.integral = FIXPID_RAISED(sum_q8, 8) + (int32_t)(uint8_t)SELF.integral;
+    FIXPID_ASSERT(now == &NOW);
+    FIXPID_CLAMP(limited, -COUNTS_MAX_Q8, COUNTS_MAX_Q8);
+    NOW.integral = FIXPID_RAISED(limited, 8);
 }
 
-// The candidate I + ki * error within the integral's limits. A sum that
-// saturates lies beyond them, too: they are -32767 and 32767 at most.
-static void integrate(FIXPID_DATA struct fixpid_pid *self, struct signals *now)
+// The candidate I + ki * error. The limits of the integral are -32767 and 32767
+// at most, so a sum that saturates lies beyond them.
+static void integrate(FIXPID_DATA struct fixpid_pid *self,
+                      FIXPID_DATA struct signals *now)
 {
     int32_t change;
-    int16_t counts;
 
     FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(now == &NOW);
     FIXPID_SIGNED_PRODUCT(change, SELF.ki, NOW.error);
     NOW.fraction = SELF.integral_fraction;
     if ((SELF.options & KI_COARSE) != 0u) {
-        integrate_coarsely(self, now, change);
-    } else {
-        if ((SELF.options & KI_FINE) != 0u) {
-            change += (int32_t)NOW.fraction;
-            NOW.fraction = (uint8_t)change;
-            change = FIXPID_FLOOR(change, 8);
-        }
-        FIXPID_SATURATED_SUM(NOW.integral, SELF.integral, change);
+        // within 2^23 + 2^30
+        propose(now, FIXPID_FLOOR(SELF.integral, 8) + change);
+        NOW.integral += (int32_t)(uint8_t)SELF.integral;
+        return;
     }
-    counts = (int16_t)FIXPID_FLOOR(NOW.integral, 16);
-    if (counts >= SELF.integral_max) {
-        NOW.integral = FIXPID_RAISED(SELF.integral_max, 16);
-        NOW.fraction = 0;
+    if ((SELF.options & KI_FINE) != 0u) {
+        change += (int32_t)NOW.fraction;
+        NOW.fraction = (uint8_t)change;
+        change = FIXPID_FLOOR(change, 8);
     }
-    if (counts < SELF.integral_min) {
-        NOW.integral = FIXPID_RAISED(SELF.integral_min, 16);
-        NOW.fraction = 0;
-    }
+    FIXPID_SATURATED_SUM(NOW.integral, SELF.integral, change);
 }
 
-// The candidate that makes the sum equal to the output held, or comes next to
-// it. It is kept, as if there were no error.
-static void take_over(FIXPID_DATA struct fixpid_pid *self, struct signals *now)
+// The candidate that makes the sum equal to the output held. It is kept, as if
+// there were no error.
+static void take_over(FIXPID_DATA struct fixpid_pid *self,
+                      FIXPID_DATA struct signals *now)
 {
-    // within 2^31 - 2^15
-    int32_t rest_q8 = FIXPID_FLOOR(SELF.integral, 8) - NOW.others;
-
     FIXPID_ASSERT(VALID(self));
-    FIXPID_CLAMP(rest_q8, FIXPID_RAISED(SELF.integral_min, 8),
-                 FIXPID_RAISED(SELF.integral_max, 8));
-    NOW.integral = FIXPID_RAISED(rest_q8, 8);
+    FIXPID_ASSERT(now == &NOW);
+    // within 2^31 - 2^15
+    propose(now, FIXPID_FLOOR(SELF.integral, 8) - NOW.others);
     NOW.fraction = 0;
     NOW.error = 0;
 }
 
-static void keep_integral(FIXPID_DATA struct fixpid_pid *self,
-                          struct signals *now)
-{
-    FIXPID_ASSERT(VALID(self));
-    SELF.integral = NOW.integral;
-    SELF.integral_fraction = NOW.fraction;
-}
-
-// The sum within the output limits. Anti-windup: the candidate is forgotten
-// where it pushes a limited output further.
+// The candidate within the integral's limits, then the sum within the output's.
+// Anti-windup: the candidate is forgotten where it pushes a limited output
+// further.
 static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
-                                  struct signals *now)
+                                  FIXPID_DATA struct signals *now)
 {
-    // within 2^31 - 2^15 + 128
-    int32_t output = NOW.others + FIXPID_FLOOR(NOW.integral, 8) + 128;
+    const int16_t counts = (int16_t)FIXPID_FLOOR(NOW.integral, 16);
+    int32_t output;
 
     FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(now == &NOW);
+    if (counts >= SELF.integral_max) {
+        NOW.integral = FIXPID_RAISED(SELF.integral_max, 16);
+        NOW.fraction = 0;
+    } else if (counts < SELF.integral_min) {
+        NOW.integral = FIXPID_RAISED(SELF.integral_min, 16);
+        NOW.fraction = 0;
+    }
+    // within 2^31 - 2^15 + 128
+    output = NOW.others + FIXPID_FLOOR(NOW.integral, 8) + 128;
     output = FIXPID_FLOOR(output, 8);
     if (output > SELF.output_max) {
+        output = SELF.output_max;
         SELF.status = FIXPID_PID_AT_MAX;
-        if (NOW.error <= 0) {
-            keep_integral(self, now);
+        if (NOW.error > 0) {
+            return (int16_t)output;
         }
-        return SELF.output_max;
-    }
-    if (output < SELF.output_min) {
+    } else if (output < SELF.output_min) {
+        output = SELF.output_min;
         SELF.status = FIXPID_PID_AT_MIN;
-        if (NOW.error >= 0) {
-            keep_integral(self, now);
+        if (NOW.error < 0) {
+            return (int16_t)output;
         }
-        return SELF.output_min;
+    } else {
+        SELF.status = 0;
     }
-    SELF.status = 0;
-    keep_integral(self, now);
+    SELF.integral = NOW.integral;
+    SELF.integral_fraction = NOW.fraction;
     return (int16_t)output;
 }
 

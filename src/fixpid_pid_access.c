@@ -4,15 +4,31 @@
 #include "fixpid_pid.h"
 #include "fixpid_pid_self.h"
 
+static void limit_integral(FIXPID_DATA struct fixpid_pid *self)
+{
+    const int16_t counts = (int16_t)FIXPID_FLOOR(SELF.integral, 16);
+
+    FIXPID_ASSERT(VALID(self));
+    if (counts >= SELF.integral_max) {
+        SELF.integral = FIXPID_RAISED(SELF.integral_max, 16);
+        SELF.integral_fraction = 0;
+    }
+    if (counts < SELF.integral_min) {
+        SELF.integral = FIXPID_RAISED(SELF.integral_min, 16);
+        SELF.integral_fraction = 0;
+    }
+}
+
+// What does not fit lies beyond every limit, too.
 static void set_integral(FIXPID_DATA struct fixpid_pid *self, int32_t value_q8)
 {
     int32_t limited = value_q8;
 
     FIXPID_ASSERT(VALID(self));
-    FIXPID_CLAMP(limited, FIXPID_RAISED(SELF.integral_min, 8),
-                 FIXPID_RAISED(SELF.integral_max, 8));
+    FIXPID_CLAMP(limited, -COUNTS_MAX_Q8, COUNTS_MAX_Q8);
     SELF.integral = FIXPID_RAISED(limited, 8);
     SELF.integral_fraction = 0;
+    limit_integral(self);
 }
 
 static void hold(FIXPID_DATA struct fixpid_pid *self, int16_t output)
@@ -74,8 +90,6 @@ bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
 bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
                                     int16_t integral_min, int16_t integral_max)
 {
-    int16_t counts;
-
     FIXPID_ASSERT(VALID(self));
     if (REFUSED) {
         return false;
@@ -88,15 +102,8 @@ bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
     }
     SELF.integral_min = integral_min;
     SELF.integral_max = integral_max;
-    if ((SELF.status & HELD) != 0u) {
-        return true;
-    }
-    counts = (int16_t)FIXPID_FLOOR(SELF.integral, 16);
-    if (counts >= integral_max) {
-        set_integral(self, FIXPID_RAISED(integral_max, 8));
-    }
-    if (counts < integral_min) {
-        set_integral(self, FIXPID_RAISED(integral_min, 8));
+    if ((SELF.status & HELD) == 0u) {
+        limit_integral(self);
     }
     return true;
 }

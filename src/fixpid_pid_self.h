@@ -20,4 +20,7 @@
 // Of status: `integral` is the output held.
 #define HELD (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL)
 
+// What 16 bits of counts can hold, in 1/256.
+#define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)
+
 #endif
