@@ -6,7 +6,9 @@
 
 #include "fixpid_an937.h"
 #include "numbers.h"
+#include "numbers_pid.h"
 #include "reference.h"
+#include "reference_pid.h"
 
 static bool first;         // no question has been asked yet
 static bool first_row;     // no row has been read yet
@@ -20,6 +22,9 @@ static struct an964 {
     struct reference_an964 law;
     bool ready;
 } ten_bits, eight_bits;
+static struct reference_pid pid;
+
+static int16_t setpoint; // of the last random step
 
 void cases_begin(uint32_t seed)
 {
@@ -27,6 +32,7 @@ void cases_begin(uint32_t seed)
     first = true;
     first_row = true;
     held_times = 0;
+    setpoint = 0;
 }
 
 // True for the first row of a run.
@@ -407,6 +413,158 @@ static void an964_8bit_row(const int32_t columns[], union question *question,
     an964_8bit_define(question, answer);
 }
 
+// ---- The general-purpose controller ----
+
+static const struct member pid_members[] = {
+    {"proportional", offsetof(struct pid_answer, proportional), 4},
+    {"integral", offsetof(struct pid_answer, integral), 4},
+    {"derivative", offsetof(struct pid_answer, derivative), 4},
+    {"output", offsetof(struct pid_answer, output), 2},
+    {"accepted", offsetof(struct pid_answer, accepted), 1},
+    {"status", offsetof(struct pid_answer, status), 1},
+    {NULL, 0, 0},
+};
+
+// One call before most of the steps that have any.
+static uint16_t any_pid_calls(void)
+{
+    const uint32_t kind = numbers_below(128);
+    uint16_t calls = 0;
+
+    if (first || kind < 2u) {
+        calls = CALL_INIT;
+    } else if (kind < 20u) {
+        calls = (uint16_t)(1u << numbers_below(9));
+    } else if (kind < 22u) {
+        calls = (uint16_t)numbers_below(512);
+    }
+    first = false;
+    return calls;
+}
+
+static void pid_ask(union question *question)
+{
+    struct pid_question *const asked = &question->pid;
+    struct fixpid_pid_config config;
+
+    numbers_pid_config(&config);
+    asked->ki_q24 = config.gains.ki_q24;
+    asked->kp_q8 = config.gains.kp_q8;
+    asked->kd_q8 = config.gains.kd_q8;
+    asked->derivative_filter = config.gains.derivative_filter;
+    asked->output_min = config.output_min;
+    asked->output_max = config.output_max;
+    asked->integral_min = config.integral_min;
+    asked->integral_max = config.integral_max;
+    asked->setpoint_weight_q8 = config.setpoint_weight_q8;
+    asked->options = config.options;
+    asked->calls = any_pid_calls();
+    asked->value = numbers_int16();
+    numbers_pid_inputs(&setpoint, &asked->measurement);
+    asked->setpoint = setpoint;
+}
+
+static void pid_start(const struct pid_question *asked, uint8_t *accepted)
+{
+    const struct fixpid_pid_config config = {
+        .gains = {.ki_q24 = asked->ki_q24,
+                  .kp_q8 = asked->kp_q8,
+                  .kd_q8 = asked->kd_q8,
+                  .derivative_filter = asked->derivative_filter},
+        .output_min = asked->output_min,
+        .output_max = asked->output_max,
+        .integral_min = asked->integral_min,
+        .integral_max = asked->integral_max,
+        .setpoint_weight_q8 = asked->setpoint_weight_q8,
+        .options = asked->options,
+    };
+
+    if ((asked->calls & CALL_INIT) != 0u && reference_pid_init(&pid, &config)) {
+        *accepted |= CALL_INIT;
+    }
+    if ((asked->calls & CALL_RESET) != 0u) {
+        reference_pid_reset(&pid);
+    }
+    if ((asked->calls & CALL_SET_GAINS) != 0u &&
+        reference_pid_set_gains(&pid, &config.gains)) {
+        *accepted |= CALL_SET_GAINS;
+    }
+}
+
+static void pid_set(const struct pid_question *asked, uint8_t *accepted)
+{
+    if ((asked->calls & CALL_SET_LIMITS) != 0u &&
+        reference_pid_set_limits(&pid, asked->output_min, asked->output_max)) {
+        *accepted |= CALL_SET_LIMITS;
+    }
+    if ((asked->calls & CALL_SET_INTEGRAL_LIMITS) != 0u &&
+        reference_pid_set_integral_limits(&pid, asked->integral_min,
+                                          asked->integral_max)) {
+        *accepted |= CALL_SET_INTEGRAL_LIMITS;
+    }
+    if ((asked->calls & CALL_SET_FEEDFORWARD) != 0u) {
+        reference_pid_set_feedforward(&pid, asked->value);
+    }
+    if ((asked->calls & CALL_SET_MANUAL) != 0u) {
+        reference_pid_set_manual(&pid, asked->value);
+    }
+    if ((asked->calls & CALL_SET_AUTO) != 0u) {
+        reference_pid_set_auto(&pid);
+    }
+    if ((asked->calls & CALL_SEED) != 0u) {
+        reference_pid_seed(&pid, asked->value);
+    }
+}
+
+static void pid_define(const union question *question, union answer *answer)
+{
+    const struct pid_question *const asked = &question->pid;
+    struct pid_answer *const expected = &answer->pid;
+
+    expected->accepted = 0;
+    pid_start(asked, &expected->accepted);
+    pid_set(asked, &expected->accepted);
+    expected->output =
+        (int16_t)reference_pid_step(&pid, asked->setpoint, asked->measurement);
+    expected->proportional = (int32_t)reference_pid_proportional(&pid);
+    expected->integral = (int32_t)reference_pid_integral(&pid);
+    expected->derivative = (int32_t)pid.derivative;
+    expected->status = reference_pid_status(&pid);
+}
+
+// Columns: run, kp_q8, ki_q24, kd_q8, filter, output_min, output_max,
+// integral_min, integral_max, weight_q8, options, event, value, setpoint,
+// measurement, output, p_q8, i_q16, d_q8, status. The event is 0, or the number
+// of the call's bit, counted from 1.
+static void pid_row(const int32_t columns[], union question *question,
+                    union answer *answer)
+{
+    const struct pid_question asked = {
+        .ki_q24 = (uint32_t)columns[2],
+        .kp_q8 = (uint16_t)columns[1],
+        .kd_q8 = (uint16_t)columns[3],
+        .output_min = (int16_t)columns[5],
+        .output_max = (int16_t)columns[6],
+        .integral_min = (int16_t)columns[7],
+        .integral_max = (int16_t)columns[8],
+        .setpoint_weight_q8 = (uint16_t)columns[9],
+        .value = (int16_t)columns[12],
+        .setpoint = (int16_t)columns[13],
+        .measurement = (int16_t)columns[14],
+        .calls = (uint16_t)((1u << columns[11]) >> 1),
+        .derivative_filter = (uint8_t)columns[4],
+        .options = (uint8_t)columns[10],
+    };
+
+    question->pid = asked;
+    pid_define(question, answer); // what was accepted is not recorded
+    answer->pid.output = (int16_t)columns[15];
+    answer->pid.proportional = columns[16];
+    answer->pid.integral = columns[17];
+    answer->pid.derivative = columns[18];
+    answer->pid.status = (uint8_t)columns[19];
+}
+
 const struct controller controllers[CONTROLLERS] = {
     {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
      an937_members, "an937_firmware", an937_row, an937_ask, an937_define},
@@ -415,6 +573,8 @@ const struct controller controllers[CONTROLLERS] = {
     {"an964_8bit", sizeof(struct an964_8bit_question),
      sizeof(struct an964_answer), an964_members, "an964_firmware",
      an964_8bit_row, an964_8bit_ask, an964_8bit_define},
+    {"pid", sizeof(struct pid_question), sizeof(struct pid_answer), pid_members,
+     "pid_definition", pid_row, pid_ask, pid_define},
 };
 
 const struct controller *controller_named(const char *name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Questions for the three controllers, recorded and random, and what the notes'
+// Questions for the controllers, recorded and random, and what the notes'
 // firmware or the 64-bit definition answers to them. The same sequence on every
 // machine.
 #ifndef CASES_H
@@ -13,11 +13,13 @@ union question {
     struct an937_question an937;
     struct an964_question an964;
     struct an964_8bit_question an964_8bit;
+    struct pid_question pid;
 };
 
 union answer {
     struct an937_answer an937;
     struct an964_answer an964;
+    struct pid_answer pid;
 };
 
 // A member of an answer, for messages; the last one has no name.
@@ -44,7 +46,7 @@ struct controller {
     void (*define)(const union question *question, union answer *answer);
 };
 
-#define CONTROLLERS 3
+#define CONTROLLERS 4
 extern const struct controller controllers[CONTROLLERS];
 
 // The controller of this name, or null.

@@ -12,6 +12,7 @@
 
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_pid.h"
 
 // Bits of `calls`, made in this order before the step. An answer's `accepted`
 // has those bits whose calls returned true.
@@ -23,6 +24,13 @@
 #define CALL_CLEAR_FLAGS 0x20u  // AN937
 #define CALL_STEP_PERCENT 0x40u // AN937: the step is the note's 8-bit one
 #define CALL_GETTERS 0x80u      // AN937: else 0 is answered, which is faster
+
+#define CALL_SET_LIMITS 0x0008u // these: general-purpose controller
+#define CALL_SET_INTEGRAL_LIMITS 0x0010u
+#define CALL_SET_FEEDFORWARD 0x0020u
+#define CALL_SET_MANUAL 0x0040u
+#define CALL_SET_AUTO 0x0080u
+#define CALL_SEED 0x0100u
 
 struct an937_question {
     uint16_t limit;
@@ -70,6 +78,32 @@ struct an964_answer {
     uint8_t flags;
 };
 
+struct pid_question {
+    uint32_t ki_q24;
+    uint16_t kp_q8;
+    uint16_t kd_q8;
+    int16_t output_min;
+    int16_t output_max;
+    int16_t integral_min;
+    int16_t integral_max;
+    uint16_t setpoint_weight_q8;
+    int16_t value; // feed-forward, or output by hand or to start from
+    int16_t setpoint;
+    int16_t measurement;
+    uint16_t calls;
+    uint8_t derivative_filter;
+    uint8_t options;
+};
+
+struct pid_answer {
+    int32_t proportional;
+    int32_t integral;
+    int32_t derivative;
+    int16_t output;
+    uint8_t accepted;
+    uint8_t status;
+};
+
 union an937_exchange {
     struct an937_question question;
     struct an937_answer answer;
@@ -85,14 +119,21 @@ union an964_8bit_exchange {
     struct an964_answer answer;
 };
 
+union pid_exchange {
+    struct pid_question question;
+    struct pid_answer answer;
+};
+
 extern union an937_exchange an937_exchange;
 extern union an964_exchange an964_exchange;
 extern union an964_8bit_exchange an964_8bit_exchange;
+extern union pid_exchange pid_exchange;
 
 // The drivers: they answer the question with the library's controller.
 void an937_reply(void);
 void an964_reply(void);
 void an964_8bit_reply(void);
+void pid_reply(void);
 
 // fixpid_an937_tick, which an interrupt may call on a PIC18.
 void an937_tick(void);

@@ -66,10 +66,14 @@ static void reply(const struct controller *controller)
         an964_exchange.question = question.an964;
         an964_reply();
         answer.an964 = an964_exchange.answer;
-    } else {
+    } else if (controller == &controllers[2]) {
         an964_8bit_exchange.question = question.an964_8bit;
         an964_8bit_reply();
         answer.an964 = an964_8bit_exchange.answer;
+    } else {
+        pid_exchange.question = question.pid;
+        pid_reply();
+        answer.pid = pid_exchange.answer;
     }
 }
 

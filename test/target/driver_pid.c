@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "exchange.h"
+#include "fixpid_pid.h"
+
+#define QUESTION pid_exchange.question
+#define ANSWER pid_exchange.answer
+
+// In object mode the library is built for the object of this name.
+FIXPID_DATA struct fixpid_pid pid_controller;
+
+union pid_exchange pid_exchange;
+
+// Its members are padded differently on each machine, so it is not a part of
+// the question.
+static struct fixpid_pid_config config;
+
+static uint8_t accepted;
+
+static bool called(uint16_t call)
+{
+    return (QUESTION.calls & call) != 0u;
+}
+
+static void accept(bool good, uint8_t call)
+{
+    if (good) {
+        accepted |= call;
+    }
+}
+
+static void configure(void)
+{
+    config.gains.ki_q24 = QUESTION.ki_q24;
+    config.gains.kp_q8 = QUESTION.kp_q8;
+    config.gains.kd_q8 = QUESTION.kd_q8;
+    config.gains.derivative_filter = QUESTION.derivative_filter;
+    config.output_min = QUESTION.output_min;
+    config.output_max = QUESTION.output_max;
+    config.integral_min = QUESTION.integral_min;
+    config.integral_max = QUESTION.integral_max;
+    config.setpoint_weight_q8 = QUESTION.setpoint_weight_q8;
+    config.options = QUESTION.options;
+}
+
+static void start(void)
+{
+    accepted = 0;
+    configure();
+    if (called(CALL_INIT)) {
+        accept(fixpid_pid_init(&pid_controller, &config), CALL_INIT);
+    }
+    if (called(CALL_RESET)) {
+        fixpid_pid_reset(&pid_controller);
+    }
+    if (called(CALL_SET_GAINS)) {
+        accept(fixpid_pid_set_gains(&pid_controller, &config.gains),
+               CALL_SET_GAINS);
+    }
+}
+
+static void set(void)
+{
+    if (called(CALL_SET_LIMITS)) {
+        accept(fixpid_pid_set_limits(&pid_controller, QUESTION.output_min,
+                                     QUESTION.output_max),
+               CALL_SET_LIMITS);
+    }
+    if (called(CALL_SET_INTEGRAL_LIMITS)) {
+        accept(fixpid_pid_set_integral_limits(&pid_controller,
+                                              QUESTION.integral_min,
+                                              QUESTION.integral_max),
+               CALL_SET_INTEGRAL_LIMITS);
+    }
+    if (called(CALL_SET_FEEDFORWARD)) {
+        fixpid_pid_set_feedforward(&pid_controller, QUESTION.value);
+    }
+}
+
+static void choose_mode(void)
+{
+    if (called(CALL_SET_MANUAL)) {
+        fixpid_pid_set_manual(&pid_controller, QUESTION.value);
+    }
+    if (called(CALL_SET_AUTO)) {
+        fixpid_pid_set_auto(&pid_controller);
+    }
+    if (called(CALL_SEED)) {
+        fixpid_pid_seed(&pid_controller, QUESTION.value);
+    }
+}
+
+// The question ends where the answer begins: after the step.
+void pid_reply(void)
+{
+    int16_t output;
+
+    start();
+    set();
+    choose_mode();
+    output = fixpid_pid_step(&pid_controller, QUESTION.setpoint,
+                             QUESTION.measurement);
+    ANSWER.output = output;
+    ANSWER.accepted = accepted;
+    ANSWER.proportional = fixpid_pid_proportional(&pid_controller);
+    ANSWER.integral = fixpid_pid_integral(&pid_controller);
+    ANSWER.derivative = fixpid_pid_derivative(&pid_controller);
+    ANSWER.status = fixpid_pid_status(&pid_controller);
+}
