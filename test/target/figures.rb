@@ -6,7 +6,8 @@
 # Fails if the document says something else; with --update it is rewritten.
 require 'json'
 
-CONTROLLERS = { 'an937' => 'AN937', 'an964' => 'AN964', 'an964_8bit' => 'AN964 8-bit' }.freeze
+CONTROLLERS = { 'an937' => 'AN937', 'an964' => 'AN964', 'an964_8bit' => 'AN964 8-bit', 'pid' => 'PID' }.freeze
+NOT_FOR_PIC14 = %w[an937 pid].freeze
 CHIPS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
 MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3' }.freeze
 MODES = %w[pointer object].freeze
@@ -60,7 +61,7 @@ def exact_cell(names, pattern)
 end
 
 def on_chip(controller, chip)
-  return 'not meant for it' if controller == 'an937' && chip == 'pic16f684'
+  return 'not meant for it' if NOT_FOR_PIC14.include?(controller) && chip == 'pic16f684'
 
   exact_cell(MODES.map { |mode| "replay-#{controller}-#{chip}-#{mode}" }, /rows .* cycles/)
 end
@@ -81,7 +82,7 @@ def exact
 end
 
 def pairs
-  CHIPS.keys.product(CONTROLLERS.keys).reject { |pair| pair == %w[pic16f684 an937] }
+  CHIPS.keys.product(CONTROLLERS.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
 def interrupts
