@@ -2,10 +2,11 @@
 // A simulated world as a microcontroller's pins see it: voltages to convert and
 // a drive to set, around one plant and what happens to it.
 //
-// A program has one world, chosen by the linker: one of world_*.c beside this
-// file. A world knows the board's wiring (port_board.h) but no port function
-// and no controller, and leaves the conversion to counts to its caller. It is
-// deterministic: options, seed and the sequence of calls decide.
+// A program has one world, chosen by the linker: world_pendulum.c,
+// world_motor.c or world_oven.c. A world knows the board's wiring
+// (port_board.h) but no port function and no controller, and leaves the
+// conversion to counts to its caller. It is deterministic: options, seed and
+// the sequence of calls decide.
 #ifndef WORLD_H
 #define WORLD_H
 #include <stdbool.h>

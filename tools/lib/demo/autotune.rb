@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# In the thermostat's world: the experiment at 80 C, later 100 C and the door.
+# The experiment at 80 C, later 100 C and the door.
 TUNE_SCENE = { seconds: 100, setpoint_at: 50, setpoint_then: 100, door_at: 75,
                door_for: 5 }.freeze
 RELAY_HIGH_COUNTS = 306

@@ -6,12 +6,17 @@ OVEN_SET_C = 80.0
 OVEN_STEP_C = 60.0
 BAND_C = 0.02 * OVEN_STEP_C
 
+# Before anything happens to it.
+def run_oven(program, name, **scenario)
+  Host.run(program, name, every: 0.02, seconds: 30, **scenario)
+end
+
 def oven
   p_only = P_GAINS.to_h do |kp|
-    [kp, Host.run("oven_p_#{kp}", "oven-p_#{kp}", every: 0.02)]
+    [kp, run_oven("oven_p_#{kp}", "oven-p_#{kp}")]
   end
-  pi = Host.run('oven_pi', 'oven-pi', every: 0.02)
-  pid = Host.run('oven', 'oven', every: 0.02)
+  pi = run_oven('oven_pi', 'oven-pi')
+  pid = run_oven('oven', 'oven')
   check_p_only(p_only)
   check_pi_and_pid(pi, pid)
   check_oven_integration(pid)
@@ -51,7 +56,7 @@ def check_pi_and_pid(pi, pid)
 end
 
 def check_oven_integration(pid)
-  half = Host.run('oven', 'oven-half_step', every: 0.02, plant_step: 0.5e-3)
+  half = run_oven('oven', 'oven-half_step', plant_step: 0.5e-3)
   difference = largest_difference(pid, half, 'temperature_c')
   Report.at_most('half the integrator\'s step changes the temperature by',
                  difference, 0.001, 'C')
