@@ -36,6 +36,9 @@ LOOP_LIMITS = {
   'oven, lag 2000, dead time 40' => [0.01, 5044, 644_660, 549_651]
 }.freeze
 
+WHAT = { 'settled' => 'steps until it is settled', 'iae' => 'sum of errors',
+         'iae_after' => 'sum of the last errors' }.freeze
+
 # The most that the output may change at once, and in a step of the next 20.
 BUMP_LIMITS = {
   'ki x 4' => [0, 0], 'kp x 3' => [0, 0], 'gains back' => [0, 0],
@@ -62,13 +65,25 @@ def check_plant(plant, rows)
   ours, law = rows
   overshoot, *limits = LOOP_LIMITS.fetch(plant)
   Report.at_most("#{plant}: overshoot", ours['overshoot'].to_f, overshoot, '%')
-  %w[settled iae iae_after].zip(limits).each do |what, limit|
-    Report.at_most("#{plant}: #{what}", ours[what].to_f.ceil, limit)
-    Report.at_most("#{plant}: #{what}, more than in double precision",
-                   100.0 * (ours[what].to_f / law[what].to_f - 1.0), 1.0, '%')
+  WHAT.zip(limits).each do |(name, meaning), limit|
+    Report.at_most("#{plant}: #{meaning}", ours[name].to_f.ceil, limit)
+  end
+  check_precision(plant, ours, law)
+end
+
+# Sooner than in double precision is no fault.
+def check_precision(plant, ours, law)
+  percent = WHAT.keys.to_h do |name|
+    [name, 100.0 * (ours[name].to_f / law[name].to_f - 1.0)]
   end
   Report.at_most("#{plant}: overshoot, more than in double precision",
                  ours['overshoot'].to_f - law['overshoot'].to_f, 1.0, '%')
+  Report.at_most("#{plant}: settles later than in double precision",
+                 percent['settled'], 1.0, '%')
+  %w[iae iae_after].each do |name|
+    Report.at_most("#{plant}: #{WHAT[name]}, off double precision by",
+                   percent[name].abs, 1.0, '%')
+  end
 end
 
 def check_agreement(row)
