@@ -54,7 +54,22 @@ def bounds
    ['AN964 8-bit', 'I before its limit', 127 * 127 / 8, '2^14'],
    ['AN964 8-bit', 'd * kd / 4 before its limit', rounded_up(127 * 127, 4), '2^14'],
    ['AN964 8-bit', 'e + I + D', 128 + 127 + 127, 'int16_t'],
-   ['AN964 8-bit', 'output', 127 * 127 / 32, 'int16_t']]
+   ['AN964 8-bit', 'output', 127 * 127 / 32, 'int16_t']] + autotune_bounds
+end
+
+def autotune_bounds
+  period = 2 * 32_766
+  period_q4 = (16 * 8 * period + 4) / 8
+  kp_q16 = (32_768 * 256) - 128
+  [['autotuner', 'period of a cycle', period, 'uint16_t'],
+   ['autotuner', 'R, swing', 65_535, 'uint16_t'],
+   ['autotuner', '326 * 16 * R * N', 326 * 16 * 65_535 * 8, 'uint32_t'],
+   ['autotuner', 'Ku * kp_rule, where Ku is not refused', (2**23 - 1) * 154, 'uint32_t'],
+   ['autotuner', 'k * ki_rule, where kp is not refused', kp_q16 * 512, 'uint32_t'],
+   ['autotuner', 'Tu', period_q4, 'uint32_t'],
+   ['autotuner', '16 * rest', 16 * period_q4, 'uint32_t'],
+   ['autotuner', 'ki', (kp_q16 * 512 / 96 + 1) * 16, 'int32_t'],
+   ['autotuner', 'kp * Td, where neither is refused', 32_767 * 131_071, 'uint32_t']]
 end
 
 LIMITS = { '7 bits' => 2**7 - 1, '2^14' => 2**14 - 1, 'int16_t' => 2**15 - 1, 'uint16_t' => 2**16 - 1,
@@ -129,7 +144,7 @@ documents.each do |path|
   check_sums(path, new_text)
 end
 Dir['{src,include,port,examples,test}/**/*.[ch]'].each do |path|
-  check_sums(path, File.read(path).scan(%r{//.*}).join("\n"))
+  check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 20
