@@ -171,8 +171,8 @@ static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
     return FIXPID_AUTOTUNE_DONE;
 }
 
-// The error is one of 17 bits, as large as it is: the relay only asks whether
-// it is beyond the hysteresis, so nothing has to be saturated.
+// The error has 17 bits and is not saturated: all that counts is on which side
+// of the hysteresis it lies.
 static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
                          int32_t error, int16_t measurement)
 {
@@ -268,7 +268,7 @@ static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_autotune *self,
 {
     const uint16_t relay_counts = (uint16_t)((uint16_t)SELF.config.output_high -
                                              (uint16_t)SELF.config.output_low);
-    // 326 * 16 * 65535 * 8 = 2734645760 < 2^32; a swing_sum is at least 4
+    // 326 * 16 * 65535 * 8 = 2734644480 < 2^32; a swing_sum is at least 4
     const uint32_t ultimate_gain_q12 =
         FOUR_OVER_PI_Q8 * 16u * relay_counts * SELF.averaged / SELF.swing_sum;
 
