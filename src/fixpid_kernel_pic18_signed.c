@@ -44,7 +44,7 @@ fixpid_difference_end:
 // It overflows where both have one sign and the sum the other. (Not by OV,
 // which simulators get wrong after an addition with carry.) `right` is a
 // scratch: bit 7 of it says that the signs differ.
-void fixpid_kernel_sum(void) __naked
+void fixpid_kernel_signed_sum(void) __naked
 {
     __asm
     banksel LEFT

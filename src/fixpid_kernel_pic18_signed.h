@@ -22,7 +22,7 @@ struct fixpid_operands {
 extern __data struct fixpid_operands fixpid_operands;
 
 void fixpid_kernel_difference(void);     // left -= right
-void fixpid_kernel_sum(void);            // wide += wide_right
+void fixpid_kernel_signed_sum(void);     // wide += wide_right
 void fixpid_kernel_signed_product(void); // wide = left * right
 
 #define FIXPID_DIFFERENCE_PIC18(result, a, b)                                  \
@@ -36,7 +36,7 @@ void fixpid_kernel_signed_product(void); // wide = left * right
     do {                                                                       \
         fixpid_operands.wide = (a);                                            \
         fixpid_operands.wide_right = (b);                                      \
-        fixpid_kernel_sum();                                                   \
+        fixpid_kernel_signed_sum();                                            \
         (result) = fixpid_operands.wide;                                       \
     } while (0)
 #define FIXPID_SIGNED_PIC18(result, gain, x)                                   \
