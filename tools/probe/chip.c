@@ -4,8 +4,9 @@
 // as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964, and where
 // there are any, the gains that the application has found: -DPROBE_GAINS=name.
 //
-// They have no pointer and no padding but at their end, so they have the same
-// bytes here and under SDCC, on any machine that stores the low byte first.
+// They have no pointer, and the build leaves no room between their members, so
+// they have the same bytes here and under SDCC, on any machine that stores the
+// low byte first.
 #include "probe.h"
 
 // For tools that read this file alone.
