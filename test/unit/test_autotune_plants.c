@@ -67,7 +67,10 @@ static uint32_t random_state;
 
 static int16_t noise(void)
 {
-    random_state = random_state * UINT32_C(1664525) + UINT32_C(1013904223);
+    const uint64_t next =
+        random_state * UINT64_C(1664525) + UINT32_C(1013904223);
+
+    random_state = (uint32_t)(next & UINT32_MAX);
     if (plant->noise == 0) {
         return 0;
     }
