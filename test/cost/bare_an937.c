@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The least application with this controller, for its size.
+#include "bare.h"
+#include "fixpid_an937.h"
+
+FIXPID_DATA struct fixpid_an937 an937_controller;
+
+void main(void)
+{
+    static const struct fixpid_an937_config config = {96, 80, 16, 4000, 4};
+
+    (void)fixpid_an937_init(&an937_controller, &config);
+    for (;;) {
+        fixpid_an937_tick(&an937_controller);
+        bare_output = fixpid_an937_step(&an937_controller, bare_input);
+    }
+}

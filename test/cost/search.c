@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "search.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "numbers.h"
+#include "vectors.h"
+
+#define SEGMENTS 5u   // questions of a sequence
+#define CANDIDATES 12 // random sequences, of which the dearest is improved
+#define PATIENCE 400  // changes without success before another start
+
+struct figures {
+    uint32_t steps;
+    uint32_t least;
+    uint32_t most;
+    uint32_t total;
+    uint32_t different;
+};
+
+// A question and how often its step is repeated: a sum takes time to fill.
+struct segment {
+    union question question;
+    uint8_t times;
+};
+
+// The byte `calls` of each controller's question.
+static const struct {
+    const char *controller;
+    size_t calls;
+} layouts[] = {
+    {"an937", offsetof(struct an937_question, calls)},
+    {"an964", offsetof(struct an964_question, calls)},
+    {"an964_8bit", offsetof(struct an964_8bit_question, calls)},
+};
+
+static const struct search_plan *plan;
+static struct figures figures;
+static size_t calls_offset;
+
+static uint8_t *calls_of(union question *question)
+{
+    return (uint8_t *)question + calls_offset;
+}
+
+// ---- One question ----
+
+static void begin(uint32_t seed)
+{
+    static const struct figures none = {0, UINT32_MAX, 0, 0, 0};
+
+    figures = none;
+    cases_begin(seed);
+}
+
+static uint32_t differs(const union answer *expected, const union answer *given)
+{
+    const struct member *const output = plan->controller->members;
+    size_t size = plan->controller->answer_size;
+
+    if (plan->outputs_only != 0u) {
+        size = output->size;
+        expected = (const void *)((const uint8_t *)expected + output->offset);
+        given = (const void *)((const uint8_t *)given + output->offset);
+    }
+    return memcmp(expected, given, size) == 0 ? 0u : 1u;
+}
+
+static uint32_t measure(const union question *question,
+                        const union answer *expected)
+{
+    union answer given;
+    uint32_t cost;
+
+    memset(&given, 0, sizeof given);
+    cost = plan->step(question, &given);
+    figures.different += differs(expected, &given);
+    if (cost == 0u) {
+        return 0;
+    }
+    figures.steps++;
+    figures.total += cost;
+    if (cost < figures.least) {
+        figures.least = cost;
+    }
+    if (cost > figures.most) {
+        figures.most = cost;
+    }
+    return cost;
+}
+
+// With what the definition answers, where it is comparable.
+static uint32_t measure_defined(const union question *question)
+{
+    union answer expected;
+    const uint32_t different = figures.different;
+    uint32_t cost;
+
+    memset(&expected, 0, sizeof expected);
+    plan->controller->define(question, &expected);
+    cost = measure(question, &expected);
+    if (plan->outputs_only != 0u) {
+        figures.different = different;
+    }
+    return cost;
+}
+
+// ---- Rows and random questions ----
+
+static void rows(void)
+{
+    int32_t columns[VECTORS_COLUMNS_MAX];
+    union question question;
+    union answer expected;
+
+    begin(1);
+    vectors_open(plan->controller->recording);
+    while (vectors_next(columns)) {
+        memset(&question, 0, sizeof question);
+        memset(&expected, 0, sizeof expected);
+        plan->controller->row(columns, &question, &expected);
+        (void)measure(&question, &expected);
+    }
+}
+
+static void ask(union question *question)
+{
+    memset(question, 0, sizeof *question);
+    plan->controller->ask(question);
+}
+
+static void random_steps(void)
+{
+    union question question;
+
+    begin(2);
+    for (uint32_t step = 0; step < plan->random_steps; step++) {
+        ask(&question);
+        (void)measure_defined(&question);
+    }
+}
+
+// ---- The directed search ----
+
+static uint8_t any_times(void)
+{
+    static const uint8_t often[] = {1, 1, 1, 1, 1, 1, 2, 3, 30, 64};
+
+    return often[numbers_below(sizeof often)];
+}
+
+static void any_segment(struct segment *segment)
+{
+    ask(&segment->question);
+    segment->times = any_times();
+}
+
+static void any_sequence(struct segment sequence[SEGMENTS])
+{
+    for (uint32_t at = 0; at < SEGMENTS; at++) {
+        any_segment(&sequence[at]);
+    }
+}
+
+// The dearest step of a sequence, which begins with the controller's init; a
+// segment's calls are made with its first step.
+static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
+{
+    uint32_t most = 0;
+
+    for (uint32_t at = 0; at < SEGMENTS; at++) {
+        union question question = sequence[at].question;
+        uint8_t *const calls = calls_of(&question);
+
+        *calls = (uint8_t)(*calls & ~CALL_INIT);
+        if (at == 0u) {
+            *calls = CALL_INIT;
+        }
+        for (uint8_t time = 0; time < sequence[at].times; time++) {
+            const uint32_t cost = measure_defined(&question);
+
+            *calls = 0;
+            if (cost > most) {
+                most = cost;
+            }
+        }
+    }
+    return most;
+}
+
+// Some bytes of a fresh question, a bit, or a small number more or less.
+static void change_bytes(union question *question)
+{
+    const uint32_t size = plan->controller->question_size;
+    uint8_t *const bytes = (uint8_t *)question;
+    const uint32_t from = numbers_below(size);
+    const uint32_t count = 1u + numbers_below(size - from);
+    union question fresh;
+
+    switch (numbers_below(4)) {
+    case 0:
+        bytes[from] = (uint8_t)(bytes[from] ^ (1u << numbers_below(8)));
+        break;
+    case 1:
+        bytes[from] = (uint8_t)(bytes[from] + numbers_below(7) - 3u);
+        break;
+    default:
+        ask(&fresh);
+        memcpy(bytes + from, (const uint8_t *)&fresh + from,
+               numbers_below(2) == 0u ? 1u : count);
+        break;
+    }
+}
+
+static void change(struct segment sequence[SEGMENTS])
+{
+    struct segment *const segment = &sequence[numbers_below(SEGMENTS)];
+
+    switch (numbers_below(8)) {
+    case 0:
+        segment->times = any_times();
+        break;
+    case 1:
+        any_segment(segment);
+        break;
+    case 2:
+        *segment = sequence[numbers_below(SEGMENTS)];
+        break;
+    default:
+        change_bytes(&segment->question);
+        break;
+    }
+}
+
+// The dearest of a few random sequences.
+static uint32_t begin_sequence(struct segment best[SEGMENTS])
+{
+    struct segment sequence[SEGMENTS];
+    uint32_t most = 0;
+
+    for (int candidate = 0; candidate < CANDIDATES; candidate++) {
+        uint32_t cost;
+
+        any_sequence(sequence);
+        cost = try_sequence(sequence);
+        if (cost >= most) {
+            most = cost;
+            memcpy(best, sequence, sizeof sequence);
+        }
+    }
+    return most;
+}
+
+static void climb(void)
+{
+    struct segment best[SEGMENTS];
+    struct segment sequence[SEGMENTS];
+    uint32_t most = begin_sequence(best);
+    uint32_t failures = 0;
+
+    while (failures < PATIENCE && figures.steps < plan->directed_steps) {
+        uint32_t cost;
+
+        memcpy(sequence, best, sizeof sequence);
+        do {
+            change(sequence);
+        } while (numbers_below(2) == 0u);
+        cost = try_sequence(sequence);
+        failures = cost > most ? 0u : failures + 1u;
+        if (cost >= most) {
+            most = cost;
+            memcpy(best, sequence, sizeof sequence);
+        }
+    }
+}
+
+static void directed_steps(void)
+{
+    begin(3);
+    while (figures.steps < plan->directed_steps) {
+        climb();
+    }
+}
+
+// ---- The report ----
+
+static void put_text(const char *text)
+{
+    while (*text != '\0') {
+        putchar(*text);
+        text++;
+    }
+}
+
+static void put_number(const char *name, uint32_t number)
+{
+    char digits[11] = {0};
+    uint8_t at = 10;
+
+    put_text(name);
+    do {
+        at--;
+        digits[at] = (char)('0' + number % 10u);
+        number /= 10u;
+    } while (number != 0u);
+    put_text(&digits[at]);
+}
+
+static uint32_t report(const char *name)
+{
+    put_text(name);
+    put_number(" steps ", figures.steps);
+    put_number(" least ", figures.least);
+    put_number(" most ", figures.most);
+    put_number(" total ", figures.total);
+    put_number(" different ", figures.different);
+    put_text("\n");
+    return figures.different;
+}
+
+uint32_t search_run(const struct search_plan *of)
+{
+    uint32_t different;
+
+    plan = of;
+    calls_offset = 0;
+    for (size_t at = 0; at < sizeof layouts / sizeof layouts[0]; at++) {
+        if (strcmp(layouts[at].controller, of->controller->name) == 0) {
+            calls_offset = layouts[at].calls;
+        }
+    }
+    rows();
+    different = report("rows");
+    random_steps();
+    different += report("random");
+    directed_steps();
+    return different + report("search");
+}

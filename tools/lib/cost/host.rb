@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require 'fileutils'
+require 'open3'
+
+# Programs that build and measure.
+module Host
+  class Failure < StandardError; end
+
+  class << self
+    attr_reader :root, :folder
+
+    def setup(root)
+      @root = root
+      @folder = "#{root}/build/cost"
+      FileUtils.mkdir_p(@folder)
+    end
+
+    # What a command prints, from the project's folder; its failure is ours.
+    def output(*command)
+      text, status = Open3.capture2e(*command, chdir: root, stdin_data: '')
+      return text if status.success?
+
+      raise Failure, "#{command.first} failed:\n#{command.join(' ')}\n#{text.lines.last(20).join}"
+    end
+
+    # Like map, on as many threads as there are processors, and in order.
+    def in_parallel(items)
+      waiting = items.each_with_index.to_a
+      results = Array.new(items.size)
+      mutex = Mutex.new
+      threads = Array.new(Etc.nprocessors) do
+        Thread.new do
+          Thread.current.report_on_exception = false
+          while (item, index = mutex.synchronize { waiting.shift })
+            results[index] = yield(item)
+          end
+        end
+      end
+      threads.each(&:join)
+      results
+    end
+  end
+end

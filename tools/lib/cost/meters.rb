@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'code'
+require_relative 'longest_path'
+
+RANDOM_STEPS = 20_000
+DIRECTED_STEPS = 60_000
+
+# What one subject costs; `most` is over all questions, `mean` over the
+# recorded rows, `bound` from the code.
+Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :flash, :instance, :fixed, :levels, :stack,
+                     keyword_init: true)
+
+# What a run prints, one line for each set of questions.
+class Answers
+  def initialize(text, subject)
+    @sets = text.scan(/^(rows|random|search) (.*)$/).to_h do |name, numbers|
+      [name, numbers.scan(/(\w+) (\d+)/).to_h { |key, value| [key, value.to_i] }]
+    end
+    @stack = text[/^stack (\d+)/, 1].to_i
+    raise Host::Failure, "#{subject}: no figures:\n#{text}" if @sets.size != 3
+    return if different.zero?
+
+    raise Host::Failure, "#{subject}: #{different} answers differ from the definition's"
+  end
+
+  attr_reader :stack
+
+  def different
+    @sets.values.sum { |set| set['different'] }
+  end
+
+  def least
+    @sets.values.map { |set| set['least'] }.min
+  end
+
+  def most
+    @sets.values.map { |set| set['most'] }.max
+  end
+
+  def mean
+    @sets['rows']['total'].fdiv(@sets['rows']['steps'])
+  end
+end
+
+# The harness: programs for this machine and objects for the others.
+module Harness
+  SHARED = %w[test/cost/search.c test/target/cases.c test/support/reference.c test/support/numbers.c].freeze
+  INCLUDES = %w[include src test/support test/target test/cost].map { |folder| "-I#{folder}" }.freeze
+  WARNINGS = %w[-Wall -Wextra -Werror].freeze
+  ARM = %w[-mthumb -std=c99 -ffreestanding -ffunction-sections -Itest/target/arm -Itest/target/shim].freeze
+
+  class << self
+    def build(kinds)
+      objects = [] if (kinds & %i[pic avr]).any?
+      objects &&= SHARED.dup.push('test/support/vectors_file.c').map { |file| compile(file) }
+      avr(objects) if kinds.include?(:avr)
+      pic(objects) if kinds.include?(:pic)
+      vectors_table if kinds.include?(:arm)
+    end
+
+    # Objects that all programs of a core share.
+    def arm_objects(core)
+      files = SHARED + %w[test/target/arm/start.c] + ["#{Host.folder}/vectors_table.c"]
+      files.map do |file|
+        object = "#{Host.folder}/#{core}-#{File.basename(file, '.c')}.o"
+        Host.output('arm-none-eabi-gcc', "-mcpu=#{core}", *ARM, '-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
+        object
+      end
+    end
+
+    private
+
+    def compile(file)
+      object = "#{Host.folder}/#{File.basename(file, '.c')}.o"
+      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, '-Itest/cost/host', *INCLUDES, '-c', file, '-o', object)
+      object
+    end
+
+    def avr(objects)
+      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, *INCLUDES, 'test/cost/avr/meter.c', *objects, '-lsimavr',
+                  '-o', "#{Host.folder}/avr")
+    end
+
+    def pic(objects)
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Iport/gpsim', *INCLUDES, 'test/cost/pic.cc',
+                  'test/target/driver.cc', *objects, 'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/pic")
+    end
+
+    # Without the firmware's own cycles.
+    def vectors_table
+      tables = %w[an937_firmware an964_firmware].map do |name|
+        rows = File.readlines("#{Host.root}/test/vectors/#{name}.csv", chomp: true)
+        path = "#{Host.folder}/#{name}.csv"
+        File.write(path, rows.map { |row| "#{row.split(',').take(12).join(',')}\n" }.join)
+        path
+      end
+      File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/avr/vectors_table.rb', *tables))
+    end
+  end
+end
+
+# Builds a subject and measures it.
+class Meter
+  def self.of(subject)
+    { pic: PicMeter, avr: AvrMeter, arm: ArmMeter }.fetch(subject.chip.kind).new(subject)
+  end
+
+  def initialize(subject)
+    @subject = subject
+    @controller = subject.controller
+    @path = "#{Host.folder}/#{subject.key}"
+    @step = @controller.function('step')
+  end
+
+  def figures
+    build
+    answers = Answers.new(run, @subject)
+    code = read_code
+    longest = LongestPath.new(code)
+    step = longest.function(code.entry(@step))
+    check_bound(answers.most, step.cost)
+    Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
+                step_flash: code.size_of(step.addresses), levels: step.levels + 1,
+                **sizes(code, longest), stack: stack(answers, code, longest))
+  rescue LongestPath::Failure, Code::Failure => e
+    raise Host::Failure, "#{@subject}: #{e.message}"
+  end
+
+  private
+
+  def check_bound(most, bound)
+    raise Host::Failure, "#{@subject}: #{most} measured, but #{bound} is the bound" if most > bound
+  end
+
+  def driver
+    "test/target/driver_#{@controller.name}.c"
+  end
+
+  def numbers
+    [RANDOM_STEPS, DIRECTED_STEPS, 0].map(&:to_s)
+  end
+
+  def stack(answers, _code, _longest)
+    answers.stack
+  end
+end
+
+# In gpsim.
+class PicMeter < Meter
+  private
+
+  # Besides the firmware that is run, two for the sizes: one with only the calls
+  # that every application has, and one with none.
+  def build
+    chip = @subject.chip.name
+    link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver, *@subject.sources)
+    link("#{@path}-bare", "test/cost/bare_#{@controller.name}.c", *@subject.sources)
+    link("#{Host.folder}/#{chip}-nothing-#{@subject.key}", 'test/cost/bare_nothing.c')
+  end
+
+  def link(output, *arguments)
+    chip = @subject.chip.name
+    paths = %W[include src test/target test/cost port port/pic port/pic/#{chip}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build_pic', chip, output, *paths, *@subject.defines, *arguments)
+  end
+
+  def run
+    Host.output("#{Host.folder}/pic", "#{@path}.cod", @controller.name, @step, *numbers)
+  end
+
+  def read_code
+    code_of(@path)
+  end
+
+  def code_of(path)
+    (words? ? Pic14Code : Pic18Code).new(path)
+  end
+
+  def words?
+    @subject.chip.flash == 'words'
+  end
+
+  # What a firmware grows by.
+  def sizes(_code, _longest)
+    nothing = code_of("#{Host.folder}/#{@subject.chip.name}-nothing-#{@subject.key}")
+    bare = code_of("#{@path}-bare")
+    instance = bare.object_size("#{@controller.name}_controller")
+    { flash: bare.flash_beyond(nothing, "bare_#{@controller.name}"), instance: instance,
+      fixed: bare.ram_bytes - nothing.ram_bytes - instance }
+  end
+end
+
+# In simavr.
+class AvrMeter < Meter
+  FLAGS = %w[-std=c99 -ffreestanding -ffunction-sections -Wl,--gc-sections].freeze
+
+  private
+
+  def build
+    flags = ["-mmcu=#{@subject.chip.name}", @subject.build, *FLAGS, *Harness::WARNINGS, *Harness::INCLUDES,
+             '-Itest/cost/avr', *@subject.defines]
+    objects = @subject.sources.map do |file|
+      object = "#{@path}-#{File.basename(file, '.*')}.o"
+      Host.output('avr-gcc', *flags, '-c', file, '-o', object)
+      object
+    end
+    @objects = objects
+    Host.output('avr-gcc', *flags, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver,
+                *objects, '-o', "#{@path}.elf")
+  end
+
+  def run
+    symbols = ['main', @step, 'turn', "#{@controller.name}_exchange"].map { |name| read_code.symbol(name).to_s(16) }
+    Host.output("#{Host.folder}/avr", "#{@path}.elf", @subject.chip.name, @controller.name, *symbols, *numbers)
+  end
+
+  def read_code
+    @read_code ||= AvrCode.new("#{@path}.elf")
+  end
+
+  def sizes(code, longest)
+    { flash: code.linked(longest, @controller.calls.map { |verb| @controller.function(verb) }),
+      instance: code.object_size("#{@controller.name}_controller"),
+      fixed: code.static_bytes(@objects) }
+  end
+end
+
+# In QEMU.
+class ArmMeter < AvrMeter
+  BOARDS = { 'cortex-m0' => 'microbit', 'cortex-m4' => 'mps2-an386' }.freeze
+  SHARED = Hash.new { |all, core| all[core] = Harness.arm_objects(core) }
+  MUTEX = Mutex.new
+
+  private
+
+  def build
+    core = @subject.chip.name
+    shared = MUTEX.synchronize { SHARED[core] }
+    flags = ["-mcpu=#{core}", *Harness::ARM, @subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
+    @objects = @subject.sources.map do |file|
+      object = "#{@path}-#{File.basename(file, '.*')}.o"
+      Host.output('arm-none-eabi-gcc', *flags, '-c', file, '-o', object)
+      object
+    end
+    Host.output('arm-none-eabi-gcc', *flags, '-nostdlib', *definitions, "-Wl,--wrap=#{@step}",
+                'test/cost/arm/meter.c', driver, *@objects, *shared,
+                '-T', 'test/target/arm/flash.ld', '-Wl,--gc-sections', '-lgcc', '-o', "#{@path}.elf")
+  end
+
+  def definitions
+    random, directed, outputs = numbers
+    ["-DCONTROLLER=\"#{@controller.name}\"", "-DREPLY=#{@controller.name}_reply",
+     "-DEXCHANGE=#{@controller.name}_exchange", "-DSTEP=\"#{@step}\"",
+     "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}"]
+  end
+
+  # Its note about a timer that is off is not ours.
+  def run
+    Host.output('timeout', '300', 'qemu-system-arm', '-M', BOARDS.fetch(@subject.chip.name), '-nographic',
+                '-semihosting', '-icount', 'shift=10,sleep=off', '-kernel', "#{@path}.elf")
+  end
+
+  def read_code
+    @read_code ||= ArmCode.new("#{@path}.elf")
+  end
+
+  def stack(_answers, code, longest)
+    code.stack(code.entry(@step), longest)
+  end
+end

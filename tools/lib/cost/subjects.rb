@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# What is measured: each controller on each chip, in each mode and build. A new
+# controller takes an entry in CONTROLLERS, a driver in test/target/, with its
+# questions in cases.c, and test/cost/bare_NAME.c.
+
+# `calls` are the functions that every application has.
+Controller = Struct.new(:name, :title, :pics, :calls, keyword_init: true) do
+  def function(verb)
+    "fixpid_#{name}_#{verb}"
+  end
+end
+
+CONTROLLERS = [
+  Controller.new(name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step]),
+  Controller.new(name: 'an964', title: 'AN964', pics: %w[pic16f684 pic18f4520], calls: %w[init step]),
+  Controller.new(name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520], calls: %w[init step])
+].freeze
+
+# The same controller built otherwise, for one chip and in object mode:
+# definitions and sources that are added.
+Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
+
+VARIANTS = [
+].freeze
+
+# `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.
+Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, keyword_init: true)
+
+MODES = %w[object pointer].freeze
+OPTIONS = %w[-O2 -Os].freeze
+
+CHIPS = [
+  Chip.new(name: 'pic16f684', title: 'PIC16F684', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words'),
+  Chip.new(name: 'pic18f4520', title: 'PIC18F4520', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes'),
+  Chip.new(name: 'atmega328p', title: 'ATmega328P', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
+  Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
+  Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes')
+].freeze
+
+# One controller in one build on one chip: a row of the table.
+Subject = Struct.new(:controller, :chip, :build, :variant) do
+  def key
+    [controller.name, chip.name, build.delete('-'), variant&.name].compact.join('-')
+  end
+
+  def built
+    variant ? "#{build}, #{variant.name}" : build
+  end
+
+  def to_s
+    "#{controller.title}, #{chip.title}, #{built}"
+  end
+
+  # Whether all words are among those that describe it.
+  def matches?(words)
+    own = [controller.name, chip.name, build, chip.kind.to_s, variant&.name].compact
+    words.empty? || words.group_by { |word| Subject.kind_of_word(word) }
+                         .all? { |_, group| group.any? { |word| own.include?(word) } }
+  end
+
+  def defines
+    object = chip.kind == :pic && build == 'object'
+    mode = object ? ["-DFIXPID_#{controller.name.upcase}_OBJECT=#{controller.name}_controller"] : []
+    mode + (variant ? variant.defines.map { |define| "-D#{define}" } : [])
+  end
+
+  def sources
+    ["src/fixpid_#{controller.name}.c"] + (variant ? variant.sources : [])
+  end
+
+  class << self
+    def all
+      CHIPS.flat_map do |chip|
+        CONTROLLERS.select { |one| chip.kind != :pic || one.pics.include?(chip.name) }
+                   .flat_map { |controller| of(controller, chip) }
+      end
+    end
+
+    def of(controller, chip)
+      plain = chip.builds.map { |build| new(controller, chip, build, nil) }
+      variants = VARIANTS.select { |one| one.controller == controller.name && one.chip == chip.name }
+      plain.take(1) + variants.map { |one| new(controller, chip, chip.builds.first, one) } + plain.drop(1)
+    end
+
+    WORDS = {
+      controller: CONTROLLERS.map(&:name),
+      chip: CHIPS.map(&:name) + CHIPS.map { |chip| chip.kind.to_s },
+      build: MODES + OPTIONS,
+      variant: VARIANTS.map(&:name)
+    }.freeze
+
+    def kind_of_word(word)
+      WORDS.keys.find { |kind| WORDS[kind].include?(word) }
+    end
+  end
+end
