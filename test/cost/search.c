@@ -26,23 +26,27 @@ struct segment {
     uint8_t times;
 };
 
-// The byte `calls` of each controller's question.
-static const struct {
+// Where each controller's question has its `calls`, and how many bytes of them;
+// CALL_INIT is in the first.
+struct layout {
     const char *controller;
-    size_t calls;
-} layouts[] = {
-    {"an937", offsetof(struct an937_question, calls)},
-    {"an964", offsetof(struct an964_question, calls)},
-    {"an964_8bit", offsetof(struct an964_8bit_question, calls)},
+    uint8_t calls;
+    uint8_t calls_size;
+};
+
+static const struct layout layouts[] = {
+    {"an937", offsetof(struct an937_question, calls), 1},
+    {"an964", offsetof(struct an964_question, calls), 1},
+    {"an964_8bit", offsetof(struct an964_8bit_question, calls), 1},
 };
 
 static const struct search_plan *plan;
 static struct figures figures;
-static size_t calls_offset;
+static const struct layout *layout;
 
 static uint8_t *calls_of(union question *question)
 {
-    return (uint8_t *)question + calls_offset;
+    return (uint8_t *)question + layout->calls;
 }
 
 // ---- One question ----
@@ -146,9 +150,11 @@ static void random_steps(void)
 
 static uint8_t any_times(void)
 {
-    static const uint8_t often[] = {1, 1, 1, 1, 1, 1, 2, 3, 30, 64};
+    static const uint8_t often[] = {1, 1, 1, 1, 1, 1, 1, 2, 2, 3, 4, 8};
+    const uint32_t kind = numbers_below(sizeof often + 1u);
 
-    return often[numbers_below(sizeof often)];
+    return kind < sizeof often ? often[kind]
+                               : (uint8_t)(1u + numbers_below(64));
 }
 
 static void any_segment(struct segment *segment)
@@ -176,12 +182,13 @@ static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
 
         *calls = (uint8_t)(*calls & ~CALL_INIT);
         if (at == 0u) {
+            memset(calls, 0, layout->calls_size);
             *calls = CALL_INIT;
         }
         for (uint8_t time = 0; time < sequence[at].times; time++) {
             const uint32_t cost = measure_defined(&question);
 
-            *calls = 0;
+            memset(calls, 0, layout->calls_size);
             if (cost > most) {
                 most = cost;
             }
@@ -193,17 +200,26 @@ static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
 // Some bytes of a fresh question, a bit, or a small number more or less.
 static void change_bytes(union question *question)
 {
+    static const uint8_t ends[] = {0x00, 0x01, 0x7F, 0x80, 0xFF};
     const uint32_t size = plan->controller->question_size;
     uint8_t *const bytes = (uint8_t *)question;
     const uint32_t from = numbers_below(size);
     const uint32_t count = 1u + numbers_below(size - from);
     union question fresh;
+    uint16_t word;
 
-    switch (numbers_below(4)) {
+    switch (numbers_below(7)) {
     case 0:
-        bytes[from] = (uint8_t)(bytes[from] ^ (1u << numbers_below(8)));
+        bytes[from] = ends[numbers_below(sizeof ends)];
         break;
     case 1:
+        word = (uint16_t)numbers_int16();
+        memcpy(bytes + (from & ~1u) % (size - 1u), &word, sizeof word);
+        break;
+    case 2:
+        bytes[from] = (uint8_t)(bytes[from] ^ (1u << numbers_below(8)));
+        break;
+    case 3:
         bytes[from] = (uint8_t)(bytes[from] + numbers_below(7) - 3u);
         break;
     default:
@@ -218,14 +234,17 @@ static void change(struct segment sequence[SEGMENTS])
 {
     struct segment *const segment = &sequence[numbers_below(SEGMENTS)];
 
-    switch (numbers_below(8)) {
+    switch (numbers_below(12)) {
     case 0:
         segment->times = any_times();
         break;
     case 1:
-        any_segment(segment);
+        segment->times = (uint8_t)(segment->times % 64u + 1u);
         break;
     case 2:
+        any_segment(segment);
+        break;
+    case 3:
         *segment = sequence[numbers_below(SEGMENTS)];
         break;
     default:
@@ -325,11 +344,9 @@ uint32_t search_run(const struct search_plan *of)
     uint32_t different;
 
     plan = of;
-    calls_offset = 0;
-    for (size_t at = 0; at < sizeof layouts / sizeof layouts[0]; at++) {
-        if (strcmp(layouts[at].controller, of->controller->name) == 0) {
-            calls_offset = layouts[at].calls;
-        }
+    layout = layouts;
+    while (strcmp(layout->controller, of->controller->name) != 0) {
+        layout++;
     }
     rows();
     different = report("rows");

@@ -99,15 +99,6 @@ def interrupts
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
-def steps
-  rows = pairs.product(MODES).map do |(chip, controller), mode|
-    line = LOGS.read("replay-#{controller}-#{chip}-#{mode}")
-    cycles = line[/cycles (\d+\.\.\d+)/, 1]
-    ["#{CHIPS[chip]} #{CONTROLLERS[controller]}", mode, cycles, line[/stack (\d+)/, 1]]
-  end
-  table(['', 'mode', 'cycles', 'return levels'], rows)
-end
-
 def stacks(chip, figures)
   # One more where an interrupt comes at the deepest place.
   levels = "#{figures['stack'] + 1} of #{chip == 'pic16f684' ? 8 : 31}"
@@ -129,7 +120,7 @@ end
 
 document = ARGV[2]
 old = File.read(document)
-tables = { 'exact' => exact, 'interrupts' => interrupts, 'steps' => steps, 'firmware' => firmware }
+tables = { 'exact' => exact, 'interrupts' => interrupts, 'firmware' => firmware }
 new = tables.reduce(old) do |text, (name, content)|
   text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
     abort "figures: #{document} has no markers of #{name}"

@@ -9,41 +9,134 @@ require_relative 'cost/host'
 require_relative 'cost/subjects'
 require_relative 'cost/meters'
 require_relative 'cost/tables'
+require_relative 'cost/limits'
+require_relative 'cost/documents'
+require_relative 'cost/picture'
+require_relative 'cost/firmware'
 
 Encoding.default_external = 'UTF-8'
 
-def measure(subjects)
-  Harness.build(subjects.map { |one| one.chip.kind }.uniq)
-  done = 0
-  mutex = Mutex.new
-  figures = Host.in_parallel(subjects) do |subject|
-    found = Meter.of(subject).figures
-    mutex.synchronize do
-      done += 1
-      warn "cost: [#{done}/#{subjects.size}] #{subject}" if $stderr.tty? || (done % 10).zero?
-    end
-    found
+# What measures a part, or all of it.
+class Cost
+  def initialize(subjects)
+    @subjects = subjects
+    @done = 0
+    @mutex = Mutex.new
   end
-  subjects.zip(figures).to_h
+
+  def print
+    puts Tables.plain(Tables.steps(measured))
+  end
+
+  def print_all
+    parts = all_parts
+    parts.each { |_, _, rows| puts Tables.plain(rows), '' }
+    Picture.new(measured).draw
+    puts 'picture: build/cost/cost.png and .svg'
+    limits.all?(&:kept?)
+  end
+
+  # A line for each figure that is kept and for each table.
+  def check
+    good = limits.map { |limit| tell(limit.kept?, limit.what, limit.exceeded) }
+    all_parts.each do |document, name, rows|
+      changes = Document.new(document).replace(name, rows)
+      good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
+    end
+    warn 'cost: tools/cost --update renews the tables' unless good.all?
+    good.all?
+  end
+
+  def update
+    all_parts.group_by(&:first).each do |path, parts|
+      document = Document.new(path)
+      parts.each { |_, name, rows| puts document.replace(name, rows) }
+      document.write
+    end
+    Picture.new(measured).draw
+    FileUtils.cp("#{Host.folder}/cost.png", "#{Host.root}/docs/images/cost.png")
+    limits.reject(&:kept?).each { |limit| tell(false, limit.what, limit.exceeded) }.empty?
+  end
+
+  private
+
+  def tell(good, what, *why)
+    puts good ? "ok #{what}" : "FAILED #{what}"
+    puts(why.map { |line| "    #{line}" }) unless good
+    good
+  end
+
+  def measured
+    @measured ||= begin
+      Harness.build(@subjects.map { |one| one.chip.kind }.uniq)
+      @subjects.zip(in_parallel(@subjects, &:figures)).to_h
+    end
+  end
+
+  def straight
+    @straight ||= begin
+      subjects = @subjects.select(&:has_straight?)
+      subjects.zip(in_parallel(subjects.map(&:straight), &:most)).to_h
+    end
+  end
+
+  def in_parallel(subjects)
+    Host.in_parallel(subjects) do |subject|
+      found = yield(Meter.of(subject))
+      @mutex.synchronize { progress }
+      found
+    end
+  end
+
+  def progress
+    @done += 1
+    warn "cost: #{@done} of #{@total ||= @subjects.size + @subjects.count(&:has_straight?)}" if (@done % 10).zero?
+  end
+
+  def limits
+    @limits ||= Limits.all(measured, straight, "#{Host.root}/docs/chips.md")
+  end
+
+  def all_parts
+    page = "#{Host.root}/docs/cost.md"
+    [[page, 'steps', Tables.steps(measured)],
+     [page, 'ratios', Tables.ratios(measured, straight)],
+     [page, 'beside', Tables.beside(measured)],
+     [page, 'limits', Tables.limits(limits)],
+     ["#{Host.root}/README.md", 'cost', Tables.readme(measured)]]
+  end
 end
 
-def main(_mode, root, *words)
-  Host.setup(root)
-  subjects = Subject.all.select { |one| one.matches?(words) }
+def chosen(words)
   unknown = words.reject { |word| Subject.kind_of_word(word) }
   raise Host::Failure, "nothing is called #{unknown.join(', ')}; see --help" if unknown.any?
+
+  subjects = Subject.all.select { |one| one.matches?(words) }
   raise Host::Failure, "nothing is #{words.join(' ')}" if subjects.empty?
 
-  puts Tables.plain(Tables.steps(measure(subjects)))
+  subjects
+end
+
+def main(mode, root, *words)
+  Host.setup(root)
+  return UserFirmware.new(*words).print if mode == 'firmware'
+
+  cost = Cost.new(chosen(words))
+  case mode
+  when 'check' then cost.check
+  when 'update' then cost.update
+  else words.empty? ? cost.print_all : cost.print
+  end
 end
 
 begin
   $stdout.sync = true
-  main(*ARGV)
+  exit(main(*ARGV) == false ? 1 : 0)
 rescue Host::Failure, SystemCallError => e
   warn "cost: #{e.message}"
   exit 1
 rescue SignalException
+  Host.stop_all
   warn 'cost: interrupted'
   exit 130
 end

@@ -14,15 +14,40 @@ module Host
     def setup(root)
       @root = root
       @folder = "#{root}/build/cost"
+      @running = {}
       FileUtils.mkdir_p(@folder)
     end
 
     # What a command prints, from the project's folder; its failure is ours.
     def output(*command)
-      text, status = Open3.capture2e(*command, chdir: root, stdin_data: '')
-      return text if status.success?
+      text, good = run(*command)
+      return text if good
 
       raise Failure, "#{command.first} failed:\n#{command.join(' ')}\n#{text.lines.last(20).join}"
+    end
+
+    # What a command prints, and whether it succeeded.
+    def run(*command)
+      Open3.popen2e(*command, chdir: root) do |input, printed, process|
+        input.close
+        @running[process.pid] = true
+        text = printed.read
+        @running.delete(process.pid)
+        [text, process.value.success?]
+      end
+    end
+
+    # When we are stopped, none is left behind.
+    def stop_all
+      @running.each_key { |pid| Process.kill('TERM', pid) }
+    rescue SystemCallError
+      nil # it has ended by itself
+    end
+
+    # For gnuplot.
+    def execute(environment, *command)
+      text, status = Open3.capture2e(environment, *command)
+      raise Failure, "#{command.first} failed: #{text}" unless status.success?
     end
 
     # Like map, on as many threads as there are processors, and in order.

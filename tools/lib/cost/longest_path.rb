@@ -27,6 +27,21 @@ class LongestPath
     end
   end
 
+  # All addresses that these functions reach.
+  def self.reached(code, entries)
+    seen = {}
+    todo = entries.dup
+    until todo.empty?
+      at = todo.pop
+      next if seen.key?(at)
+
+      instruction = code.at(at)
+      seen[at] = true
+      todo.concat([instruction.call].compact, instruction.edges.map(&:first))
+    end
+    seen.keys
+  end
+
   private
 
   # Costs of the edges with those of the functions called in between.
@@ -46,7 +61,7 @@ class LongestPath
     while (at = todo.pop)
       next if edges.key?(at)
 
-      instruction = @code.at(at)
+      instruction = followed(at)
       callee = instruction.call && function(instruction.call)
       callees << callee if callee
       ends[at] = instruction.return_cost if instruction.return_cost
@@ -54,6 +69,13 @@ class LongestPath
       todo.concat(edges[at].map(&:first))
     end
     [edges, ends, callees]
+  end
+
+  def followed(at)
+    instruction = @code.at(at)
+    return instruction unless instruction.opaque
+
+    raise Failure, format('%<name>s: no path through %<what>s at %<at>05x', name: @code.name(at), what: instruction.opaque, at: at)
   end
 
   # The largest cost to come from `start` to each of `nodes`; edges into `cut`

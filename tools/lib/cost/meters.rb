@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'code'
+require_relative 'elf_code'
 require_relative 'longest_path'
+require_relative 'pic_code'
 
 RANDOM_STEPS = 20_000
-DIRECTED_STEPS = 60_000
+DIRECTED_STEPS = 100_000
 
 # What one subject costs; `most` is over all questions, `mean` over the
-# recorded rows, `bound` from the code.
-Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :flash, :instance, :fixed, :levels, :stack,
+# recorded rows, `bound` from the code. Flash of the step, of all functions that
+# an application needs, and as the linker takes it; RAM of a controller and
+# besides.
+Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :levels, :stack,
                      keyword_init: true)
 
 # What a run prints, one line for each set of questions.
@@ -58,6 +61,11 @@ module Harness
       avr(objects) if kinds.include?(:avr)
       pic(objects) if kinds.include?(:pic)
       vectors_table if kinds.include?(:arm)
+    end
+
+    def build_function
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Iport/gpsim', 'test/cost/function.cc',
+                  'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/function")
     end
 
     # Objects that all programs of a core share.
@@ -111,7 +119,13 @@ class Meter
     @subject = subject
     @controller = subject.controller
     @path = "#{Host.folder}/#{subject.key}"
-    @step = @controller.function('step')
+    @step = subject.step
+  end
+
+  # The worst step and no more.
+  def most
+    build
+    Answers.new(run, @subject).most
   end
 
   def figures
@@ -122,8 +136,8 @@ class Meter
     step = longest.function(code.entry(@step))
     check_bound(answers.most, step.cost)
     Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
-                step_flash: code.size_of(step.addresses), levels: step.levels + 1,
-                **sizes(code, longest), stack: stack(answers, code, longest))
+                step_flash: code.size_of(step.addresses), needed: needed(code), levels: step.levels + 1,
+                stack: stack(answers, code, longest), **sizes(code))
   rescue LongestPath::Failure, Code::Failure => e
     raise Host::Failure, "#{@subject}: #{e.message}"
   end
@@ -135,11 +149,18 @@ class Meter
   end
 
   def driver
-    "test/target/driver_#{@controller.name}.c"
+    @subject.driver
   end
 
+  # A straightforward form has neither flags nor refusals: only the outputs of
+  # the rows are compared.
   def numbers
-    [RANDOM_STEPS, DIRECTED_STEPS, 0].map(&:to_s)
+    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0].map(&:to_s)
+  end
+
+  def needed(code)
+    entries = @controller.calls.map { |verb| code.entry(@controller.function(verb)) }
+    code.size_of(LongestPath.reached(code, entries))
   end
 
   def stack(answers, _code, _longest)
@@ -155,7 +176,8 @@ class PicMeter < Meter
   # that every application has, and one with none.
   def build
     chip = @subject.chip.name
-    link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver, *@subject.sources)
+    link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver,
+         *@subject.all_sources)
     link("#{@path}-bare", "test/cost/bare_#{@controller.name}.c", *@subject.sources)
     link("#{Host.folder}/#{chip}-nothing-#{@subject.key}", 'test/cost/bare_nothing.c')
   end
@@ -171,7 +193,7 @@ class PicMeter < Meter
   end
 
   def read_code
-    code_of(@path)
+    @read_code ||= code_of(@path)
   end
 
   def code_of(path)
@@ -183,11 +205,11 @@ class PicMeter < Meter
   end
 
   # What a firmware grows by.
-  def sizes(_code, _longest)
+  def sizes(_code)
     nothing = code_of("#{Host.folder}/#{@subject.chip.name}-nothing-#{@subject.key}")
     bare = code_of("#{@path}-bare")
     instance = bare.object_size("#{@controller.name}_controller")
-    { flash: bare.flash_beyond(nothing, "bare_#{@controller.name}"), instance: instance,
+    { linked: bare.flash_beyond(nothing, "bare_#{@controller.name}"), instance: instance,
       fixed: bare.ram_bytes - nothing.ram_bytes - instance }
   end
 end
@@ -201,7 +223,7 @@ class AvrMeter < Meter
   def build
     flags = ["-mmcu=#{@subject.chip.name}", @subject.build, *FLAGS, *Harness::WARNINGS, *Harness::INCLUDES,
              '-Itest/cost/avr', *@subject.defines]
-    objects = @subject.sources.map do |file|
+    objects = @subject.all_sources.map do |file|
       object = "#{@path}-#{File.basename(file, '.*')}.o"
       Host.output('avr-gcc', *flags, '-c', file, '-o', object)
       object
@@ -220,9 +242,8 @@ class AvrMeter < Meter
     @read_code ||= AvrCode.new("#{@path}.elf")
   end
 
-  def sizes(code, longest)
-    { flash: code.linked(longest, @controller.calls.map { |verb| @controller.function(verb) }),
-      instance: code.object_size("#{@controller.name}_controller"),
+  def sizes(code)
+    { linked: needed(code), instance: code.object_size("#{@controller.name}_controller"),
       fixed: code.static_bytes(@objects) }
   end
 end
@@ -239,7 +260,7 @@ class ArmMeter < AvrMeter
     core = @subject.chip.name
     shared = MUTEX.synchronize { SHARED[core] }
     flags = ["-mcpu=#{core}", *Harness::ARM, @subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
-    @objects = @subject.sources.map do |file|
+    @objects = @subject.all_sources.map do |file|
       object = "#{@path}-#{File.basename(file, '.*')}.o"
       Host.output('arm-none-eabi-gcc', *flags, '-c', file, '-o', object)
       object

@@ -39,10 +39,33 @@ CHIPS = [
   Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes')
 ].freeze
 
-# One controller in one build on one chip: a row of the table.
-Subject = Struct.new(:controller, :chip, :build, :variant) do
+# One controller in one build on one chip: a row of the table. `form` is the
+# library's or :straight, test/cost/straight_NAME.c: the same law as one writes
+# it for a 32-bit machine.
+Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   def key
-    [controller.name, chip.name, build.delete('-'), variant&.name].compact.join('-')
+    [form, controller.name, chip.name, build.delete('-'), variant&.name].compact.join('-')
+  end
+
+  # A PIC is not compared: nobody writes 32-bit products for it.
+  def has_straight?
+    chip.kind != :pic
+  end
+
+  def straight
+    Subject.new(controller, chip, build, nil, :straight)
+  end
+
+  def straight?
+    form == :straight
+  end
+
+  def step
+    straight? ? "straight_#{controller.name}_step" : controller.function('step')
+  end
+
+  def driver
+    straight? ? "test/cost/driver_straight_#{controller.name}.c" : "test/target/driver_#{controller.name}.c"
   end
 
   def built
@@ -50,7 +73,11 @@ Subject = Struct.new(:controller, :chip, :build, :variant) do
   end
 
   def to_s
-    "#{controller.title}, #{chip.title}, #{built}"
+    [controller.title, chip.title, built, form].compact.join(', ')
+  end
+
+  def is?(*names)
+    [controller.name, chip.name, build, variant&.name] == names
   end
 
   # Whether all words are among those that describe it.
@@ -66,8 +93,15 @@ Subject = Struct.new(:controller, :chip, :build, :variant) do
     mode + (variant ? variant.defines.map { |define| "-D#{define}" } : [])
   end
 
+  # What every application needs, and with what only some do.
   def sources
+    return ["test/cost/straight_#{controller.name}.c"] if straight?
+
     ["src/fixpid_#{controller.name}.c"] + (variant ? variant.sources : [])
+  end
+
+  def all_sources
+    straight? ? sources : sources + Dir.glob("src/fixpid_#{controller.name}_access.c", base: Host.root)
   end
 
   class << self

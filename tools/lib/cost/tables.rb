@@ -1,15 +1,56 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The figures as rows of text.
+require_relative 'published'
+
+# The figures as tables: rows of cells, the head first.
 module Tables
-  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'flash of the step', 'with init',
+  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'flash of the step', 'with init', 'linked',
           'RAM each', 'RAM once', 'stack'].freeze
+  # Of the comparison with others.
+  COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p-O2' => 'ATmega328P -O2',
+              'atmega328p-Os' => 'ATmega328P -Os', 'cortex-m0-Os' => 'Cortex-M0 -Os',
+              'cortex-m4-Os' => 'Cortex-M4 -Os' }.freeze
+  # Of README.md: what one would build.
+  BEST = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2',
+           'cortex-m4' => '-O2' }.freeze
 
   class << self
-    # A row for each subject, after the head.
     def steps(measured)
-      [HEAD] + measured.map { |subject, figures| row(subject, figures) }
+      [HEAD] + measured.map { |subject, figures| step(subject, figures) }
+    end
+
+    # Ours, then the notes' and the others'.
+    def beside(measured)
+      ours = CONTROLLERS.flat_map { |controller| own_rows(measured, controller) }
+      others = (NOTES + PEERS).map do |other|
+        [other.title, *COLUMNS.keys.map { |column| other.costs.fetch(column, '-') }, other.flash || '-',
+         other.ram || '-']
+      end
+      [['', *COLUMNS.values, 'flash, ATmega328P -Os', 'RAM']] + ours + others
+    end
+
+    # Against the straightforward form: { subject => its worst }.
+    def ratios(measured, straight)
+      [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + straight.map do |subject, most|
+        [subject.controller.title, subject.chip.title, subject.build, measured.fetch(subject).most, most,
+         format('%.2f', measured.fetch(subject).most.fdiv(most))]
+      end
+    end
+
+    def limits(limits)
+      [['', 'at most', 'now']] + limits.map { |limit| [limit.what, limit.shown(limit.most), limit.shown(limit.now)] }
+    end
+
+    def readme(measured)
+      head = ['', *BEST.keys.map { |chip| CHIPS.find { |one| one.name == chip }.title }]
+      rows = CONTROLLERS.flat_map do |controller|
+        variants(measured, controller).map do |name|
+          [[controller.title, name].compact.join(', '),
+           *BEST.map { |chip, build| short(measured, controller, chip, build, name) }]
+        end
+      end
+      [head] + rows + NOTES.map { |note| [note.title, *BEST.keys.map { |chip| note.costs.fetch(chip, '') }] }
     end
 
     def markdown(rows)
@@ -22,13 +63,19 @@ module Tables
       rows.map { |row| row.zip(widths).map { |cell, width| cell.to_s.ljust(width) }.join('  ').rstrip }
     end
 
+    def find(measured, controller, chip, build, variant = nil)
+      measured.find do |subject, _|
+        subject.controller.name == controller && subject.chip.name == chip && subject.build == build &&
+          subject.variant&.name == variant
+      end&.last
+    end
+
     private
 
-    def row(subject, figures)
-      [subject.controller.title, subject.chip.title, subject.built.delete('`'),
-       figures.least, figures.mean.round, figures.most, figures.bound,
-       "#{figures.step_flash} #{subject.chip.flash}", figures.flash, figures.instance, figures.fixed,
-       stack(subject.chip, figures)]
+    def step(subject, figures)
+      [subject.controller.title, subject.chip.title, subject.built, figures.least, figures.mean.round, figures.most,
+       figures.bound, "#{figures.step_flash} #{subject.chip.flash}", figures.needed, figures.linked,
+       figures.instance, figures.fixed, stack(subject.chip, figures)]
     end
 
     def stack(chip, figures)
@@ -36,6 +83,28 @@ module Tables
 
       levels = "#{figures.levels} levels"
       figures.stack.zero? ? levels : "#{levels}, #{figures.stack} bytes"
+    end
+
+    # nil for the plain build, first, and the names of the others.
+    def variants(measured, controller)
+      own = measured.keys.select { |subject| subject.controller == controller }
+      [nil] + own.map { |subject| subject.variant&.name }.compact.uniq
+    end
+
+    def own_rows(measured, controller)
+      variants(measured, controller).map do |name|
+        costs = COLUMNS.keys.map do |column|
+          chip, option = column.split(/(?=-O)/)
+          find(measured, controller.name, chip, option || 'object', name)&.most || '-'
+        end
+        small = find(measured, controller.name, 'atmega328p', '-Os', name)
+        ["fixpid #{[controller.title, name].compact.join(', ')}", *costs, small&.needed || '-', small&.instance || '-']
+      end
+    end
+
+    def short(measured, controller, chip, build, name)
+      figures = find(measured, controller.name, chip, build, name) or return ''
+      "#{figures.most}; #{figures.needed}"
     end
   end
 end

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'code'
+
+# What objdump and nm say of an ELF file.
+class ElfCode < Code
+  LINE = /^\s*(\h+):\t([\h ]+?)\s*\t(\S+)(?:\t([^;@<\n]*))?/.freeze
+
+  def initialize(path, tools)
+    @tools = tools
+    @symbols = `#{tools}-nm -S #{path}`.scan(/^(\h+) (?:(\h+) )?\w (\S+)$/)
+                                       .to_h { |address, bytes, name| [name, [address.hex, bytes.to_s.hex]] }
+    super(@symbols.select { |_, (_, bytes)| bytes.positive? }.transform_values { |address, _| address & mask })
+    @lines = {}
+    `#{tools}-objdump -d -w #{path}`.scan(LINE) do |address, raw, mnemonic, operands|
+      @lines[address.hex] = [raw.delete(' ').size / 2, mnemonic, operands.to_s.strip]
+    end
+  end
+
+  def symbol(name)
+    @symbols.fetch(name) { raise Failure, "no symbol #{name}" }.first
+  end
+
+  def object_size(name)
+    @symbols.fetch(name) { raise Failure, "no object #{name}" }.last
+  end
+
+  # Of the functions that these addresses belong to, with their constants.
+  def size_of(addresses)
+    addresses.map { |at| name(at) }.uniq.sum { |name| @symbols.fetch(name).last }
+  end
+
+  # RAM of object files that is nobody's object.
+  def static_bytes(objects)
+    `#{@tools}-size #{objects.join(' ')}`.lines.drop(1).sum { |line| line.split[1, 2].sum(&:to_i) }
+  end
+
+  private
+
+  def line(at)
+    @lines[at] or missing(at, 'no instruction')
+  end
+
+  def mask
+    -1
+  end
+end
+
+# An ATmega: cycles as in its data sheet, with a program counter of two bytes.
+class AvrCode < ElfCode
+  TWO = %w[lds sts ld ldd st std push pop mul muls mulsu fmul fmuls fmulsu adiw sbiw sbi cbi].freeze
+  SKIPS = %w[cpse sbrc sbrs sbic sbis].freeze
+
+  NO_TARGET = /\A(st|std|sts|push|out|cp|cpc|cpi|cpse|tst|sbr[cs]|sbi[cs]|br..|rjmp|jmp|rcall|call|ret|nop)\z/.freeze
+
+  def initialize(path)
+    super(path, 'avr')
+  end
+
+  def decremented(at)
+    _, mnemonic, operands = line(at)
+    operands[/\Ar\d+/] if mnemonic == 'dec'
+  end
+
+  def writes?(at, counter)
+    _, mnemonic, operands = line(at)
+    return false if mnemonic.match?(NO_TARGET)
+    return %w[r0 r1].include?(counter) if mnemonic.match?(/mul/)
+
+    target = operands[/\Ar(\d+)/, 1].to_i
+    wide = mnemonic.match?(/\A(movw|adiw|sbiw)\z/) ? 1 : 0
+    (target..target + wide).cover?(counter[1..-1].to_i)
+  end
+
+  def loaded(at, counter)
+    _, mnemonic, operands = line(at)
+    operands[/0x\h+/].hex if mnemonic == 'ldi' && operands.start_with?("#{counter},")
+  end
+
+  def counts_to_zero?(at)
+    line(at + line(at)[0])[1] == 'brne'
+  end
+
+  private
+
+  def decode(at)
+    bytes, mnemonic, operands = line(at)
+    case mnemonic
+    when 'ret', 'reti' then Instruction.new([], nil, 4, bytes)
+    when 'call', 'rcall' then Instruction.new([[at + bytes, mnemonic == 'call' ? 4 : 3]], target(at, operands), nil, bytes)
+    when 'jmp', 'rjmp' then Instruction.new([[target(at, operands), mnemonic == 'jmp' ? 3 : 2]], nil, nil, bytes)
+    when /\Abr/ then Instruction.new([[at + bytes, 1], [target(at, operands), 2]], nil, nil, bytes)
+    when *SKIPS then skip(at, bytes)
+    when /call|jmp|spm|sleep/ then opaque(mnemonic)
+    else plain(at, bytes, cycles(mnemonic))
+    end
+  end
+
+  def cycles(mnemonic)
+    return 3 if mnemonic.end_with?('lpm')
+
+    TWO.include?(mnemonic) ? 2 : 1
+  end
+
+  def skip(at, bytes)
+    words = line(at + bytes)[0] / 2
+    Instruction.new([[at + bytes, 1], [at + bytes + 2 * words, 1 + words]], nil, nil, bytes)
+  end
+
+  def target(at, operands)
+    return operands.hex if operands.start_with?('0x')
+
+    at + 2 + Integer(operands[/\A\.([-+]\d+)/, 1], 10)
+  end
+end
+
+# A Cortex-M: each instruction costs one.
+class ArmCode < ElfCode
+  def initialize(path)
+    super(path, 'arm-none-eabi')
+  end
+
+  # Bytes that a function and its callees push at most.
+  def stack(entry, path)
+    pushed = path.function(entry).addresses.group_by { |at| name(at) }
+    pushed.transform_values! { |addresses| addresses.sum { |at| pushed_by(*line(at)) } }
+    deepest(entry, pushed, path)
+  end
+
+  private
+
+  def mask
+    ~1
+  end
+
+  def decode(at)
+    bytes, mnemonic, operands = line(at)
+    mnemonic = mnemonic.sub(/\.[nw]\z/, '')
+    case mnemonic
+    when 'bl' then Instruction.new([[at + bytes, 1]], operands.hex, nil, bytes)
+    when 'b' then Instruction.new([[operands.hex, 1]], nil, nil, bytes)
+    when /\Acbn?z\z/ then Instruction.new([[at + bytes, 1], [operands[/\h+\z/].hex, 1]], nil, nil, bytes)
+    when /\Ab(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)\z/
+      Instruction.new([[at + bytes, 1], [operands.hex, 1]], nil, nil, bytes)
+    else
+      returning(at, bytes, mnemonic, operands)
+    end
+  end
+
+  # A return may be conditional in an IT block.
+  def returning(at, bytes, mnemonic, operands)
+    return plain(at, bytes, 1) unless operands.match?(/\bpc\b/) || mnemonic.match?(/\Ab(l?x|tb|th)/) || operands == 'lr'
+
+    leaves = mnemonic.match?(/\A(bx|pop|ldmia|ldr)(..)?\z/) && (operands == 'lr' || operands.match?(/pc\}|\Apc, \[sp\]/))
+    return plain(at, bytes, 1) if mnemonic.match?(/\A(add|adr|ldr|mov|push)/) && !operands.match?(/\Apc|\{.*pc/)
+
+    return opaque("#{mnemonic} #{operands}") unless leaves
+
+    on = mnemonic.match?(/\A(bx|pop|ldmia|ldr)..\z/) && mnemonic != 'ldmia' ? [[at + bytes, 1]] : []
+    Instruction.new(on, nil, 1, bytes)
+  end
+
+  def pushed_by(_bytes, mnemonic, operands)
+    case mnemonic
+    when /\Apush|\Astmdb/ then 4 * registers(operands)
+    when /\Asub/ then operands.match?(/\Asp, (?:sp, )?#/) ? operands[/#(\d+)/, 1].to_i : 0
+    when /\Astr/ then operands[/\[sp, #-(\d+)\]!/, 1].to_i
+    else 0
+    end
+  end
+
+  def registers(operands)
+    operands[/\{(.*)\}/, 1].split(', ').sum do |item|
+      first, last = item.split('-').map { |register| register.delete('r').to_i }
+      last ? last - first + 1 : 1
+    end
+  end
+
+  def deepest(entry, pushed, path)
+    own = name(entry)
+    callees = path.function(entry).addresses.select { |at| name(at) == own }.map { |at| at(at).call }.compact.uniq
+    pushed.fetch(own, 0) + (callees.map { |callee| deepest(callee, pushed, path) }.max || 0)
+  end
+end

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'tables'
+
+# A figure that must not grow beyond a number, whatever the tables say.
+Limit = Struct.new(:what, :most, :now, :unit) do
+  def kept?
+    !now.nil? && now <= most
+  end
+
+  def exceeded
+    "#{shown(now)}, at most #{shown(most)} allowed"
+  end
+
+  def shown(value)
+    return '-' if value.nil?
+
+    "#{value.is_a?(Float) ? format('%.2f', value) : value} #{unit}".strip
+  end
+end
+
+# The promises.
+module Limits
+  BOUND_MOST = 1.10
+  RATIOS = { 'ATmega328P' => 1.00, 'Cortex-M0' => 1.25, 'Cortex-M4' => 1.25 }.freeze
+
+  # Controller, chip, build, variant: the figures and their limits.
+  STEPS = {
+    ['an937', 'pic18f4520', 'object', nil] => { most: 410, step_flash: 900 },
+    ['an937', 'pic18f4520', 'pointer', nil] => { most: 860 },
+    ['an964', 'pic16f684', 'object', nil] => { most: 835, step_flash: 450, fixed: 12 },
+    ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
+    ['an964_8bit', 'pic16f684', 'object', nil] => { most: 400, step_flash: 440 },
+    ['an964_8bit', 'pic16f684', 'pointer', nil] => { most: 1250 }
+  }.freeze
+
+  # Of docs/chips.md, where test/target/run keeps them.
+  FIRMWARE = {
+    ['pendulum, PIC16F684', 'interrupt'] => [40, 'cycles'],
+    ['pendulum, PIC16F684', 'flash'] => [1050, 'words'],
+    ['pendulum, PIC16F684', 'RAM, bytes'] => [72, 'bytes'],
+    ['pendulum, PIC16F684', 'stack used'] => [4, 'levels'],
+    ['motor, PIC18F4520', 'interrupt'] => [18, 'cycles']
+  }.freeze
+
+  WORDS = { most: 'worst', step_flash: 'flash of the step', needed: 'flash with init', fixed: 'RAM once',
+            ram: 'RAM in all' }.freeze
+
+  class << self
+    def all(measured, straight, chips_document)
+      steps(measured) + bounds(measured) + ratios(measured, straight) + firmware(chips_document)
+    end
+
+    # Of the worst found; the largest is in the table of limits.
+    def bounds(measured)
+      subject, figures = measured.max_by { |_, one| one.bound.fdiv(one.most) }
+      [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
+    end
+
+    private
+
+    def steps(measured)
+      STEPS.flat_map do |(controller, chip, build, variant), limits|
+        subject = measured.keys.find { |one| one.is?(controller, chip, build, variant) } or
+          raise Host::Failure, "no #{[controller, chip, build, variant].compact.join(' ')} to limit"
+        limits.map { |figure, most| step(subject, measured[subject], figure, most) }
+      end
+    end
+
+    def step(subject, figures, figure, most)
+      now = figure == :ram ? figures.instance + figures.fixed : figures[figure]
+      unit = { most: subject.chip.cost, fixed: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
+      Limit.new("#{subject}, #{WORDS.fetch(figure)}", most, now, unit)
+    end
+
+    def ratios(measured, straight)
+      straight.map do |subject, most|
+        Limit.new("#{subject}, by the straightforward form", RATIOS.fetch(subject.chip.title),
+                  measured.fetch(subject).most.fdiv(most).round(2))
+      end
+    end
+
+    def firmware(document)
+      table = File.read(document).lines.grep(/^\|/).map { |line| line.strip.split('|').drop(1).map(&:strip) }
+      FIRMWARE.map do |(name, column), (most, unit)|
+        head = table.find { |row| row.include?('pass with a tick') }
+        row = table.find { |one| one.first == name }
+        now = row && head && row[head.index(column)].to_i
+        Limit.new("#{name}, #{column.sub(', bytes', '')}", most, now, unit)
+      end
+    end
+  end
+end
