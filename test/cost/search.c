@@ -339,14 +339,26 @@ static uint32_t report(const char *name)
     return figures.different;
 }
 
+static bool find_layout(const char *controller)
+{
+    const size_t count = sizeof layouts / sizeof layouts[0];
+
+    for (layout = layouts; layout < layouts + count; layout++) {
+        if (strcmp(layout->controller, controller) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 uint32_t search_run(const struct search_plan *of)
 {
     uint32_t different;
 
     plan = of;
-    layout = layouts;
-    while (strcmp(layout->controller, of->controller->name) != 0) {
-        layout++;
+    if (!find_layout(of->controller->name)) {
+        put_text("no layout of its questions\n");
+        return 1;
     }
     rows();
     different = report("rows");
