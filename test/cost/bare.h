@@ -8,6 +8,6 @@
 #include "configuration.h"
 
 volatile int16_t bare_input;
-volatile int32_t bare_output;
+volatile int16_t bare_output;
 
 #endif

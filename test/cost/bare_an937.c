@@ -12,6 +12,7 @@ void main(void)
     (void)fixpid_an937_init(&an937_controller, &config);
     for (;;) {
         fixpid_an937_tick(&an937_controller);
-        bare_output = fixpid_an937_step(&an937_controller, bare_input);
+        bare_output =
+            (int16_t)fixpid_an937_step(&an937_controller, bare_input);
     }
 }

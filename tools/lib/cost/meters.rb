@@ -175,16 +175,25 @@ class PicMeter < Meter
   # Besides the firmware that is run, two for the sizes: one with only the calls
   # that every application has, and one with none.
   def build
-    chip = @subject.chip.name
     link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver,
          *@subject.all_sources)
-    link("#{@path}-bare", "test/cost/bare_#{@controller.name}.c", *@subject.sources)
-    link("#{Host.folder}/#{chip}-nothing-#{@subject.key}", 'test/cost/bare_nothing.c')
+    link("#{@path}-bare", *together("test/cost/bare_#{@controller.name}.c", *@subject.sources))
+    link("#{@path}-nothing", *together('test/cost/bare_nothing.c'))
+  end
+
+  # A PIC16's as tools/firmware does it: compiled as one file, functions share
+  # their RAM.
+  def together(*sources)
+    return sources unless words?
+
+    one = "#{@path.tr('-', '_')}_#{sources.size}.c"
+    File.write(one, sources.map { |source| "#include \"#{source}\"\n" }.join)
+    [one]
   end
 
   def link(output, *arguments)
     chip = @subject.chip.name
-    paths = %W[include src test/target test/cost port port/pic port/pic/#{chip}].map { |folder| "-I#{folder}" }
+    paths = %W[. include src test/target test/cost port port/pic port/pic/#{chip}].map { |folder| "-I#{folder}" }
     Host.output('tools/lib/build_pic', chip, output, *paths, *@subject.defines, *arguments)
   end
 
@@ -206,10 +215,10 @@ class PicMeter < Meter
 
   # What a firmware grows by.
   def sizes(_code)
-    nothing = code_of("#{Host.folder}/#{@subject.chip.name}-nothing-#{@subject.key}")
     bare = code_of("#{@path}-bare")
+    nothing = code_of("#{@path}-nothing")
     instance = bare.object_size("#{@controller.name}_controller")
-    { linked: bare.flash_beyond(nothing, "bare_#{@controller.name}"), instance: instance,
+    { linked: bare.library_flash - nothing.library_flash, instance: instance,
       fixed: bare.ram_bytes - nothing.ram_bytes - instance }
   end
 end

@@ -30,10 +30,9 @@ class PicCode < Code
     found.sum { |one| units(one) }
   end
 
-  # What this firmware has more than another one, without the application's own
-  # functions.
-  def flash_beyond(other, application)
-    library_flash(application) - other.library_flash('bare_nothing')
+  # Without the application's own function, and without configuration words.
+  def library_flash
+    program.reject { |one| one.name.end_with?('__main') || one.address >= self.class::FLASH }.sum { |one| units(one) }
   end
 
   # Bytes of RAM that are taken: sections may overlap, and registers of the chip
@@ -51,13 +50,6 @@ class PicCode < Code
       return size.to_i if size
     end
     raise Failure, "no object #{name}"
-  end
-
-  protected
-
-  def library_flash(application)
-    program.reject { |one| one.name.start_with?("S_#{application}__") || one.address >= self.class::FLASH }
-           .sum { |one| units(one) }
   end
 
   private
