@@ -9,8 +9,9 @@
 // limited to [output_min, output_max]. Setpoint and measurement are counts of
 // the sensor, the output is counts of the actuator: each any int16_t. Errors
 // and differences saturate at the ends of int16_t. Every input gives a defined
-// output; the only roundings are the output's (to the nearest count, half up)
-// and the derivative filter's (less than 2^filter / 256 of an output count).
+// output; the only roundings are those of the output and of the weighted
+// setpoint (to the nearest count, half up) and the derivative filter's (less
+// than 2^filter / 256 of an output count).
 //
 // Call fixpid_pid_step once per sample period. The module has no clock: the
 // rate is in ki_q24 and kd_q8, which the macros below fold from seconds.
@@ -205,12 +206,12 @@ void fixpid_pid_seed(FIXPID_DATA struct fixpid_pid *self, int16_t output);
 // term in 1/256 of an output count, sat16 the limits of int16_t, floor toward
 // minus infinity, and y the measurement, r the setpoint, F the feed-forward:
 //   w = floor((b * r + 128) / 256), r itself at b = 256
-//   e = sat16(r - y)                            reverse: sat16(y - r)
-//   P = kp_q8 * sat16(w - y)                    reverse: sat16(y - w)
-//   d = sat16(fall of y)                        reverse: rise of y; option: of
-//   e D = clamp(D - floor(D / 2^n) + kd_q8 * d, -DMAX, DMAX) I = clamp(I + ki *
-//   e, integral_min, integral_max), in 1/2^24 U = floor((P + D + 256 F +
-//   floor(I / 2^16) + 128) / 256)
+//   e = sat16(r - y)                    reverse: sat16(y - r)
+//   P = kp_q8 * sat16(w - y)            reverse: sat16(y - w)
+//   d = sat16(fall of y)                reverse: its rise; option: rise of e
+//   D = clamp(D - floor(D / 2^n) + kd_q8 * d, -DMAX, DMAX)
+//   I = clamp(I + ki * e, integral_min, integral_max), in 1/2^24
+//   U = floor((P + D + 256 F + floor(I / 2^16) + 128) / 256)
 // with n the derivative filter and DMAX = 2^30 - 2^24, which only n > 0 can
 // reach. d is 0 at the first step. I keeps its old value where U is above
 // output_max and e > 0, or U below output_min and e < 0.
