@@ -3,7 +3,7 @@
 #include "bare.h"
 #include "fixpid_an937.h"
 
-FIXPID_DATA struct fixpid_an937 an937_controller;
+FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE an937_controller;
 
 void main(void)
 {
@@ -12,7 +12,6 @@ void main(void)
     (void)fixpid_an937_init(&an937_controller, &config);
     for (;;) {
         fixpid_an937_tick(&an937_controller);
-        bare_output =
-            (int16_t)fixpid_an937_step(&an937_controller, bare_input);
+        bare_output = (int16_t)fixpid_an937_step(&an937_controller, bare_input);
     }
 }

@@ -27,17 +27,33 @@ struct segment {
 };
 
 // Where each controller's question has its `calls`, and how many bytes of them;
-// CALL_INIT is in the first.
+// CALL_INIT is in the first. And what makes a question a plain one.
 struct layout {
     const char *controller;
     uint8_t calls;
     uint8_t calls_size;
+    void (*make_plain)(union question *question);
 };
 
+// Proportional, integral and derivative, with limits. The integral's gain is
+// one of 2^-16, as others have it.
+static void make_pid_plain(union question *question)
+{
+    struct pid_question *const asked = &question->pid;
+
+    asked->ki_q24 = (asked->ki_q24 & 0x7FFFu) << 8;
+    asked->setpoint_weight_q8 = 256;
+    asked->derivative_filter = 0;
+    asked->options = 0;
+    asked->calls &= CALL_INIT | CALL_RESET | CALL_SET_GAINS | CALL_SET_LIMITS |
+                    CALL_SET_INTEGRAL_LIMITS;
+}
+
 static const struct layout layouts[] = {
-    {"an937", offsetof(struct an937_question, calls), 1},
-    {"an964", offsetof(struct an964_question, calls), 1},
-    {"an964_8bit", offsetof(struct an964_8bit_question, calls), 1},
+    {"an937", offsetof(struct an937_question, calls), 1, NULL},
+    {"an964", offsetof(struct an964_question, calls), 1, NULL},
+    {"an964_8bit", offsetof(struct an964_8bit_question, calls), 1, NULL},
+    {"pid", offsetof(struct pid_question, calls), 2, make_pid_plain},
 };
 
 static const struct search_plan *plan;
@@ -96,12 +112,15 @@ static uint32_t measure(const union question *question,
 }
 
 // With what the definition answers, where it is comparable.
-static uint32_t measure_defined(const union question *question)
+static uint32_t measure_defined(union question *question)
 {
     union answer expected;
     const uint32_t different = figures.different;
     uint32_t cost;
 
+    if (plan->plain != 0u) {
+        layout->make_plain(question);
+    }
     memset(&expected, 0, sizeof expected);
     plan->controller->define(question, &expected);
     cost = measure(question, &expected);
@@ -113,6 +132,7 @@ static uint32_t measure_defined(const union question *question)
 
 // ---- Rows and random questions ----
 
+// The answers to plain rows were not recorded.
 static void rows(void)
 {
     int32_t columns[VECTORS_COLUMNS_MAX];
@@ -125,7 +145,13 @@ static void rows(void)
         memset(&question, 0, sizeof question);
         memset(&expected, 0, sizeof expected);
         plan->controller->row(columns, &question, &expected);
+        if (plan->plain != 0u) {
+            layout->make_plain(&question);
+        }
         (void)measure(&question, &expected);
+    }
+    if (plan->plain != 0u) {
+        figures.different = 0;
     }
 }
 

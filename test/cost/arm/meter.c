@@ -86,9 +86,12 @@ static uint32_t step(const union question *question, union answer *answer)
 
 int main(void)
 {
-    const struct search_plan plan = {controller_named(CONTROLLER), step,
-                                     RANDOM_STEPS, DIRECTED_STEPS,
-                                     OUTPUTS_ONLY};
+    const struct search_plan plan = {controller_named(CONTROLLER),
+                                     step,
+                                     RANDOM_STEPS,
+                                     DIRECTED_STEPS,
+                                     OUTPUTS_ONLY,
+                                     PLAIN};
 
     calibrate();
     return search_run(&plan) == 0u ? 0 : 1;

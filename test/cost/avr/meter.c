@@ -2,7 +2,7 @@
 // What a step costs on an AVR in simavr, in cycles:
 //
 //   meter FIRMWARE.elf MCU CONTROLLER MAIN STEP TURN EXCHANGE RANDOM DIRECTED
-//         OUTPUTS_ONLY
+//         OUTPUTS_ONLY PLAIN
 //
 // The firmware is test/target/driver_main.c with the controller's driver; MAIN,
 // STEP, TURN and EXCHANGE are the addresses of its symbols, in hexadecimal.
@@ -118,7 +118,7 @@ int main(int argc, char *argv[])
 {
     uint32_t different;
 
-    if (argc != 11) {
+    if (argc != 12) {
         die("wrong use");
     }
     load(argv[1], argv[2]);
@@ -134,9 +134,12 @@ int main(int argc, char *argv[])
         run_one();
     }
     (void)run_turn(); // up to the first wait
-    const struct search_plan plan = {controller, step, number(argv[8], 10),
+    const struct search_plan plan = {controller,
+                                     step,
+                                     number(argv[8], 10),
                                      number(argv[9], 10),
-                                     (uint8_t)number(argv[10], 10)};
+                                     (uint8_t)number(argv[10], 10),
+                                     (uint8_t)number(argv[11], 10)};
     different = search_run(&plan);
     (void)printf("stack %u\n", stack_most);
     return different == 0u ? 0 : 1;

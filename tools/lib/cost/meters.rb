@@ -49,7 +49,8 @@ end
 
 # The harness: programs for this machine and objects for the others.
 module Harness
-  SHARED = %w[test/cost/search.c test/target/cases.c test/support/reference.c test/support/numbers.c].freeze
+  SHARED = %w[test/cost/search.c test/target/cases.c test/support/reference.c test/support/reference_pid.c
+              test/support/numbers.c test/support/numbers_pid.c].freeze
   INCLUDES = %w[include src test/support test/target test/cost].map { |folder| "-I#{folder}" }.freeze
   WARNINGS = %w[-Wall -Wextra -Werror].freeze
   ARM = %w[-mthumb -std=c99 -ffreestanding -ffunction-sections -Itest/target/arm -Itest/target/shim].freeze
@@ -104,6 +105,7 @@ module Harness
         File.write(path, rows.map { |row| "#{row.split(',').take(12).join(',')}\n" }.join)
         path
       end
+      tables << 'test/vectors/pid_definition.csv'
       File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/avr/vectors_table.rb', *tables))
     end
   end
@@ -132,7 +134,7 @@ class Meter
     build
     answers = Answers.new(run, @subject)
     code = read_code
-    longest = LongestPath.new(code)
+    longest = LongestPath.new(code, @controller.turns || {})
     step = longest.function(code.entry(@step))
     check_bound(answers.most, step.cost)
     Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
@@ -155,7 +157,7 @@ class Meter
   # A straightforward form has neither flags nor refusals: only the outputs of
   # the rows are compared.
   def numbers
-    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0].map(&:to_s)
+    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0, @controller.plain ? 1 : 0].map(&:to_s)
   end
 
   def needed(code)
@@ -280,10 +282,11 @@ class ArmMeter < AvrMeter
   end
 
   def definitions
-    random, directed, outputs = numbers
+    random, directed, outputs, plain = numbers
     ["-DCONTROLLER=\"#{@controller.name}\"", "-DREPLY=#{@controller.name}_reply",
      "-DEXCHANGE=#{@controller.name}_exchange", "-DSTEP=\"#{@step}\"",
-     "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}"]
+     "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}",
+     "-DPLAIN=#{plain}"]
   end
 
   # Its note about a timer that is off is not ours.

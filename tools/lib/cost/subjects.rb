@@ -5,24 +5,42 @@
 # controller takes an entry in CONTROLLERS, a driver in test/target/, with its
 # questions in cases.c, and test/cost/bare_NAME.c.
 
-# `calls` are the functions that every application has.
-Controller = Struct.new(:name, :title, :pics, :calls, keyword_init: true) do
+# `calls` are the functions that every application has; `plain` measures only
+# questions without the rarer features. `straight` says that there is
+# test/cost/straight_NAME.c. `turns` are those of loops that count no constant
+# down, by function.
+Controller = Struct.new(:id, :name, :title, :pics, :calls, :plain, :straight, :turns, keyword_init: true) do
   def function(verb)
     "fixpid_#{name}_#{verb}"
   end
 end
 
+# The derivative filter shifts by 0 to 7, tested once more than it shifts.
+FILTER_TURNS = { 'fixpid_pid_step' => 8 }.freeze
+
 CONTROLLERS = [
-  Controller.new(name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step]),
-  Controller.new(name: 'an964', title: 'AN964', pics: %w[pic16f684 pic18f4520], calls: %w[init step]),
-  Controller.new(name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520], calls: %w[init step])
+  Controller.new(id: 'an937', name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step],
+                 straight: true),
+  Controller.new(id: 'an964', name: 'an964', title: 'AN964', pics: %w[pic16f684 pic18f4520], calls: %w[init step],
+                 straight: true),
+  Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
+                 calls: %w[init step], straight: true),
+  Controller.new(id: 'pid_plain', name: 'pid', title: 'PID, plain', pics: %w[pic18f4520], calls: %w[init step],
+                 plain: true, turns: FILTER_TURNS),
+  Controller.new(id: 'pid', name: 'pid', title: 'PID', pics: %w[pic18f4520], calls: %w[init step],
+                 turns: FILTER_TURNS)
 ].freeze
 
-# The same controller built otherwise, for one chip and in object mode:
+# The same controller built otherwise, for one chip in its first build:
 # definitions and sources that are added.
 Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
 
 VARIANTS = [
+  Variant.new('an937', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_kernel_pic18.c]),
+  Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_PRODUCT=4 FIXPID_AN937_PLACE=__at(0x20)],
+              %w[src/fixpid_kernel_pic18.c]),
+  Variant.new('pid', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_kernel_pic18_signed.c]),
+  Variant.new('pid', 'atmega328p', 'kernel', %w[FIXPID_PRODUCT=4], [])
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.
@@ -44,12 +62,12 @@ CHIPS = [
 # it for a 32-bit machine.
 Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   def key
-    [form, controller.name, chip.name, build.delete('-'), variant&.name].compact.join('-')
+    [form, controller.id, chip.name, build.delete('-'), variant&.name].compact.join('-')
   end
 
   # A PIC is not compared: nobody writes 32-bit products for it.
   def has_straight?
-    chip.kind != :pic
+    controller.straight && chip.kind != :pic && variant.nil?
   end
 
   def straight
@@ -77,12 +95,12 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   end
 
   def is?(*names)
-    [controller.name, chip.name, build, variant&.name] == names
+    [controller.id, chip.name, build, variant&.name] == names
   end
 
   # Whether all words are among those that describe it.
   def matches?(words)
-    own = [controller.name, chip.name, build, chip.kind.to_s, variant&.name].compact
+    own = [controller.id, chip.name, build, chip.kind.to_s, variant&.name].compact
     words.empty? || words.group_by { |word| Subject.kind_of_word(word) }
                          .all? { |_, group| group.any? { |word| own.include?(word) } }
   end
@@ -119,7 +137,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
     end
 
     WORDS = {
-      controller: CONTROLLERS.map(&:name),
+      controller: CONTROLLERS.map(&:id),
       chip: CHIPS.map(&:name) + CHIPS.map { |chip| chip.kind.to_s },
       build: MODES + OPTIONS,
       variant: VARIANTS.map(&:name)

@@ -65,7 +65,7 @@ module Tables
 
     def find(measured, controller, chip, build, variant = nil)
       measured.find do |subject, _|
-        subject.controller.name == controller && subject.chip.name == chip && subject.build == build &&
+        subject.controller.id == controller && subject.chip.name == chip && subject.build == build &&
           subject.variant&.name == variant
       end&.last
     end
@@ -95,15 +95,15 @@ module Tables
       variants(measured, controller).map do |name|
         costs = COLUMNS.keys.map do |column|
           chip, option = column.split(/(?=-O)/)
-          find(measured, controller.name, chip, option || 'object', name)&.most || '-'
+          find(measured, controller.id, chip, option || 'object', name)&.most || '-'
         end
-        small = find(measured, controller.name, 'atmega328p', '-Os', name)
+        small = find(measured, controller.id, 'atmega328p', '-Os', name)
         ["fixpid #{[controller.title, name].compact.join(', ')}", *costs, small&.needed || '-', small&.instance || '-']
       end
     end
 
     def short(measured, controller, chip, build, name)
-      figures = find(measured, controller.name, chip, build, name) or return ''
+      figures = find(measured, controller.id, chip, build, name) or return ''
       "#{figures.most}; #{figures.needed}"
     end
   end
