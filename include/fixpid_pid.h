@@ -123,7 +123,7 @@ struct fixpid_pid {
     int16_t output_max;
     int16_t integral_min;
     int16_t integral_max;
-    int16_t previous; // what the derivative saw last
+    int16_t previous; // what the derivative saw last, unless status says first
     int16_t proportional_error;
     int16_t feedforward;
     uint8_t integral_fraction; // the next eight bits of the integral

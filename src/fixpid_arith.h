@@ -465,8 +465,8 @@
 #define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_PIC18
 #endif
 
-// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if defined(FIXPID_SATURATED_DIFFERENCE)
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #elif INT_MAX > 32767
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_WIDE
 #else

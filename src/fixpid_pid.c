@@ -14,6 +14,7 @@
 
 #define WEIGHT_ONE 256u
 #define KI_KEPT_MAX 32767u
+#define KI_MIDDLE_MAX UINT32_C(8388479)    // rounds to 32767 * 256
 #define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
 
 // The signals of one step. A compiler that inlines keeps them in registers;
@@ -26,7 +27,7 @@ struct signals {
     uint8_t fraction; // the candidate's next eight bits
 };
 
-#if defined(__SDCC_pic16)
+#if defined(__SDCC_pic14) || defined(__SDCC_pic16)
 static FIXPID_DATA struct signals signals;
 #define NOW signals
 #define LOCAL_SIGNALS FIXPID_DATA struct signals *const now = &signals
@@ -41,70 +42,83 @@ static FIXPID_DATA struct signals signals;
 static bool take_gains(FIXPID_DATA struct fixpid_pid *self,
                        const struct fixpid_pid_gains *gains)
 {
-    uint8_t options = (uint8_t)(SELF.options & SPECIAL);
     uint32_t ki = gains->ki_q24;
+    const uint16_t kp_q8 = gains->kp_q8;
+    const uint16_t kd_q8 = gains->kd_q8;
+    const uint8_t filter = gains->derivative_filter;
 
     FIXPID_ASSERT(VALID(self));
-    if (gains->kp_q8 > FIXPID_PID_KP_MAX) {
-        return false;
-    }
-    if (gains->kd_q8 > FIXPID_PID_KD_MAX) {
-        return false;
-    }
-    if (gains->derivative_filter > FIXPID_PID_FILTER_MAX) {
+    if (kp_q8 > FIXPID_PID_KP_MAX) {
         return false;
     }
     if (ki > FIXPID_PID_KI_MAX) {
         return false;
     }
-    if (ki <= KI_KEPT_MAX) {
-        options |= KI_FINE;
-    } else {
-        ki = (ki + 128u) >> 8;
-        if (ki > KI_KEPT_MAX) {
-            ki = (gains->ki_q24 + 32768u) >> 16;
-            options |= KI_COARSE;
-        }
+    if (kd_q8 > FIXPID_PID_KD_MAX) {
+        return false;
     }
-    SELF.kp = gains->kp_q8;
+    if (filter > FIXPID_PID_FILTER_MAX) {
+        return false;
+    }
+    SELF.options = (uint8_t)((SELF.options & SPECIAL) | filter);
+    SELF.kp = kp_q8;
+    SELF.kd = kd_q8;
+    if (ki <= KI_KEPT_MAX) {
+        SELF.options |= KI_FINE;
+    } else if (ki <= KI_MIDDLE_MAX) {
+        ki = (ki + 128u) >> 8;
+    } else {
+        ki = (ki + 32768u) >> 16;
+        SELF.options |= KI_COARSE;
+    }
     SELF.ki = (uint16_t)ki;
-    SELF.kd = gains->kd_q8;
-    SELF.options = (uint8_t)(options | gains->derivative_filter);
     return true;
 }
 
 static bool take_config(FIXPID_DATA struct fixpid_pid *self,
                         const struct fixpid_pid_config *config)
 {
+    const uint16_t weight_q8 = config->setpoint_weight_q8;
+
     FIXPID_ASSERT(VALID(self));
-    if (config->output_min >= config->output_max) {
-        return false;
-    }
-    if (config->integral_min < -INT16_MAX) {
-        return false;
-    }
-    if (config->integral_min > config->integral_max) {
-        return false;
-    }
-    if (config->setpoint_weight_q8 > WEIGHT_ONE) {
-        return false;
-    }
-    if ((config->options & (uint8_t)~PUBLIC_OPTIONS) != 0u) {
-        return false;
-    }
     SELF.options = config->options;
-    SELF.setpoint_weight = (uint8_t)config->setpoint_weight_q8;
-    if (config->setpoint_weight_q8 < WEIGHT_ONE) {
-        SELF.options |= WEIGHTED;
-    }
-    if (!take_gains(self, &config->gains)) {
+    SELF.setpoint_weight = (uint8_t)weight_q8;
+    SELF.integral_min = config->integral_min;
+    SELF.integral_max = config->integral_max;
+    if (SELF.integral_min < -INT16_MAX) {
         return false;
+    }
+    if (SELF.integral_min > SELF.integral_max) {
+        return false;
+    }
+    if ((SELF.options & (uint8_t)~PUBLIC_OPTIONS) != 0u) {
+        return false;
+    }
+    if (weight_q8 > WEIGHT_ONE) {
+        return false;
+    }
+    if (weight_q8 < WEIGHT_ONE) {
+        SELF.options |= WEIGHTED;
     }
     SELF.output_min = config->output_min;
     SELF.output_max = config->output_max;
-    SELF.integral_min = config->integral_min;
-    SELF.integral_max = config->integral_max;
-    return true;
+    if (SELF.output_min >= SELF.output_max) {
+        return false;
+    }
+    return take_gains(self, &config->gains);
+}
+
+// No gains, and no room for an integral or an output.
+static void refuse(FIXPID_DATA struct fixpid_pid *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    SELF.kp = 0;
+    SELF.ki = 0;
+    SELF.kd = 0;
+    SELF.output_min = 0;
+    SELF.output_max = 0;
+    SELF.integral_min = 0;
+    SELF.integral_max = 0;
 }
 
 bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
@@ -114,14 +128,10 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    SELF.kp = 0;
-    SELF.ki = 0;
-    SELF.kd = 0;
-    SELF.output_min = 0;
-    SELF.output_max = 0; // refused
-    SELF.integral_min = 0;
-    SELF.integral_max = 0;
     legal = take_config(self, config);
+    if (!legal) {
+        refuse(self);
+    }
     fixpid_pid_reset(self);
     return legal;
 }
@@ -135,7 +145,6 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
     SELF.integral = FIXPID_RAISED(rest, 16);
     SELF.integral_fraction = 0;
     SELF.derivative = 0;
-    SELF.previous = 0;
     SELF.proportional_error = 0;
     SELF.feedforward = 0;
     SELF.status = FIXPID_PID_FIRST;
@@ -285,6 +294,8 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
     } else if (counts < SELF.integral_min) {
         NOW.integral = FIXPID_RAISED(SELF.integral_min, 16);
         NOW.fraction = 0;
+    } else {
+        // inside
     }
     // within 2^31 - 2^15 + 128
     output = NOW.others + FIXPID_FLOOR(NOW.integral, 8) + 128;

@@ -38,32 +38,33 @@ static void hold(FIXPID_DATA struct fixpid_pid *self, int16_t output)
     FIXPID_ASSERT(VALID(self));
     FIXPID_CLAMP(held, SELF.output_min, SELF.output_max);
     SELF.integral = FIXPID_RAISED(held, 16);
-    SELF.integral_fraction = 0;
 }
 
 // What the integral holds beyond the output limits is wind-up, unless the other
 // terms take it away again.
 static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
 {
-    const int32_t integral_q8 = FIXPID_FLOOR(SELF.integral, 8);
-    const int32_t feedforward_q8 = FIXPID_RAISED(SELF.feedforward, 8);
-    int32_t low = FIXPID_RAISED(SELF.output_min, 8) - feedforward_q8;
-    int32_t high = FIXPID_RAISED(SELF.output_max, 8) - feedforward_q8;
-    int32_t terms; // within 2^31 - 2^15 - 2^24, so low and high are within 2^31
+    int32_t terms; // within 2^31 - 2^15 - 2^24, so a limit is within 2^31
+    int32_t limit;
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_SIGNED_PRODUCT(terms, SELF.kp, SELF.proportional_error);
     terms += SELF.derivative;
+    limit = (int32_t)SELF.output_max - SELF.feedforward;
+    limit = FIXPID_RAISED(limit, 8);
+    if (terms < 0) {
+        limit -= terms;
+    }
+    if (FIXPID_FLOOR(SELF.integral, 8) >= limit) {
+        set_integral(self, limit);
+    }
+    limit = (int32_t)SELF.output_min - SELF.feedforward;
+    limit = FIXPID_RAISED(limit, 8);
     if (terms > 0) {
-        low -= terms;
-    } else {
-        high -= terms;
+        limit -= terms;
     }
-    if (integral_q8 >= high) {
-        set_integral(self, high);
-    }
-    if (integral_q8 < low) {
-        set_integral(self, low);
+    if (FIXPID_FLOOR(SELF.integral, 8) < limit) {
+        set_integral(self, limit);
     }
 }
 

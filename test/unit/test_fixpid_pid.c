@@ -757,6 +757,131 @@ void test_step_integral_stays_within_its_limits(void)
     }
 }
 
+// A controller whose integral is a little above `counts`, by less than can be
+// read.
+static void start_with_a_fraction(int16_t counts)
+{
+    config.gains.ki_q24 = 1;
+    config.gains.kp_q8 = 0;
+    config.output_min = -1000;
+    config.output_max = 1000;
+    TEST_ASSERT_TRUE(init());
+    seed(counts);
+    step(0, 0);
+    step(200, 0);
+    TEST_ASSERT_EQUAL_INT32(counts * INT32_C(65536), integral());
+}
+
+// 1 / 2^24 less is less than the integral that has no fraction.
+static void has_no_fraction(void)
+{
+    const int32_t before = integral();
+
+    config.gains.ki_q24 = 1;
+    config.gains.kp_q8 = 0;
+    TEST_ASSERT_TRUE(set_gains());
+    step(0, 1);
+    TEST_ASSERT_EQUAL_INT32(before - 1, integral());
+}
+
+// 255 / 2^24 more cannot be read yet if the integral has no fraction.
+static void has_no_fraction_above(void)
+{
+    const int32_t before = integral();
+
+    config.gains.ki_q24 = 1;
+    config.gains.kp_q8 = 0;
+    TEST_ASSERT_TRUE(set_gains());
+    step(255, 0);
+    TEST_ASSERT_EQUAL_INT32(before, integral());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_INT32(before + 1, integral());
+}
+
+void test_step_integral_at_its_limit_has_no_fraction(void)
+{
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_integral_limits(-60, 60));
+    config.gains.ki_q24 = 838861;
+    TEST_ASSERT_TRUE(set_gains());
+    step(10000, 0);
+    TEST_ASSERT_EQUAL_INT32(60 * INT32_C(65536), integral());
+    has_no_fraction();
+    start_with_a_fraction(-50);
+    TEST_ASSERT_TRUE(set_integral_limits(-60, 60));
+    config.gains.ki_q24 = 838861;
+    TEST_ASSERT_TRUE(set_gains());
+    step(-10000, 0);
+    TEST_ASSERT_EQUAL_INT32(-60 * INT32_C(65536), integral());
+    has_no_fraction_above();
+}
+
+void test_seed_integral_taken_over_has_no_fraction(void)
+{
+    start_with_a_fraction(50);
+    seed(10);
+    step(0, 0);
+    TEST_ASSERT_EQUAL_INT32(10 * INT32_C(65536), integral());
+    has_no_fraction();
+}
+
+void test_set_integral_limits_leave_no_fraction_at_a_limit(void)
+{
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_integral_limits(-60, 50));
+    has_no_fraction();
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_integral_limits(51, 60));
+    TEST_ASSERT_EQUAL_INT32(51 * INT32_C(65536), integral());
+    has_no_fraction_above();
+}
+
+void test_set_integral_limits_keep_the_fraction_inside(void)
+{
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_integral_limits(50, 60));
+    step(55, 0); // 200 + 55
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536) + 1, integral());
+}
+
+void test_set_limits_leave_no_fraction_at_a_limit(void)
+{
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_limits(-60, 50));
+    has_no_fraction();
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_limits(51, 60));
+    TEST_ASSERT_EQUAL_INT32(51 * INT32_C(65536), integral());
+    has_no_fraction();
+}
+
+void test_set_limits_keep_the_fraction_inside(void)
+{
+    start_with_a_fraction(50);
+    TEST_ASSERT_TRUE(set_limits(50, 60));
+    step(55, 0); // 200 + 55
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536) + 1, integral());
+}
+
+// A proportional term of 1/256 takes away nothing at the upper limit.
+void test_set_limits_smallest_term_counts_on_its_side_only(void)
+{
+    config.gains.kp_q8 = 1;
+    config.gains.ki_q24 = 0;
+    TEST_ASSERT_TRUE(init());
+    seed(100);
+    step(0, 0);
+    step(1, 0);
+    TEST_ASSERT_TRUE(set_limits(0, 50));
+    TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
+    TEST_ASSERT_TRUE(set_limits(60, 70));
+    TEST_ASSERT_EQUAL_INT32(60 * INT32_C(65536) - 256, integral());
+}
+
 // The widest integral, the largest change: every exponent of ki.
 void test_step_integral_from_end_to_end_does_not_overflow(void)
 {

@@ -12,6 +12,7 @@ EQUIVALENT = 'test/mutants/equivalent.txt'.freeze
 TESTS = { 'src/fixpid_an937.c' => 'test_fixpid_an937', 'src/fixpid_an937_access.c' => 'test_fixpid_an937',
           'src/fixpid_an964.c' => 'test_fixpid_an964',
           'src/fixpid_an964_8bit.c' => 'test_fixpid_an964_8bit',
+          'src/fixpid_pid.c' => 'test_fixpid_pid', 'src/fixpid_pid_access.c' => 'test_fixpid_pid',
           'src/fixpid_autotune.c' => 'test_fixpid_autotune',
           'src/fixpid_arith.h' => 'test_fixpid_arith' }.freeze
 OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
