@@ -70,18 +70,19 @@ union fixpid_an937_number {
 #endif
 #endif
 
+// No padding anywhere. Each gain lies 12 bytes behind what it multiplies: the
+// kernel relies on it.
 struct fixpid_an937 {
-    // Each gain is followed by what it multiplies: the kernel relies on it.
-    uint8_t kp_q4;
-    union fixpid_an937_number error; // AN937 error
-    uint8_t ki_q4;
+    union fixpid_an937_number error;             // AN937 error
     union fixpid_an937_number accumulated_error; // AN937 a_error
-    uint8_t kd_q4;
-    union fixpid_an937_number delta; // AN937 d_error
+    union fixpid_an937_number delta;             // AN937 d_error
+    uint8_t kp_q4;
     uint8_t derivative_period_ticks;
-    uint8_t derivative_countdown;
     uint16_t accumulated_error_limit; // 0: refused, gains are 0
-    uint16_t previous_level;          // AN937 p_error, as a level
+    uint8_t ki_q4;
+    uint8_t derivative_countdown;
+    uint16_t previous_level; // AN937 p_error, as a level
+    uint8_t kd_q4;
     volatile uint8_t tick_pending;
     volatile uint8_t tick_overrun;
     uint8_t step_flags;

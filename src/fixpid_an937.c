@@ -87,9 +87,9 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
     }
 
     // Equation 4; |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
-    FIXPID_SUM_START(sum, SELF.kp_q4, SELF.error, SELF.room);
-    FIXPID_SUM_ADD_PRODUCT(sum, SELF.ki_q4, SELF.accumulated_error, SELF.room);
-    FIXPID_SUM_ADD_PRODUCT(sum, SELF.kd_q4, SELF.delta, SELF.room);
+    FIXPID_SUM_OF_PRODUCTS(sum, SELF.kp_q4, SELF.error, SELF.ki_q4,
+                           SELF.accumulated_error, SELF.kd_q4, SELF.delta,
+                           SELF.room);
     FIXPID_SUM_SIXTEENTH(sum, flags);
     SELF.step_flags = flags;
     return FIXPID_SUM_RESULT(sum);

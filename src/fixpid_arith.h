@@ -201,7 +201,7 @@
 // sum = gain * number and sum += gain * number, for an int32_t and a uint8_t:
 // |gain * number| <= 255 * 65535 < 2^24. `room` exists in SDCC's object mode on
 // a PIC18 only: shifts and casts would copy a product twice.
-#define FIXPID_VALUE_START(sum, gain, number, room)                            \
+#define FIXPID_VALUE_PRODUCT(sum, gain, number, room)                          \
     do {                                                                       \
         (sum) = (int32_t)(gain) * (number).value;                              \
     } while (0)
@@ -239,7 +239,7 @@
 #define FIXPID_TOGETHER(room) ((int32_t)product_)
 #endif
 
-#define FIXPID_PARTS_START(sum, gain, number, room)                            \
+#define FIXPID_PARTS_PRODUCT(sum, gain, number, room)                          \
     do {                                                                       \
         uint16_t low_;                                                         \
         uint16_t high_;                                                        \
@@ -263,6 +263,22 @@
         } else {                                                               \
             (sum) += FIXPID_TOGETHER(room);                                    \
         }                                                                      \
+    } while (0)
+
+// sum = gain_0 * number_0 + gain_1 * number_1 + gain_2 * number_2
+#define FIXPID_VALUE_PRODUCTS(sum, gain_0, number_0, gain_1, number_1, gain_2, \
+                              number_2, room)                                  \
+    do {                                                                       \
+        FIXPID_VALUE_PRODUCT(sum, gain_0, number_0, room);                     \
+        FIXPID_VALUE_ADD_PRODUCT(sum, gain_1, number_1, room);                 \
+        FIXPID_VALUE_ADD_PRODUCT(sum, gain_2, number_2, room);                 \
+    } while (0)
+#define FIXPID_PARTS_PRODUCTS(sum, gain_0, number_0, gain_1, number_1, gain_2, \
+                              number_2, room)                                  \
+    do {                                                                       \
+        FIXPID_PARTS_PRODUCT(sum, gain_0, number_0, room);                     \
+        FIXPID_PARTS_ADD_PRODUCT(sum, gain_1, number_1, room);                 \
+        FIXPID_PARTS_ADD_PRODUCT(sum, gain_2, number_2, room);                 \
     } while (0)
 
 // What LIMITED_SIXTEENTH tells in `flags`, a uint8_t: the sum was limited; it
@@ -309,29 +325,26 @@
 #define FIXPID_NUMBER_GET FIXPID_VALUE_GET
 #define FIXPID_NUMBER_ADD FIXPID_VALUE_ADD
 #define FIXPID_NUMBER_DIFFERENCE FIXPID_VALUE_DIFFERENCE
-#define FIXPID_NUMBER_TERM FIXPID_VALUE_START
+#define FIXPID_NUMBER_TERM FIXPID_VALUE_PRODUCT
 #else
 #define FIXPID_NUMBER_CLEAR FIXPID_PARTS_CLEAR
 #define FIXPID_NUMBER_SET FIXPID_PARTS_SET
 #define FIXPID_NUMBER_GET FIXPID_PARTS_GET
 #define FIXPID_NUMBER_ADD FIXPID_PARTS_ADD
 #define FIXPID_NUMBER_DIFFERENCE FIXPID_PARTS_DIFFERENCE
-#define FIXPID_NUMBER_TERM FIXPID_PARTS_START
+#define FIXPID_NUMBER_TERM FIXPID_PARTS_PRODUCT
 #endif
 
 #if FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL
 #include "fixpid_kernel_pic18.h"
-#define FIXPID_SUM_START FIXPID_KERNEL_START
-#define FIXPID_SUM_ADD_PRODUCT FIXPID_KERNEL_ADD_PRODUCT
+#define FIXPID_SUM_OF_PRODUCTS FIXPID_KERNEL_PRODUCTS
 #define FIXPID_SUM_SIXTEENTH FIXPID_KERNEL_SIXTEENTH
 #define FIXPID_SUM_RESULT FIXPID_KERNEL_RESULT
 #else
 #if FIXPID_PRODUCT == FIXPID_PRODUCT_MULTIPLY
-#define FIXPID_SUM_START FIXPID_VALUE_START
-#define FIXPID_SUM_ADD_PRODUCT FIXPID_VALUE_ADD_PRODUCT
+#define FIXPID_SUM_OF_PRODUCTS FIXPID_VALUE_PRODUCTS
 #else
-#define FIXPID_SUM_START FIXPID_PARTS_START
-#define FIXPID_SUM_ADD_PRODUCT FIXPID_PARTS_ADD_PRODUCT
+#define FIXPID_SUM_OF_PRODUCTS FIXPID_PARTS_PRODUCTS
 #endif
 #define FIXPID_SUM_SIXTEENTH FIXPID_LIMITED_SIXTEENTH
 #define FIXPID_SUM_RESULT FIXPID_LIMITED_RESULT

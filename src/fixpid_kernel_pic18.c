@@ -6,70 +6,62 @@
 #if defined(__SDCC_pic16)
 
 #define POSTINC0 0xFEE
-#define POSTDEC0 0xFED
-#define PREINC0 0xFEC
 #define PLUSW0 0xFEB
+#define INDF0 0xFEF
 #define PRODH 0xFF4
 #define PRODL 0xFF3
 
-int32_t fixpid_kernel_sum;
+struct fixpid_kernel fixpid_kernel;
 
 // clang-format off
 
-// sum = 0, and in the same way as the second entry sum += gain * number. A
-// number is its magnitude, low byte first, and its sign. MULWF leaves the carry
-// alone. `clang-format off` because it takes assembly for C.
-// Deviation 40 lines: each is one instruction, and a second part costs a GOTO
-void fixpid_kernel_start(void) __naked
+// sum = 0, then three times sum += gain * number. A number is its magnitude, low
+// byte first, and its sign; the next one is 4 bytes behind, its gain 12. The low
+// product waits in `low` until the high one is added to its upper byte.
+// Deviation 40 lines: each is one instruction
+void fixpid_kernel_products(void) __naked
 {
     __asm
-    banksel _fixpid_kernel_sum
-    clrf    _fixpid_kernel_sum, b
-    clrf    _fixpid_kernel_sum + 1, b
-    clrf    _fixpid_kernel_sum + 2, b
-    clrf    _fixpid_kernel_sum + 3, b
-_fixpid_kernel_add_product:
-    global  _fixpid_kernel_add_product
-    banksel _fixpid_kernel_sum
-    movlw   3
-    tstfsz  PLUSW0, a                   ; sign
+    banksel _fixpid_kernel
+    clrf    _fixpid_kernel, b
+    clrf    _fixpid_kernel + 1, b
+    clrf    _fixpid_kernel + 2, b
+    clrf    _fixpid_kernel + 3, b
+    rcall   fixpid_add_product
+    rcall   fixpid_add_product
+fixpid_add_product:
+    movlw   12
+    movf    PLUSW0, w, a                ; gain
+    mulwf   POSTINC0, a                 ; low byte
+    movff   PRODL, _fixpid_kernel + 4
+    movff   PRODH, _fixpid_kernel + 5
+    mulwf   POSTINC0, a                 ; high byte
+    movf    _fixpid_kernel + 5, w, b
+    addwf   PRODL, f, a
+    movlw   0
+    addwfc  PRODH, f, a
+    tstfsz  POSTINC0, a                 ; sign
     bra     fixpid_subtract
-    movf    POSTINC0, w, a              ; gain
-    mulwf   POSTDEC0, a                 ; low byte
+    movf    POSTINC0, w, a              ; padding
+    movf    _fixpid_kernel + 4, w, b
+    addwf   _fixpid_kernel, f, b
     movf    PRODL, w, a
-    addwf   _fixpid_kernel_sum, f, b
+    addwfc  _fixpid_kernel + 1, f, b
     movf    PRODH, w, a
-    addwfc  _fixpid_kernel_sum + 1, f, b
+    addwfc  _fixpid_kernel + 2, f, b
     movlw   0
-    addwfc  _fixpid_kernel_sum + 2, f, b
-    addwfc  _fixpid_kernel_sum + 3, f, b
-    movf    POSTINC0, w, a              ; gain
-    mulwf   PREINC0, a                  ; high byte
-    movf    PRODL, w, a
-    addwf   _fixpid_kernel_sum + 1, f, b
-    movf    PRODH, w, a
-    addwfc  _fixpid_kernel_sum + 2, f, b
-    movlw   0
-    addwfc  _fixpid_kernel_sum + 3, f, b
+    addwfc  _fixpid_kernel + 3, f, b
     return
 fixpid_subtract:
-    movf    POSTINC0, w, a              ; gain
-    mulwf   POSTDEC0, a                 ; low byte
+    movf    POSTINC0, w, a              ; padding
+    movf    _fixpid_kernel + 4, w, b
+    subwf   _fixpid_kernel, f, b
     movf    PRODL, w, a
-    subwf   _fixpid_kernel_sum, f, b
+    subwfb  _fixpid_kernel + 1, f, b
     movf    PRODH, w, a
-    subwfb  _fixpid_kernel_sum + 1, f, b
+    subwfb  _fixpid_kernel + 2, f, b
     movlw   0
-    subwfb  _fixpid_kernel_sum + 2, f, b
-    subwfb  _fixpid_kernel_sum + 3, f, b
-    movf    POSTINC0, w, a              ; gain
-    mulwf   PREINC0, a                  ; high byte
-    movf    PRODL, w, a
-    subwf   _fixpid_kernel_sum + 1, f, b
-    movf    PRODH, w, a
-    subwfb  _fixpid_kernel_sum + 2, f, b
-    movlw   0
-    subwfb  _fixpid_kernel_sum + 3, f, b
+    subwfb  _fixpid_kernel + 3, f, b
     return
     __endasm;
 }
@@ -81,56 +73,56 @@ fixpid_subtract:
 uint8_t fixpid_kernel_sixteenth(void) __naked
 {
     __asm
-    banksel _fixpid_kernel_sum
-    btfsc   _fixpid_kernel_sum + 3, 7, b
+    banksel _fixpid_kernel
+    btfsc   _fixpid_kernel + 3, 7, b
     bra     fixpid_negative
-    movf    _fixpid_kernel_sum + 3, w, b
+    movf    _fixpid_kernel + 3, w, b
     bz      fixpid_shift
 fixpid_highest:
-    setf    _fixpid_kernel_sum, b       ; (2^24 - 1) / 16
-    setf    _fixpid_kernel_sum + 1, b
+    setf    _fixpid_kernel, b       ; (2^24 - 1) / 16
+    setf    _fixpid_kernel + 1, b
     movlw   0x0F
-    movwf   _fixpid_kernel_sum + 2, b
-    clrf    _fixpid_kernel_sum + 3, b
+    movwf   _fixpid_kernel + 2, b
+    clrf    _fixpid_kernel + 3, b
     retlw   0x01
 fixpid_negative:
-    incfsz  _fixpid_kernel_sum + 3, w, b
+    incfsz  _fixpid_kernel + 3, w, b
     bra     fixpid_lowest
-    movf    _fixpid_kernel_sum, w, b
-    iorwf   _fixpid_kernel_sum + 1, w, b
-    iorwf   _fixpid_kernel_sum + 2, w, b
+    movf    _fixpid_kernel, w, b
+    iorwf   _fixpid_kernel + 1, w, b
+    iorwf   _fixpid_kernel + 2, w, b
     bz      fixpid_lowest
     movlw   15
-    addwf   _fixpid_kernel_sum, f, b
+    addwf   _fixpid_kernel, f, b
     movlw   0
-    addwfc  _fixpid_kernel_sum + 1, f, b
-    addwfc  _fixpid_kernel_sum + 2, f, b
-    addwfc  _fixpid_kernel_sum + 3, f, b
+    addwfc  _fixpid_kernel + 1, f, b
+    addwfc  _fixpid_kernel + 2, f, b
+    addwfc  _fixpid_kernel + 3, f, b
     rcall   fixpid_shift
     retlw   0x80
 fixpid_lowest:
     rcall   fixpid_highest
-    negf    _fixpid_kernel_sum, b
-    comf    _fixpid_kernel_sum + 1, f, b
-    comf    _fixpid_kernel_sum + 2, f, b
-    setf    _fixpid_kernel_sum + 3, b
+    negf    _fixpid_kernel, b
+    comf    _fixpid_kernel + 1, f, b
+    comf    _fixpid_kernel + 2, f, b
+    setf    _fixpid_kernel + 3, b
     retlw   0x81
 fixpid_shift:
-    swapf   _fixpid_kernel_sum, f, b
-    swapf   _fixpid_kernel_sum + 1, w, b
-    xorwf   _fixpid_kernel_sum, w, b
+    swapf   _fixpid_kernel, f, b
+    swapf   _fixpid_kernel + 1, w, b
+    xorwf   _fixpid_kernel, w, b
     andlw   0xF0
-    xorwf   _fixpid_kernel_sum, f, b
-    swapf   _fixpid_kernel_sum + 1, f, b
-    swapf   _fixpid_kernel_sum + 2, w, b
-    xorwf   _fixpid_kernel_sum + 1, w, b
+    xorwf   _fixpid_kernel, f, b
+    swapf   _fixpid_kernel + 1, f, b
+    swapf   _fixpid_kernel + 2, w, b
+    xorwf   _fixpid_kernel + 1, w, b
     andlw   0xF0
-    xorwf   _fixpid_kernel_sum + 1, f, b
-    swapf   _fixpid_kernel_sum + 2, w, b
+    xorwf   _fixpid_kernel + 1, f, b
+    swapf   _fixpid_kernel + 2, w, b
     andlw   0x0F
-    btfsc   _fixpid_kernel_sum + 3, 7, b
+    btfsc   _fixpid_kernel + 3, 7, b
     iorlw   0xF0
-    movwf   _fixpid_kernel_sum + 2, b
+    movwf   _fixpid_kernel + 2, b
     retlw   0
     __endasm;
 }

@@ -3,49 +3,43 @@
 // fixpid_arith.h explains. Any other compiler gets its twin in C. Both are
 // leaves of fixpid_arith.h and obey what is written there.
 //
-// In assembly the operands are not copied: FSR0 points at a gain, behind which
-// its number lies in parts, and the sum is fixpid_kernel_sum. So FIXPID_SUM_...
-// are called in order, with gains as neighbours of their numbers, and `sum` is
-// not used.
+// In assembly the operands are not copied: FSR0 points at the first number,
+// which must be in parts and lie, with its gain and the others, as in struct
+// fixpid_an937; `sum` is not used.
 #ifndef FIXPID_KERNEL_PIC18_H
 #define FIXPID_KERNEL_PIC18_H
 #include <stdint.h>
 
 #if defined(__SDCC_pic16)
 
-extern int32_t fixpid_kernel_sum;
-void fixpid_kernel_start(void);
-void fixpid_kernel_add_product(void);
+struct fixpid_kernel {
+    int32_t sum;
+    uint16_t low; // product
+};
+
+extern struct fixpid_kernel fixpid_kernel;
+void fixpid_kernel_products(void);
 uint8_t fixpid_kernel_sixteenth(void); // returns the flags
 
 extern __sfr __at(0xFE9) FSR0L;
 extern __sfr __at(0xFEA) FSR0H;
 
-#define FIXPID_KERNEL_POINT_AT(gain)                                           \
-    do {                                                                       \
-        const uint16_t address_ = (uint16_t) & (gain);                         \
-        FSR0L = (uint8_t)address_;                                             \
-        FSR0H = (uint8_t)(address_ >> 8);                                      \
-    } while (0)
-
 // SDCC drops the first two lines, which spare it a warning.
-#define FIXPID_KERNEL_START(sum, gain, number, room)                           \
+#define FIXPID_KERNEL_PRODUCTS(sum, gain_0, number_0, gain_1, number_1,        \
+                               gain_2, number_2, room)                         \
     do {                                                                       \
+        const uint16_t address_ = (uint16_t) & (number_0);                     \
         (sum) = 0;                                                             \
         (void)(sum);                                                           \
-        FIXPID_KERNEL_POINT_AT(gain);                                          \
-        fixpid_kernel_start();                                                 \
-    } while (0)
-#define FIXPID_KERNEL_ADD_PRODUCT(sum, gain, number, room)                     \
-    do {                                                                       \
-        FIXPID_KERNEL_POINT_AT(gain);                                          \
-        fixpid_kernel_add_product();                                           \
+        FSR0L = (uint8_t)address_;                                             \
+        FSR0H = (uint8_t)(address_ >> 8);                                      \
+        fixpid_kernel_products();                                              \
     } while (0)
 #define FIXPID_KERNEL_SIXTEENTH(sum, flags)                                    \
     do {                                                                       \
         (flags) = (uint8_t)(fixpid_kernel_sixteenth() | (flags));              \
     } while (0)
-#define FIXPID_KERNEL_RESULT(sum) fixpid_kernel_sum
+#define FIXPID_KERNEL_RESULT(sum) (fixpid_kernel.sum)
 
 #else
 
@@ -54,15 +48,15 @@ int32_t fixpid_kernel_product(uint8_t gain, uint16_t magnitude,
 int32_t fixpid_kernel_sixteenth(int32_t sum);
 uint8_t fixpid_kernel_flags(int32_t sum);
 
-#define FIXPID_KERNEL_START(sum, gain, number, room)                           \
+#define FIXPID_KERNEL_PRODUCT(gain, number)                                    \
+    fixpid_kernel_product((gain), (number).parts.magnitude,                    \
+                          (number).parts.negative)
+#define FIXPID_KERNEL_PRODUCTS(sum, gain_0, number_0, gain_1, number_1,        \
+                               gain_2, number_2, room)                         \
     do {                                                                       \
-        (sum) = fixpid_kernel_product((gain), (number).parts.magnitude,        \
-                                      (number).parts.negative);                \
-    } while (0)
-#define FIXPID_KERNEL_ADD_PRODUCT(sum, gain, number, room)                     \
-    do {                                                                       \
-        (sum) += fixpid_kernel_product((gain), (number).parts.magnitude,       \
-                                       (number).parts.negative);               \
+        (sum) = FIXPID_KERNEL_PRODUCT(gain_0, number_0) +                      \
+                FIXPID_KERNEL_PRODUCT(gain_1, number_1) +                      \
+                FIXPID_KERNEL_PRODUCT(gain_2, number_2);                       \
     } while (0)
 #define FIXPID_KERNEL_SIXTEENTH(sum, flags)                                    \
     do {                                                                       \

@@ -108,20 +108,19 @@ static uint32_t wrong_sums(uint8_t gain, uint16_t magnitude, uint8_t negative)
     uint32_t wrong = 0;
     int32_t sum;
 
-    FIXPID_VALUE_START(sum, 1, value, none);
+    FIXPID_VALUE_PRODUCTS(sum, 1, value, gain, one, 1, value, none);
+    wrong += sum != 2 * expected + (negative != 0u ? -gain : gain);
+    FIXPID_PARTS_PRODUCT(sum, gain, parts, none);
     wrong += sum != expected;
-    FIXPID_VALUE_ADD_PRODUCT(sum, gain, one, none);
-    wrong += sum != expected + (negative != 0u ? -gain : gain);
-    FIXPID_PARTS_START(sum, gain, parts, none);
-    wrong += sum != expected;
-    sum = -5 * expected;
     FIXPID_PARTS_ADD_PRODUCT(sum, gain, opposite, none);
-    wrong += sum != -6 * expected;
-    FIXPID_KERNEL_START(sum, gain, parts, none);
-    wrong += sum != expected;
-    sum = -5 * expected;
-    FIXPID_KERNEL_ADD_PRODUCT(sum, gain, opposite, none);
-    return wrong + (sum != -6 * expected);
+    wrong += sum != 0;
+    FIXPID_PARTS_ADD_PRODUCT(sum, gain, opposite, none);
+    wrong += sum != -expected;
+    FIXPID_PARTS_PRODUCTS(sum, 0, opposite, gain, parts, 1, parts, none);
+    wrong += sum != expected + (negative != 0u ? -magnitude : magnitude);
+    FIXPID_KERNEL_PRODUCTS(sum, gain, opposite, 1, parts, gain, opposite, none);
+    return wrong +
+           (sum != -2 * expected + (negative != 0u ? -magnitude : magnitude));
 }
 
 void test_sum_of_products_whole_domain(void)
@@ -145,7 +144,7 @@ void test_sum_of_values_whole_rows(void)
         const uint8_t gain = (uint8_t)number;
         int32_t sum;
 
-        FIXPID_VALUE_START(sum, gain, value, none);
+        FIXPID_VALUE_PRODUCT(sum, gain, value, none);
         TEST_ASSERT_EQUAL_INT32(gain * number, sum);
         sum = 1000;
         FIXPID_VALUE_ADD_PRODUCT(sum, gain, value, none);

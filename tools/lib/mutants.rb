@@ -117,7 +117,7 @@ end
 
 FileUtils.mkdir_p('build/test')
 File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
-           ":defines:\n  :test:\n    '*':\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
+           ":defines:\n  :test:\n    '*':\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n      - FIXPID_PRODUCT=3\n")
 FileUtils.rm_rf(["#{ROOT}/0", "#{ROOT}/1"])
 build_objects
 TESTS.each_key do |file|
