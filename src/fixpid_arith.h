@@ -14,7 +14,7 @@
 // way if FIXPID_PRODUCT is not defined.
 //
 // FIXPID_PRODUCT=4, for all sources of a firmware and with
-// fixpid_kernel_pic18.c among them, is a PIC18's with the sums of AN937 in
+// fixpid_an937_pic18.c among them, is a PIC18's with the sums of AN937 in
 // assembly, for SDCC; elsewhere that file does the same in C. Then a function
 // of one controller must not interrupt that of another.
 #define FIXPID_PRODUCT_MULTIPLY 1
@@ -336,7 +336,7 @@
 #endif
 
 #if FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL
-#include "fixpid_kernel_pic18.h"
+#include "fixpid_an937_pic18.h"
 #define FIXPID_SUM_OF_PRODUCTS FIXPID_KERNEL_PRODUCTS
 #define FIXPID_SUM_SIXTEENTH FIXPID_KERNEL_SIXTEENTH
 #define FIXPID_SUM_RESULT FIXPID_KERNEL_RESULT
@@ -467,12 +467,12 @@
 // The leaves that fixpid_pid uses: in assembly for the families that have a
 // kernel, if FIXPID_PRODUCT asks for it, else in C.
 #if FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__AVR_HAVE_MUL__)
-#include "fixpid_kernel_avr.h"
+#include "fixpid_pid_avr.h"
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_AVR
 #define FIXPID_SATURATED_SUM FIXPID_SUM_AVR
 #define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_AVR
 #elif FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__SDCC_pic16)
-#include "fixpid_kernel_pic18_signed.h"
+#include "fixpid_pid_pic18.h"
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_PIC18
 #define FIXPID_SATURATED_SUM FIXPID_SUM_PIC18
 #define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_PIC18

@@ -20,7 +20,8 @@ struct search_plan {
     uint32_t directed_steps;
     // Outputs of the rows only: what a comparison with another form can ask.
     uint8_t outputs_only;
-    // Without the features that fewer users want, where the controller has some.
+    // Without the features that fewer users want, where the controller has
+    // some.
     uint8_t plain;
 };
 

@@ -8,7 +8,7 @@
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
 TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

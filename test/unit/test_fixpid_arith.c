@@ -2,12 +2,12 @@
 // Every form of the leaves, over its whole domain or, with 16 x 16 bits and
 // more, over every value of one operand.
 #include "fixpid_arith.h"
-#include "fixpid_kernel_pic18.h"
+#include "fixpid_an937_pic18.h"
 #include "numbers.h"
 #include "reference.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
 
 #ifndef TEST_STRIDE
 #define TEST_STRIDE 1 // 1 walks a whole domain

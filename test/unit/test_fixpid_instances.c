@@ -13,7 +13,7 @@
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
 TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
 TEST_SOURCE_FILE("src/fixpid_an964.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")

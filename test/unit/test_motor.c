@@ -5,7 +5,7 @@
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
 TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_kernel_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/motor")
 

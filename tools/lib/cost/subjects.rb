@@ -36,10 +36,10 @@ CONTROLLERS = [
 Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
 
 VARIANTS = [
-  Variant.new('an937', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_kernel_pic18.c]),
+  Variant.new('an937', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an937_pic18.c]),
   Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_PRODUCT=4 FIXPID_AN937_PLACE=__at(0x20)],
-              %w[src/fixpid_kernel_pic18.c]),
-  Variant.new('pid', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_kernel_pic18_signed.c]),
+              %w[src/fixpid_an937_pic18.c]),
+  Variant.new('pid', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_pid_pic18.c]),
   Variant.new('pid', 'atmega328p', 'kernel', %w[FIXPID_PRODUCT=4], [])
 ].freeze
 

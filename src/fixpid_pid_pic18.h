@@ -7,8 +7,8 @@
 // SDCC passes arguments on a software stack and saves each register that it
 // uses, so the operands have a place of their own. A function of one controller
 // must not interrupt that of another.
-#ifndef FIXPID_KERNEL_PIC18_SIGNED_H
-#define FIXPID_KERNEL_PIC18_SIGNED_H
+#ifndef FIXPID_PID_PIC18_H
+#define FIXPID_PID_PIC18_H
 #include <stdint.h>
 
 #if defined(__SDCC_pic16)

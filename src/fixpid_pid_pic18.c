@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fixpid_kernel_pic18_signed.h"
+#include "fixpid_pid_pic18.h"
 
 #if defined(__SDCC_pic16)
 

@@ -6,8 +6,8 @@
 // In assembly the operands are not copied: FSR0 points at the first number,
 // which must be in parts and lie, with its gain and the others, as in struct
 // fixpid_an937; `sum` is not used.
-#ifndef FIXPID_KERNEL_PIC18_H
-#define FIXPID_KERNEL_PIC18_H
+#ifndef FIXPID_AN937_PIC18_H
+#define FIXPID_AN937_PIC18_H
 #include <stdint.h>
 
 #if defined(__SDCC_pic16)

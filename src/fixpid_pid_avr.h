@@ -5,8 +5,8 @@
 // the same operands and results.
 //
 // No operand needs the upper registers, r16 to r31, of which a step has few.
-#ifndef FIXPID_KERNEL_AVR_H
-#define FIXPID_KERNEL_AVR_H
+#ifndef FIXPID_PID_AVR_H
+#define FIXPID_PID_AVR_H
 #include <stdint.h>
 
 // Without overflow 3 cycles. With one, N is the wrong sign: the result is all

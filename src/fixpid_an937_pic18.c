@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fixpid_kernel_pic18.h"
+#include "fixpid_an937_pic18.h"
 
 #include "fixpid_arith.h"
 
