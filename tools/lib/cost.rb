@@ -13,6 +13,7 @@ require_relative 'cost/limits'
 require_relative 'cost/documents'
 require_relative 'cost/picture'
 require_relative 'cost/firmware'
+require_relative 'cost/memory'
 
 Encoding.default_external = 'UTF-8'
 
@@ -20,6 +21,7 @@ Encoding.default_external = 'UTF-8'
 class Cost
   def initialize(subjects)
     @subjects = subjects
+    @memory = Memory.new
     @done = 0
     @mutex = Mutex.new
   end
@@ -68,7 +70,6 @@ class Cost
 
   def measured
     @measured ||= begin
-      Harness.build(@subjects.map { |one| one.chip.kind }.uniq)
       @subjects.zip(in_parallel(@subjects, &:figures)).to_h
     end
   end
@@ -82,7 +83,7 @@ class Cost
 
   def in_parallel(subjects)
     Host.in_parallel(subjects) do |subject|
-      found = yield(Meter.of(subject))
+      found = @memory.of(subject) { yield(Meter.of(subject)) }
       @mutex.synchronize { progress }
       found
     end

@@ -55,13 +55,18 @@ module Harness
   WARNINGS = %w[-Wall -Wextra -Werror].freeze
   ARM = %w[-mthumb -std=c99 -ffreestanding -ffunction-sections -Itest/target/arm -Itest/target/shim].freeze
 
+  @mutex = Mutex.new
+  @built = {}
+
   class << self
-    def build(kinds)
-      objects = [] if (kinds & %i[pic avr]).any?
-      objects &&= SHARED.dup.push('test/support/vectors_file.c').map { |file| compile(file) }
-      avr(objects) if kinds.include?(:avr)
-      pic(objects) if kinds.include?(:pic)
-      vectors_table if kinds.include?(:arm)
+    # The program for a kind of chips, built once.
+    def build(kind)
+      @mutex.synchronize do
+        @built[kind] ||= begin
+          { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table } }[kind].call
+          true
+        end
+      end
     end
 
     def build_function
@@ -80,6 +85,10 @@ module Harness
     end
 
     private
+
+    def host_objects
+      @host_objects ||= (SHARED + %w[test/support/vectors_file.c]).map { |file| compile(file) }
+    end
 
     def compile(file)
       object = "#{Host.folder}/#{File.basename(file, '.c')}.o"
@@ -126,11 +135,13 @@ class Meter
 
   # The worst step and no more.
   def most
+    Harness.build(@subject.chip.kind)
     build
     Answers.new(run, @subject).most
   end
 
   def figures
+    Harness.build(@subject.chip.kind)
     build
     answers = Answers.new(run, @subject)
     code = read_code

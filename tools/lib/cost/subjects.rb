@@ -16,7 +16,7 @@ Controller = Struct.new(:id, :name, :title, :pics, :calls, :plain, :straight, :t
 end
 
 # The derivative filter shifts by 0 to 7, tested once more than it shifts.
-FILTER_TURNS = { 'fixpid_pid_step' => 8 }.freeze
+FILTER_TURNS = { 'fixpid_pid_step' => 8, 'differentiate' => 8 }.freeze
 
 CONTROLLERS = [
   Controller.new(id: 'an937', name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step],

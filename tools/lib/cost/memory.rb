@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require 'digest'
+require 'json'
+
+# What was measured of the same sources with the same tools is not measured
+# again: build/cost/memory/, a file for each subject.
+class Memory
+  SHARED = %w[include/*.h port/pic/**/* port/gpsim/* src/fixpid_arith.h src/fixpid_kernel* test/avr/vectors_table.rb
+              test/cost/**/* test/support/*.[ch] test/target/*.{c,h,cc,hh} test/target/{arm,shim}/**/* test/vectors/*
+              tools/cost tools/lib/build_pic tools/lib/cost.rb tools/lib/cost/**/*].freeze
+  TOOLS = %w[gcc g++ gpasm gplink avr-gcc avr-as arm-none-eabi-gcc qemu-system-arm].freeze
+
+  def initialize
+    @folder = "#{Host.folder}/memory"
+    FileUtils.mkdir_p(@folder)
+    files = SHARED.flat_map { |pattern| Dir.glob(pattern, base: Host.root) }.sort
+    @shared = digest(files.map { |file| "#{Host.root}/#{file}" } + tools)
+  end
+
+  # The figures of a subject: remembered, or measured by the block.
+  def of(subject)
+    key = "#{@shared} #{digest(own_sources(subject))}"
+    path = "#{@folder}/#{subject.key}.json"
+    found = read(path)
+    return load(found['figures']) if found && found['key'] == key
+
+    figures = yield
+    File.write("#{path}.new", JSON.generate({ key: key, figures: figures.is_a?(Figures) ? figures.to_h : figures }))
+    File.rename("#{path}.new", path)
+    figures
+  end
+
+  private
+
+  def read(path)
+    JSON.parse(File.read(path))
+  rescue Errno::ENOENT, JSON::ParserError
+    nil
+  end
+
+  def load(figures)
+    figures.is_a?(Hash) ? Figures.new(**figures.transform_keys(&:to_sym)) : figures
+  end
+
+  def own_sources(subject)
+    Dir.glob("#{Host.root}/src/fixpid_#{subject.controller.name}{,_access,_self}.[ch]").sort
+  end
+
+  def tools
+    programs = TOOLS.map { |name| Host.output('sh', '-c', "command -v #{name}").strip }
+    libraries = Dir.glob('/usr/lib/*/lib{gpsim,simavr}.so*').sort
+    (programs + libraries + [ENV['SDCC'], *Dir.glob("#{ENV['SDCC_LIB']}/pic1[46]/*").sort]).compact
+  end
+
+  def digest(files)
+    Digest::SHA256.hexdigest(files.select { |file| File.file?(file) }
+                                  .map { |file| "#{file} #{Digest::SHA256.file(file).hexdigest}\n" }.join)
+  end
+end
