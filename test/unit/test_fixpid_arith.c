@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every form of the leaves, over its whole domain or, with 16 x 16 bits and
 // more, over every value of one operand.
-#include "fixpid_arith.h"
 #include "fixpid_an937_pic18.h"
+#include "fixpid_arith.h"
 #include "numbers.h"
 #include "reference.h"
 #include "unity.h"
