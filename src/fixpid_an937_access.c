@@ -94,34 +94,32 @@ int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self)
     return FIXPID_NUMBER_GET(SELF.accumulated_error);
 }
 
-static uint8_t bit_if(bool condition, uint8_t bit)
-{
-    return condition ? bit : (uint8_t)0;
-}
+// A macro: a function makes the status a quarter larger on a PIC18.
+#define BIT_IF(condition, bit) ((condition) ? (bit) : 0u)
 
 uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    return (uint8_t)(bit_if((SELF.step_flags & FIXPID_SUM_NEGATIVE) == 0u,
+    return (uint8_t)(BIT_IF((SELF.step_flags & FIXPID_SUM_NEGATIVE) == 0u,
                             FIXPID_AN937_PID_SIGN) |
-                     bit_if(fixpid_an937_derivative(self) >= 0,
+                     BIT_IF(fixpid_an937_derivative(self) >= 0,
                             FIXPID_AN937_D_ERR_SIGN) |
-                     bit_if(SELF.previous_level >= FIXPID_LEVEL(0),
+                     BIT_IF(SELF.previous_level >= FIXPID_LEVEL(0),
                             FIXPID_AN937_P_ERR_SIGN) |
-                     bit_if(fixpid_an937_accumulated_error(self) >= 0,
+                     BIT_IF(fixpid_an937_accumulated_error(self) >= 0,
                             FIXPID_AN937_A_ERR_SIGN) |
-                     bit_if(FIXPID_NUMBER_GET(SELF.error) >= 0,
+                     BIT_IF(FIXPID_NUMBER_GET(SELF.error) >= 0,
                             FIXPID_AN937_ERR_SIGN) |
-                     bit_if(fixpid_an937_accumulated_error(self) == 0,
+                     BIT_IF(fixpid_an937_accumulated_error(self) == 0,
                             FIXPID_AN937_A_ERR_ZERO) |
-                     bit_if(FIXPID_NUMBER_GET(SELF.error) == 0,
+                     BIT_IF(FIXPID_NUMBER_GET(SELF.error) == 0,
                             FIXPID_AN937_ERR_ZERO));
 }
 
 uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    return bit_if(FIXPID_NUMBER_GET(SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
+    return BIT_IF(FIXPID_NUMBER_GET(SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
 }
 
 uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self)
@@ -129,7 +127,7 @@ uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self)
     FIXPID_ASSERT(VALID(self));
     return (
         uint8_t)((SELF.step_flags & STEP_FLAGS) |
-                 bit_if(SELF.tick_overrun != 0u, FIXPID_AN937_TICK_OVERRUN));
+                 BIT_IF(SELF.tick_overrun != 0u, FIXPID_AN937_TICK_OVERRUN));
 }
 
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self)
