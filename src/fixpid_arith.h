@@ -368,6 +368,28 @@
 #define FIXPID_FLOOR FIXPID_FLOOR_PORTABLE
 #endif
 
+// result = floor(x / 2^n) of int32_t variables, where the low three bits of
+// `bits` are n. In steps it needs no loop, where a compiler makes one of a
+// shift by a variable. The floor of a floor is that of both.
+#define FIXPID_FLOOR_BY_SHIFT(result, x, bits)                                 \
+    do {                                                                       \
+        (result) = FIXPID_FLOOR((x), ((bits)&7u));                             \
+    } while (0)
+#define FIXPID_FLOOR_BY_STEPS(result, x, bits)                                 \
+    do {                                                                       \
+        int32_t floor_ = (x);                                                  \
+        if (((bits)&4u) != 0u) {                                               \
+            floor_ = FIXPID_FLOOR(floor_, 4);                                  \
+        }                                                                      \
+        if (((bits)&2u) != 0u) {                                               \
+            floor_ = FIXPID_FLOOR(floor_, 2);                                  \
+        }                                                                      \
+        if (((bits)&1u) != 0u) {                                               \
+            floor_ = FIXPID_FLOOR(floor_, 1);                                  \
+        }                                                                      \
+        (result) = floor_;                                                     \
+    } while (0)
+
 // x * 2^n as an int32_t. pre: it fits. SDCC would call its multiplication.
 #if defined(__SDCC)
 #define FIXPID_RAISED(x, n) ((int32_t)((uint32_t)(x) << (n)))
@@ -476,6 +498,13 @@
 #define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_PIC18
 #define FIXPID_SATURATED_SUM FIXPID_SUM_PIC18
 #define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_PIC18
+#endif
+
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
+#if INT_MAX > 32767
+#define FIXPID_FLOOR_BY FIXPID_FLOOR_BY_SHIFT
+#else
+#define FIXPID_FLOOR_BY FIXPID_FLOOR_BY_STEPS
 #endif
 
 #if defined(FIXPID_SATURATED_DIFFERENCE)

@@ -219,11 +219,16 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     }
     FIXPID_SATURATED_DIFFERENCE(fall, SELF.previous, NOW.input);
     SELF.previous = NOW.input;
+    if ((SELF.options & FILTER) != 0u) {
+        int32_t leak;
+
+        FIXPID_FLOOR_BY(leak, SELF.derivative, SELF.options);
+        SELF.derivative -= leak;
+    }
     FIXPID_SIGNED_PRODUCT(derivative, SELF.kd, fall);
     if ((SELF.options & FILTER) != 0u) {
-        // Old and new are within 2^30 - 2^24 each.
-        derivative += SELF.derivative -
-                      FIXPID_FLOOR(SELF.derivative, SELF.options & FILTER);
+        // Both are within 2^30 - 2^24.
+        derivative += SELF.derivative;
         FIXPID_CLAMP(derivative, -DERIVATIVE_MAX, DERIVATIVE_MAX);
     }
     SELF.derivative = derivative;

@@ -69,6 +69,7 @@ static void floors(void)
     for (int64_t value = INT32_MIN; value <= INT32_MAX; value++) {
         const int32_t x = (int32_t)value;
         const uint8_t n = (uint8_t)(1 + (value & 1023) % 7);
+        int32_t by;
         const int64_t remainder8 = ((value % 256) + 256) % 256;
         const int64_t remainder16 = ((value % 65536) + 65536) % 65536;
 
@@ -76,7 +77,9 @@ static void floors(void)
         wrong += FIXPID_FLOOR_PORTABLE(x, 8) != (value - remainder8) / 256;
         wrong += FIXPID_FLOOR_SHIFT(x, 16) != (value - remainder16) / 65536;
         wrong += FIXPID_FLOOR_PORTABLE(x, 16) != (value - remainder16) / 65536;
+        FIXPID_FLOOR_BY_STEPS(by, x, n);
         wrong += FIXPID_FLOOR_SHIFT(x, n) != FIXPID_FLOOR_PORTABLE(x, n);
+        wrong += FIXPID_FLOOR_SHIFT(x, n) != by;
     }
     report("floors", UINT64_C(1) << 32, wrong);
 }

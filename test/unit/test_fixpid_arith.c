@@ -395,6 +395,15 @@ static const int32_t nasty32[] = {
 
 static void check_floor(int32_t x)
 {
+    for (uint8_t bits = 0; bits <= 20; bits++) {
+        const int64_t expected = floor_divided(x, 1 << (bits & 7));
+        int32_t shift, steps;
+
+        FIXPID_FLOOR_BY_SHIFT(shift, x, bits);
+        FIXPID_FLOOR_BY_STEPS(steps, x, bits);
+        TEST_ASSERT_EQUAL_INT32(expected, shift);
+        TEST_ASSERT_EQUAL_INT32(expected, steps);
+    }
     for (uint8_t n = 0; n <= 30; n++) {
         const int64_t expected = floor_divided(x, INT64_C(1) << n);
 
