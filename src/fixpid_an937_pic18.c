@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an937_pic18.h"
 
-#include "fixpid_arith.h"
+#include "fixpid_an937_arith.h"
 
 #if defined(__SDCC_pic16)
 

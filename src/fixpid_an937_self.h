@@ -4,7 +4,7 @@
 #define FIXPID_AN937_SELF_H
 #include "fixpid_an937.h"
 
-#include "fixpid_arith.h"
+#include "fixpid_an937_arith.h"
 
 #ifdef FIXPID_AN937_OBJECT
 #define SELF FIXPID_AN937_OBJECT

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964_8bit.h"
 
+#include "fixpid_an964_8bit_self.h"
 #include "fixpid_arith.h"
 
-#ifdef FIXPID_AN964_8BIT_OBJECT
-#define SELF FIXPID_AN964_8BIT_OBJECT
-#define VALID(self) ((self) == &SELF)
-#else
-#define SELF (*self)
-#define VALID(self) ((self) != 0)
-#endif
+#define ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
+#define SUM_HIGHEST FIXPID_WORD(FIXPID_AN964_8BIT_SUM_LIMIT)
+#define SUM_LOWEST FIXPID_WORD(0u - SUM_HIGHEST)
+#define TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)
+#define BYTE_MAX FIXPID_WORD(127) // what an 8 x 8 signed product takes
 
-#define GAIN_MAX 127u
-#define SUM_LIMIT ((uint16_t)FIXPID_AN964_8BIT_SUM_LIMIT)
-#define TERM_LIMIT ((uint16_t)FIXPID_AN964_8BIT_TERM_LIMIT)
-#define BYTE_MAX 127u // what an 8 x 8 signed product takes
+// Bits of the term limit beyond three: each costs a PIC16 some cycles.
+#if FIXPID_AN964_8BIT_TERM_LIMIT < 32
+#define TERM_MORE 2
+#else
+#define TERM_MORE 4
+#endif
 
 bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
                             const struct fixpid_an964_8bit_gains *gains)
@@ -23,11 +24,12 @@ bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
     FIXPID_ASSERT(gains != 0);
     fixpid_an964_8bit_reset(self);
     SELF.ready = 1;
-    if (!fixpid_an964_8bit_set_gains(self, gains->kp, gains->ki, gains->kd)) {
-        SELF.gains.kp = 0; // it multiplies all terms
-        SELF.ready = 0;
+    if (fixpid_an964_8bit_set_gains(self, gains->kp, gains->ki, gains->kd)) {
+        return true;
     }
-    return SELF.ready != 0u;
+    SELF.gains.kp = 0; // it multiplies all terms
+    SELF.ready = 0;
+    return false;
 }
 
 void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self)
@@ -39,7 +41,8 @@ void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self)
     SELF.error[2] = 0;
     SELF.integral = 0;
     SELF.derivative = 0;
-    SELF.flags = 0;
+    SELF.sum_limited = 0;
+    SELF.output_limited = 0;
 }
 
 bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
@@ -49,7 +52,7 @@ bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
     if (SELF.ready == 0u) {
         return false;
     }
-    if ((kp | ki | kd) > GAIN_MAX) { // all ones: true if one of them is above
+    if (((kp | ki | kd) & ABOVE_GAIN_MAX) != 0u) {
         return false;
     }
     SELF.gains.kp = kp;
@@ -59,104 +62,97 @@ bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
 }
 
 // The sum of errors, and I = ki * sum / 512 in two divisions toward zero.
-static void integrate(FIXPID_DATA struct fixpid_an964_8bit *self, int8_t error)
+FIXPID_INLINE uint16_t integrate(FIXPID_DATA struct fixpid_an964_8bit *self,
+                                 uint16_t e)
 {
-    const int16_t sum = (int16_t)(SELF.sum + error); // |sum| <= 8191 + 128
-    const bool negative = sum < 0;
-    uint16_t magnitude = FIXPID_MAGNITUDE(negative, sum);
-    uint16_t gain = SELF.gains.ki;
-    uint16_t product;
-    uint8_t high;
+    uint16_t sum = (uint16_t)(SELF.sum + e); // |sum| <= 8191 + 128
+    uint16_t integral;
+    uint8_t negative = 0;
 
     FIXPID_ASSERT(VALID(self));
-    if (magnitude > SUM_LIMIT) {
-        magnitude = SUM_LIMIT;
-        SELF.flags = FIXPID_AN964_8BIT_SUM_LIMITED;
+    if (FIXPID_NEGATIVE(sum)) {
+        if (sum < SUM_LOWEST) {
+            sum = SUM_LOWEST;
+            SELF.sum_limited = FIXPID_AN964_8BIT_SUM_LIMITED;
+        }
+        SELF.sum = sum;
+        FIXPID_NEGATE(sum);
+        negative = 1;
+    } else {
+        if (sum > SUM_HIGHEST) {
+            sum = SUM_HIGHEST;
+            SELF.sum_limited = FIXPID_AN964_8BIT_SUM_LIMITED;
+        }
+        SELF.sum = sum;
     }
-    SELF.sum = FIXPID_WITH_SIGN(negative, magnitude);
-
     // |sum| / 64 <= 127 < 2^7, so the product is at most 127 * 127 / 8 = 2016
-    high = (uint8_t)(magnitude >> 6);
-    FIXPID_SCALED_PRODUCT(product, gain, high, 0u, 3u, 4u);
-    if (product > BYTE_MAX) {
-        product = BYTE_MAX;
+    sum = (uint16_t)(sum << 2) >> 8;
+    FIXPID_BYTE_7X7(integral, SELF.gains.ki, sum, 3, 3);
+    if (FIXPID_SAYS_SO(negative)) {
+        FIXPID_NEGATE(integral);
     }
-    SELF.integral = (int8_t)FIXPID_WITH_SIGN(negative, product);
+    SELF.integral = (uint8_t)integral;
+    return integral;
 }
 
 // D = kd * (E(n) - E(n-3)) / 4, rounded down.
-static void differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
-                          int8_t error)
+FIXPID_INLINE uint16_t differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
+                                     uint8_t e)
 {
-    const int16_t change = (int16_t)(error - SELF.error[2]); // within +-255
-    const bool falling = change < 0;
-    const uint8_t bias = falling ? 3u : 0u;
-    uint16_t magnitude = FIXPID_MAGNITUDE(falling, change);
-    uint16_t gain = SELF.gains.kd;
-    uint16_t product;
+    uint8_t now = (uint8_t)(e ^ 0x80u);
+    uint8_t change = (uint8_t)(SELF.error[2] ^ 0x80u);
+    uint8_t negative = 0;
+    uint16_t derivative;
 
     FIXPID_ASSERT(VALID(self));
-    if (magnitude > TERM_LIMIT) {
-        magnitude = TERM_LIMIT;
+    if (now >= change) {
+        change = (uint8_t)(now - change);
+    } else {
+        change = (uint8_t)(change - now);
+        negative = 0xFFu;
     }
-    // at most (127 * 127 + 3) / 4 = 4033
-    FIXPID_SCALED_PRODUCT(product, gain, magnitude, bias, 2u, 5u);
-    if (product > TERM_LIMIT) {
-        product = TERM_LIMIT;
+    if (change > TERM_LIMIT) {
+        change = TERM_LIMIT;
     }
-    SELF.derivative = (int8_t)FIXPID_WITH_SIGN(falling, product);
+    FIXPID_LIMITED_7X7(derivative, SELF.gains.kd, change, negative, 2,
+                       TERM_MORE, FIXPID_WORD(TERM_LIMIT));
+    if (FIXPID_SAYS_SO(negative)) {
+        FIXPID_NEGATE(derivative);
+    }
+    SELF.derivative = (uint8_t)derivative;
+    return derivative;
 }
 
 int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
                                int8_t error)
 {
-    int16_t sum_of_terms;
-    bool negative;
-    uint16_t magnitude;
-    uint16_t gain;
+    uint8_t e_byte = (uint8_t)error;
+    uint16_t e = (uint16_t)(int16_t)error;
+    uint16_t sum_of_terms;
     uint16_t output;
+    uint8_t negative = 0;
 
     FIXPID_ASSERT(VALID(self));
-    SELF.flags = 0;
-    integrate(self, error);
-    differentiate(self, error);
+    SELF.sum_limited = 0;
+    SELF.output_limited = 0;
+    sum_of_terms =
+        (uint16_t)(e + integrate(self, e) + differentiate(self, e_byte));
     SELF.error[2] = SELF.error[1];
     SELF.error[1] = SELF.error[0];
-    SELF.error[0] = error;
+    SELF.error[0] = e_byte;
 
-    sum_of_terms = (int16_t)(error + SELF.integral + SELF.derivative);
-    negative = sum_of_terms < 0;
-    magnitude = FIXPID_MAGNITUDE(negative, sum_of_terms);
-    if (magnitude > BYTE_MAX) { // at most 128 + 127 + 127
-        magnitude = BYTE_MAX;
-        SELF.flags |= FIXPID_AN964_8BIT_OUTPUT_LIMITED;
+    if (FIXPID_NEGATIVE(sum_of_terms)) {
+        FIXPID_NEGATE(sum_of_terms);
+        negative = 1;
     }
-    gain = SELF.gains.kp;
-    FIXPID_SCALED_PRODUCT(output, magnitude, gain, 0u, 5u, 2u); // <= 504
-    return FIXPID_WITH_SIGN(negative, output);
-}
-
-int16_t fixpid_an964_8bit_proportional(
-    FIXPID_DATA struct fixpid_an964_8bit *self)
-{
-    FIXPID_ASSERT(VALID(self));
-    return SELF.error[0];
-}
-
-int16_t fixpid_an964_8bit_integral(FIXPID_DATA struct fixpid_an964_8bit *self)
-{
-    FIXPID_ASSERT(VALID(self));
-    return SELF.integral;
-}
-
-int16_t fixpid_an964_8bit_derivative(FIXPID_DATA struct fixpid_an964_8bit *self)
-{
-    FIXPID_ASSERT(VALID(self));
-    return SELF.derivative;
-}
-
-uint8_t fixpid_an964_8bit_flags(FIXPID_DATA struct fixpid_an964_8bit *self)
-{
-    FIXPID_ASSERT(VALID(self));
-    return SELF.flags;
+    if (sum_of_terms > BYTE_MAX) { // at most 128 + 127 + 127
+        sum_of_terms = BYTE_MAX;
+        SELF.output_limited = FIXPID_AN964_8BIT_OUTPUT_LIMITED;
+    }
+    // at most 127 * 127 / 32 = 504
+    FIXPID_PRODUCT_7X7(output, SELF.gains.kp, sum_of_terms, 5, 1);
+    if (FIXPID_SAYS_SO(negative)) {
+        FIXPID_NEGATE(output);
+    }
+    return FIXPID_SIGNED(output);
 }

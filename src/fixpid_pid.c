@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_pid.h"
 
-#include "fixpid_arith.h"
 #include "fixpid_pid_self.h"
 
 // Private bits of `options`; the lowest three are the derivative filter.

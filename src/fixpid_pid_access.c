@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What not every program needs; SDCC links whole objects.
-#include "fixpid_arith.h"
 #include "fixpid_pid.h"
 #include "fixpid_pid_self.h"
 

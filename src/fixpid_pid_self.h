@@ -3,8 +3,8 @@
 // and its private bits.
 #ifndef FIXPID_PID_SELF_H
 #define FIXPID_PID_SELF_H
-#include "fixpid_arith.h"
 #include "fixpid_pid.h"
+#include "fixpid_pid_arith.h"
 
 #ifdef FIXPID_PID_OBJECT
 #define SELF FIXPID_PID_OBJECT

@@ -6,6 +6,8 @@
 #include "vectors.h"
 
 TEST_SOURCE_FILE("src/fixpid_an964.c")
+TEST_SOURCE_FILE("src/fixpid_an964_access.c")
+TEST_SOURCE_FILE("src/fixpid_an964_pic14.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
@@ -207,6 +209,20 @@ void test_flags_sum_and_output_limited_at_once_are_both_set(void)
     TEST_ASSERT_EQUAL_HEX8(FIXPID_AN964_SUM_LIMITED |
                                FIXPID_AN964_OUTPUT_LIMITED,
                            fixpid_an964_flags(&an964_controller));
+}
+
+void test_flags_sum_limited_lasts_until_a_step_within_or_a_reset(void)
+{
+    start(1, 1023, 0);
+    steps(40, 1023);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_AN964_SUM_LIMITED,
+                           fixpid_an964_flags(&an964_controller));
+    fixpid_an964_reset(&an964_controller);
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
+    start(1, 1023, 0);
+    steps(40, 1023);
+    step(-5);
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
 }
 
 // Departure 1: the program keeps the error in a signed char.

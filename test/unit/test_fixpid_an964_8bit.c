@@ -5,6 +5,8 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_access.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_pic14.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
@@ -80,7 +82,7 @@ void test_step_integral_whole_domain(void)
         start(32, (uint8_t)ki, 0);
         for (int sum = -FIXPID_AN964_8BIT_SUM_LIMIT;
              sum <= FIXPID_AN964_8BIT_SUM_LIMIT; sum += TEST_STRIDE) {
-            an964_8bit_controller.sum = (int16_t)sum;
+            an964_8bit_controller.sum = (uint16_t)sum;
             reference.sum = sum;
             step(0);
         }
@@ -93,7 +95,7 @@ void test_step_derivative_whole_domain(void)
         start(32, 0, (uint8_t)kd);
         for (int change = -255; change <= 255; change++) {
             const int8_t oldest = (int8_t)(change < 0 ? 127 : -128);
-            an964_8bit_controller.error[2] = oldest;
+            an964_8bit_controller.error[2] = (uint8_t)oldest;
             reference.history[2] = oldest;
             step((int8_t)(oldest + change));
         }
@@ -225,6 +227,20 @@ void test_step_random_runs_match_the_reference(void)
         }
         step((int8_t)((int32_t)numbers_below(256) - 128));
     }
+}
+
+void test_flags_sum_limited_lasts_until_a_step_within_or_a_reset(void)
+{
+    start(1, 0, 0);
+    steps(90, 127);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_AN964_8BIT_SUM_LIMITED,
+                           fixpid_an964_8bit_flags(&an964_8bit_controller));
+    fixpid_an964_8bit_reset(&an964_8bit_controller);
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_8bit_flags(&an964_8bit_controller));
+    start(1, 0, 0);
+    steps(90, 127);
+    step(-5);
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_8bit_flags(&an964_8bit_controller));
 }
 
 void test_set_gains_at_every_step_matches_the_reference(void)

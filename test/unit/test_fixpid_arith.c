@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Every form of the leaves, over its whole domain or, with 16 x 16 bits and
 // more, over every value of one operand.
+#include "fixpid_an937_arith.h"
 #include "fixpid_an937_pic18.h"
+#include "fixpid_an964_pic14.h"
 #include "fixpid_arith.h"
+#include "fixpid_pid_arith.h"
 #include "numbers.h"
 #include "reference.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an964_pic14.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_pic14.c")
 
 #ifndef TEST_STRIDE
 #define TEST_STRIDE 1 // 1 walks a whole domain
@@ -21,69 +26,220 @@ void tearDown(void)
 {
 }
 
-// All three forms of one product with a word and, where it fits, a byte as the
-// short operand. Plain comparisons, because there are a hundred million.
-#define CHECK_SCALED(x, k, bias, n, more, k_type)                              \
+// x * k / 2^n in 64 bits, rounded up where `up` is not 0.
+#define EXPECTED(x, k, up, n)                                                  \
+    ((uint16_t)(((uint64_t)(x) * (k) +                                         \
+                 ((up) != 0 ? (UINT64_C(1) << (n)) - 1u : 0u)) >>              \
+                (n)))
+
+// One form of a product, with variables of its own. Plain comparisons, because
+// there are a hundred million.
+#define CHECK(form, x, k, x_type, up, n, more)                                 \
     do {                                                                       \
-        const uint16_t expected_ =                                             \
-            (uint16_t)(((uint64_t)(x) * (k) + (bias)) / (1u << (n)));          \
-        uint16_t result_, x_ = (uint16_t)(x);                                  \
-        k_type k_ = (k_type)(k);                                               \
-        FIXPID_SCALED_MULTIPLY(result_, x_, k_, bias, n, more);                \
-        wrong += result_ != expected_;                                         \
-        FIXPID_SCALED_BYTES(result_, x_, k_, bias, n, more);                   \
-        wrong += result_ != expected_;                                         \
-        FIXPID_SCALED_SHIFT(result_, x_, k_, bias, n, more);                   \
-        wrong += result_ != expected_;                                         \
+        x_type used_x = (x_type)(x);                                           \
+        uint16_t used_k = (uint16_t)(k);                                       \
+        const uint8_t rounded_up = (up);                                       \
+        uint16_t result;                                                       \
+        form(result, used_x, used_k, rounded_up, n, more);                     \
+        wrong += result != EXPECTED(x, k, up, n);                              \
+        (void)rounded_up;                                                      \
+    } while (0)
+#define CHECK_7X7(x, k, up, n, more)                                           \
+    do {                                                                       \
+        CHECK(FIXPID_7X7_MULTIPLY, x, k, uint8_t, up, n, more);                \
+        CHECK(FIXPID_7X7_BYTES, x, k, uint8_t, up, n, more);                   \
+        CHECK(FIXPID_7X7_SHIFT, x, k, uint8_t, up, n, more);                   \
+    } while (0)
+#define CHECK_10X8(x, k, up, n, more)                                          \
+    do {                                                                       \
+        CHECK(FIXPID_10X8_MULTIPLY, x, k, uint16_t, up, n, more);              \
+        CHECK(FIXPID_10X8_BYTES, x, k, uint16_t, up, n, more);                 \
+        CHECK(FIXPID_10X8_SHIFT, x, k, uint16_t, up, n, more);                 \
+        CHECK(FIXPID_10X8_UNROLLED, x, k, uint16_t, up, n, more);              \
     } while (0)
 
-#define WALK_SCALED(x_max, k_max, bias, n, more, k_type)                       \
+// 14X10 has neither `up` nor `n` nor `more`.
+#define MULTIPLY_14X10(result, x, k, up, n, more)                              \
+    FIXPID_14X10_MULTIPLY(result, x, k)
+#define BYTES_14X10(result, x, k, up, n, more) FIXPID_14X10_BYTES(result, x, k)
+#define SHIFT_14X10(result, x, k, up, n, more) FIXPID_14X10_SHIFT(result, x, k)
+#define UNROLLED_14X10(result, x, k, up, n, more)                              \
+    FIXPID_14X10_UNROLLED(result, x, k)
+#define KERNEL_14X10(result, x, k, up, n, more)                                \
+    ((result) = fixpid_kernel_14x10(x, k))
+#define CHECK_14X10(x, k, up, n, more)                                         \
+    do {                                                                       \
+        CHECK(MULTIPLY_14X10, x, k, uint16_t, up, n, more);                    \
+        CHECK(BYTES_14X10, x, k, uint16_t, up, n, more);                       \
+        CHECK(SHIFT_14X10, x, k, uint16_t, up, n, more);                       \
+        CHECK(UNROLLED_14X10, x, k, uint16_t, up, n, more);                    \
+        CHECK(KERNEL_14X10, x, k, uint16_t, up, n, more);                      \
+    } while (0)
+
+#define WALK(check, x_max, k_max, up, n, more)                                 \
     do {                                                                       \
         uint32_t wrong = 0;                                                    \
         for (uint32_t x = 0; x <= (x_max); x += TEST_STRIDE) {                 \
             for (uint32_t k = 0; k <= (k_max); k++) {                          \
-                CHECK_SCALED(x, k, bias, n, more, k_type);                     \
+                check(x, k, up, n, more);                                      \
             }                                                                  \
         }                                                                      \
         for (uint32_t k = 0; k <= (k_max); k++) {                              \
-            CHECK_SCALED(x_max, k, bias, n, more, k_type);                     \
+            check(x_max, k, up, n, more);                                      \
         }                                                                      \
         TEST_ASSERT_EQUAL_UINT32(0, wrong);                                    \
     } while (0)
 
-void test_scaled_product_of_an964_integral_whole_domain(void)
+void test_product_of_an964_integral_whole_domain(void)
 {
-    WALK_SCALED(1023u, 127u, 0u, 4u, 3u, uint8_t);
+    WALK(CHECK_10X8, 1023u, 127u, 0, 4, 3);
 }
 
-void test_scaled_product_of_an964_derivative_seven_turns_whole_domain(void)
+void test_product_of_an964_derivative_seven_bits_whole_domain(void)
 {
-    WALK_SCALED(1023u, 127u, 0u, 5u, 2u, uint8_t);
-    WALK_SCALED(1023u, 127u, 31u, 5u, 2u, uint16_t);
+    WALK(CHECK_10X8, 1023u, 127u, 0, 5, 2);
+    WALK(CHECK_10X8, 1023u, 127u, 0xFF, 5, 2);
 }
 
-void test_scaled_product_of_an964_derivative_eight_turns_whole_domain(void)
+void test_product_of_an964_derivative_eight_bits_whole_domain(void)
 {
-    WALK_SCALED(1023u, 255u, 0u, 5u, 3u, uint8_t);
-    WALK_SCALED(1023u, 255u, 31u, 5u, 3u, uint16_t);
+    WALK(CHECK_10X8, 1023u, 255u, 0, 5, 3);
+    WALK(CHECK_10X8, 1023u, 255u, 0xFF, 5, 3);
 }
 
-void test_scaled_product_of_an964_output_whole_domain(void)
+void test_product_of_an964_output_whole_domain(void)
 {
-    WALK_SCALED(8758u, 1023u, 0u, 10u, 0u, uint16_t);
+    WALK(CHECK_14X10, 8758u, 1023u, 0, 10, 0);
 }
 
-void test_scaled_product_at_its_precondition_whole_row(void)
+void test_product_14x10_at_its_precondition_whole_row(void)
 {
-    WALK_SCALED(16383u, 1023u, 1023u, 10u, 0u, uint16_t);
+    uint32_t wrong = 0;
+
+    for (uint32_t k = 0; k <= 1023u; k++) {
+        CHECK_14X10(16383u, k, 0, 10, 0);
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
 }
 
-void test_scaled_product_of_8bit_terms_whole_domain(void)
+void test_product_of_8bit_integral_and_output_whole_domain(void)
 {
-    WALK_SCALED(127u, 127u, 0u, 3u, 4u, uint8_t);
-    WALK_SCALED(127u, 127u, 0u, 2u, 5u, uint16_t);
-    WALK_SCALED(127u, 127u, 3u, 2u, 5u, uint16_t);
-    WALK_SCALED(127u, 127u, 0u, 5u, 2u, uint16_t);
+    WALK(CHECK_7X7, 127u, 127u, 0, 3, 3);
+    WALK(CHECK_7X7, 127u, 127u, 0, 5, 1);
+}
+
+void test_product_of_8bit_derivative_five_bits_whole_domain(void)
+{
+    WALK(CHECK_7X7, 127u, 31u, 0, 2, 2);
+    WALK(CHECK_7X7, 127u, 31u, 0xFF, 2, 2);
+}
+
+void test_product_of_8bit_derivative_seven_bits_whole_domain(void)
+{
+    WALK(CHECK_7X7, 127u, 127u, 0, 2, 4);
+    WALK(CHECK_7X7, 127u, 127u, 0xFF, 2, 4);
+}
+
+static uint16_t at_most(uint16_t value, uint16_t limit)
+{
+    return value > limit ? limit : value;
+}
+
+// Under the names that the steps use, in the form that was chosen.
+void test_products_by_name_7x7_whole_domain(void)
+{
+    uint32_t wrong = 0;
+
+    for (uint32_t x = 0; x <= 127u; x++) {
+        for (uint32_t k = 0; k <= 127u; k++) {
+            const uint8_t byte = (uint8_t)x;
+            const uint16_t word = (uint16_t)k;
+            const uint8_t up = 0xFF;
+            uint16_t result;
+
+            FIXPID_PRODUCT_7X7(result, byte, word, 5, 1);
+            wrong += result != EXPECTED(x, k, 0, 5);
+            FIXPID_BYTE_7X7(result, byte, word, 3, 3);
+            wrong += result != at_most(EXPECTED(x, k, 0, 3), 127);
+            FIXPID_LIMITED_7X7(result, byte, word, up, 2, 4, FIXPID_WORD(30));
+            wrong += result != at_most(EXPECTED(x, k, 1, 2), 30);
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_products_by_name_10x8_whole_domain(void)
+{
+    uint32_t wrong = 0;
+
+    for (uint32_t x = 0; x <= 1023u; x++) {
+        for (uint32_t k = 0; k <= 127u; k++) {
+            const uint16_t left = (uint16_t)x;
+            const uint16_t right = (uint16_t)k;
+            const uint8_t up = 0xFF;
+            uint16_t result;
+
+            FIXPID_PRODUCT_10X8(result, left, right, 4, 3);
+            wrong += result != EXPECTED(x, k, 0, 4);
+            FIXPID_LIMITED_10X8(result, left, right, up, 5, 2,
+                                FIXPID_WORD(120));
+            wrong += result != at_most(EXPECTED(x, k, 1, 5), 120);
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_byte_at_most_every_byte_and_limit(void)
+{
+    for (uint16_t limit = 1; limit <= 255u; limit++) {
+        for (uint16_t value = 0; value <= 255u; value++) {
+            uint16_t result;
+
+            FIXPID_BYTE_AT_MOST(result, (uint8_t)value, limit);
+            TEST_ASSERT_EQUAL_UINT16(at_most(value, limit), result);
+        }
+    }
+}
+
+// The kernels' twins; test/target runs the assembly.
+void test_kernel_10x8_whole_domain(void)
+{
+    uint32_t wrong = 0;
+
+    for (uint32_t x = 0; x <= 1023u; x++) {
+        for (uint32_t k = 0; k <= 255u; k++) {
+            const uint16_t word = (uint16_t)x;
+            const uint8_t byte = (uint8_t)k;
+
+            wrong += fixpid_kernel_10x8_4(byte, word) != EXPECTED(x, k, 0, 4);
+            wrong += fixpid_kernel_10x8_5(byte, word, 0) !=
+                     at_most(EXPECTED(x, k, 0, 5), 255);
+            wrong += fixpid_kernel_10x8_5(byte, word, 0xFF) !=
+                     at_most(EXPECTED(x, k, 1, 5), 255);
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_kernel_7x7_whole_domain(void)
+{
+    uint32_t wrong = 0;
+
+    for (uint32_t x = 0; x <= 127u; x++) {
+        for (uint32_t k = 0; k <= 127u; k++) {
+            const uint8_t left = (uint8_t)x;
+            const uint8_t right = (uint8_t)k;
+
+            wrong += fixpid_kernel_7x7_2(0, left, right) !=
+                     at_most(EXPECTED(x, k, 0, 2), 127);
+            wrong += fixpid_kernel_7x7_2(0xFF, left, right) !=
+                     at_most(EXPECTED(x, k, 1, 2), 127);
+            wrong += fixpid_kernel_7x7_3(left, right) !=
+                     at_most(EXPECTED(x, k, 0, 3), 127);
+            wrong += fixpid_kernel_7x7_5(left, right) != EXPECTED(x, k, 0, 5);
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
 }
 
 union number {
@@ -306,8 +462,7 @@ void test_products_of_nasty_integers_crossed_match_64_bits(void)
             const uint16_t x = (uint16_t)((uint16_t)nasty[i] & 16383u);
             const uint16_t k = (uint16_t)((uint16_t)nasty[j] & 1023u);
 
-            CHECK_SCALED(x, k, 0u, 10u, 0u, uint16_t);
-            CHECK_SCALED(x, k, 1023u, 10u, 0u, uint16_t);
+            CHECK_14X10(x, k, 0, 10, 0);
             wrong += wrong_sums((uint8_t)k, (uint16_t)nasty[i], 0);
             wrong += wrong_sums((uint8_t)k, (uint16_t)nasty[i], 1);
         }
@@ -340,14 +495,15 @@ void test_negated_every_negative_pattern_gives_the_magnitude(void)
                                  FIXPID_NEGATED((uint16_t)magnitude));
     }
 }
-void test_with_sign_and_magnitude_every_value_round_trips(void)
+
+void test_negate_and_negative_every_value(void)
 {
     for (int32_t value = -32767; value <= 32767; value++) {
-        const int16_t number = (int16_t)value;
-        const uint16_t magnitude = FIXPID_MAGNITUDE(value < 0, number);
+        uint16_t bits = FIXPID_WORD(value);
 
-        TEST_ASSERT_EQUAL_UINT16(value < 0 ? -value : value, magnitude);
-        TEST_ASSERT_EQUAL_INT16(value, FIXPID_WITH_SIGN(value < 0, magnitude));
+        TEST_ASSERT_EQUAL_INT(value < 0, FIXPID_NEGATIVE(bits));
+        FIXPID_NEGATE(bits);
+        TEST_ASSERT_EQUAL_INT16(-value, FIXPID_SIGNED(bits));
     }
 }
 
@@ -544,4 +700,27 @@ void test_signed_product_of_every_value_and_nasty_ones(void)
     wrong += signed_products_wrong(32767u, INT16_MAX);
     wrong += signed_products_wrong(32767u, INT16_MIN);
     TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_signed_every_pattern_keeps_its_bits(void)
+{
+    for (int32_t value = -32768; value <= 32767; value++) {
+        const uint16_t bits = (uint16_t)((uint32_t)value & 0xFFFFu);
+
+        TEST_ASSERT_EQUAL_INT16(value, FIXPID_SIGNED(bits));
+    }
+    for (int16_t value = -128; value <= 127; value++) {
+        const uint8_t bits = (uint8_t)((uint16_t)value & 0xFFu);
+
+        TEST_ASSERT_EQUAL_INT8(value, FIXPID_SIGNED_BYTE(bits));
+    }
+}
+
+void test_says_so_zero_and_odd_flags(void)
+{
+    const uint8_t flags[] = {0, 1, 0xFF};
+
+    TEST_ASSERT_FALSE(FIXPID_SAYS_SO(flags[0]));
+    TEST_ASSERT_TRUE(FIXPID_SAYS_SO(flags[1]));
+    TEST_ASSERT_TRUE(FIXPID_SAYS_SO(flags[2]));
 }

@@ -47,7 +47,7 @@ def warnings(file)
 end
 
 def modes_and_leaves(file)
-  [[], OBJECT_MODE].product([1, 2, 3, 4]).each do |mode, leaf|
+  [[], OBJECT_MODE].product([1, 2, 3, 4, 5]).each do |mode, leaf|
     %w[gcc clang].each do |compiler|
       expect_clean(compiler, *STRICT, '-Iinclude', *mode, "-DFIXPID_PRODUCT=#{leaf}",
                    '-c', file, '-o', '/dev/null')
@@ -125,7 +125,7 @@ programs = Dir['{port,examples,tools/probe}/**/*.c'].sort.grep_v(%r{/support/|/g
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_leaves(file) }
 (library + programs).each { |file| tidy(file) }
-[[], OBJECT_MODE].product([1, 2, 3, 4]).each do |mode, leaf|
+[[], OBJECT_MODE].product([1, 2, 3, 4, 5]).each do |mode, leaf|
   misra('src', library, mode + ["-DFIXPID_PRODUCT=#{leaf}"])
 end
 programs.group_by { |file| File.dirname(file) }.each do |directory, files|

@@ -11,10 +11,13 @@ REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/mutants/equivalent.txt'.freeze
 TESTS = { 'src/fixpid_an937.c' => 'test_fixpid_an937', 'src/fixpid_an937_access.c' => 'test_fixpid_an937',
           'src/fixpid_an964.c' => 'test_fixpid_an964',
+          'src/fixpid_an964_access.c' => 'test_fixpid_an964',
           'src/fixpid_an964_8bit.c' => 'test_fixpid_an964_8bit',
+          'src/fixpid_an964_8bit_access.c' => 'test_fixpid_an964_8bit',
           'src/fixpid_pid.c' => 'test_fixpid_pid', 'src/fixpid_pid_access.c' => 'test_fixpid_pid',
           'src/fixpid_autotune.c' => 'test_fixpid_autotune',
-          'src/fixpid_arith.h' => 'test_fixpid_arith' }.freeze
+          'src/fixpid_arith.h' => 'test_fixpid_arith', 'src/fixpid_an937_arith.h' => 'test_fixpid_arith',
+          'src/fixpid_pid_arith.h' => 'test_fixpid_arith' }.freeze
 OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
               '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '<<' => %w[>>], '>>' => %w[<<],
               '&' => %w[|], '|' => %w[&], '|=' => %w[=], '--' => %w[++], '>>=' => %w[<<=], '+=' => %w[-=],
@@ -36,7 +39,7 @@ end
 # parameter lists.
 def skipped?(file, line)
   line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef)|FIXPID_ASSERT|struct fixpid_|define VALID|define SELF/ ||
-    (file.end_with?('.h') && line =~ /define FIXPID_(?:PRODUCT|ARITH_H|SCALED_PRODUCT|GAIN_PRODUCT)/)
+    (file.end_with?('.h') && line =~ /define FIXPID_(?:\w*PRODUCT\w*|\w+_H|INLINE|SCALED_\w+)\b(?!\()/)
 end
 
 def mutants_of(file)

@@ -12,7 +12,7 @@ void host_probe(struct host_terms *terms)
     terms->proportional = (double)fixpid_an964_proportional(&HOST_PROBE_OBJECT);
     terms->integral = (double)fixpid_an964_integral(&HOST_PROBE_OBJECT);
     terms->derivative = (double)fixpid_an964_derivative(&HOST_PROBE_OBJECT);
-    terms->accumulated_error = (double)HOST_PROBE_OBJECT.sum;
+    terms->accumulated_error = (double)(int16_t)HOST_PROBE_OBJECT.sum;
 }
 
 void host_report(void)

@@ -14,7 +14,7 @@ void host_probe(struct host_terms *terms)
     terms->integral = (double)fixpid_an964_8bit_integral(&HOST_PROBE_OBJECT);
     terms->derivative =
         (double)fixpid_an964_8bit_derivative(&HOST_PROBE_OBJECT);
-    terms->accumulated_error = (double)HOST_PROBE_OBJECT.sum;
+    terms->accumulated_error = (double)(int16_t)HOST_PROBE_OBJECT.sum;
 }
 
 void host_report(void)

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The products of AN964's 10-bit form.
+#include "fixpid_an964_pic14.h"
+
+#if defined(__SDCC_pic14)
+
+// The sum moves right once per bit of the second operand. In STK03 and STK04;
+// W holds the first operand. Whatever RRF drops is 0 where both bytes move, and
+// so is the carry before the next addition.
+// Deviation 20.10: byte and bit become part of the assembly.
+#define DROP(byte, bit)                                                        \
+    __asm__("bcf STATUS,0\n"                                                   \
+            "\tbtfsc " #byte "," #bit "\n"                                     \
+            "\taddwf STK03,f\n"                                                \
+            "\trrf STK03,f")
+// Deviation 20.10: as above.
+#define KEEP(byte, bit)                                                        \
+    __asm__("btfsc " #byte "," #bit "\n"                                       \
+            "\taddwf STK03,f\n"                                                \
+            "\trrf STK03,f\n"                                                  \
+            "\trrf STK04,f")
+
+// k in W, x in STK00 and STK01. The second label is for a sum that does not
+// start at 0.
+uint16_t fixpid_kernel_10x8_4(uint8_t k, uint16_t x) __naked
+{
+    (void)k;
+    (void)x;
+    __asm__("clrf STK03\nfixpid_kernel_10x8:\n\tclrf STK04");
+    DROP(STK01, 0);
+    DROP(STK01, 1);
+    DROP(STK01, 2);
+    DROP(STK01, 3);
+    __asm__("bcf STATUS,0");
+    KEEP(STK01, 4);
+    KEEP(STK01, 5);
+    KEEP(STK01, 6);
+    KEEP(STK01, 7);
+    KEEP(STK00, 0);
+    KEEP(STK00, 1);
+    __asm__("rrf STK03,f\n\trrf STK04,f");
+    __asm__("rrf STK03,f\n\trrf STK04,w");
+    __asm__("movwf STK00\n\tmovf STK03,w\n\treturn");
+}
+
+// up in STK02. The quotient of above is in STK03 and STK00, its upper byte in
+// W, too.
+uint8_t fixpid_kernel_10x8_5(uint8_t k, uint16_t x, uint8_t up) __naked
+{
+    (void)k;
+    (void)x;
+    (void)up;
+    __asm__("movwf STK04\n\tmovf STK02,w\n\tandlw 31\n\tmovwf STK03");
+    __asm__("movf STK04,w\n\tpagesel fixpid_kernel_10x8\n"
+            "\tcall fixpid_kernel_10x8\n\tpagesel $");
+    __asm__("andlw 0xFE\n\tbtfss STATUS,2\n\tretlw 255");
+    __asm__("rrf STK03,f\n\trrf STK00,w\n\treturn");
+}
+
+// x in W and STK00, k in STK01 and STK02. The sum is in STK04 and STK05; below
+// 2^15, so that the carry is 0 when it moves.
+uint16_t fixpid_kernel_14x10(uint16_t x, uint16_t k) __naked
+{
+    (void)x;
+    (void)k;
+    __asm__("movwf STK03\n\tclrf STK04\n\tclrf STK05");
+    __asm__("movlw 10\n\tmovwf STK06");
+    __asm__("fixpid_kernel_turn:\n\trrf STK01,f\n\trrf STK02,f");
+    __asm__("btfss STATUS,0\n\tgoto fixpid_kernel_move");
+    __asm__("movf STK00,w\n\taddwf STK05,f\n\tmovf STK03,w");
+    __asm__("btfsc STATUS,0\n\tincfsz STK03,w\n\taddwf STK04,f");
+    __asm__("fixpid_kernel_move:\n\trrf STK04,f\n\trrf STK05,f");
+    __asm__("decfsz STK06,f\n\tgoto fixpid_kernel_turn");
+    __asm__("movf STK05,w\n\tmovwf STK00\n\tmovf STK04,w\n\treturn");
+}
+
+#else
+
+uint16_t fixpid_kernel_10x8_4(uint8_t k, uint16_t x)
+{
+    return (uint16_t)(((uint32_t)x * k) >> 4);
+}
+
+uint8_t fixpid_kernel_10x8_5(uint8_t k, uint16_t x, uint8_t up)
+{
+    const uint16_t quotient = (uint16_t)((((uint32_t)x * k) + (up & 31u)) >> 5);
+
+    if (quotient > 255u) {
+        return 255;
+    }
+    return (uint8_t)quotient;
+}
+
+uint16_t fixpid_kernel_14x10(uint16_t x, uint16_t k)
+{
+    return (uint16_t)(((uint32_t)x * k) >> 10);
+}
+
+#endif
