@@ -5,7 +5,7 @@
 #include "compiler.h"
 #include "exchange.h"
 #include "fixpid_an937.h"
-#include "fixpid_arith.h"
+#include "fixpid_an937_arith.h"
 
 #define TESTED an937_controller
 

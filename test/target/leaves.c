@@ -6,7 +6,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "fixpid_arith.h"
+#include "fixpid_pid_arith.h"
 #include "numbers.h"
 
 static int failed;
