@@ -36,6 +36,9 @@ CONTROLLERS = [
 Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
 
 VARIANTS = [
+  Variant.new('an964', 'pic16f684', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an964_pic14.c]),
+  Variant.new('an964', 'pic16f684', 'unrolled', %w[FIXPID_PRODUCT=5], []),
+  Variant.new('an964_8bit', 'pic16f684', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an964_8bit_pic14.c]),
   Variant.new('an937', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an937_pic18.c]),
   Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_PRODUCT=4 FIXPID_AN937_PLACE=__at(0x20)],
               %w[src/fixpid_an937_pic18.c]),
