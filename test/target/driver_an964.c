@@ -15,6 +15,7 @@ union an964_exchange an964_exchange;
 // no byte to spare, and SDCC shares none between two.
 void an964_reply(void)
 {
+    QUESTION.calls &= (uint8_t)(CALL_INIT | CALL_RESET | CALL_SET_GAINS);
     if ((QUESTION.calls & CALL_INIT) != 0u) {
         if (!fixpid_an964_init(&an964_controller, &QUESTION.gains)) {
             QUESTION.calls &= (uint8_t)~CALL_INIT;
