@@ -26,12 +26,13 @@ struct segment {
     uint8_t times;
 };
 
-// Where each controller's question has its `calls`, and how many bytes of them;
-// CALL_INIT is in the first. And what makes a question a plain one.
+// Where each controller's question has its `calls`, in bytes, which of their
+// bits the controller knows, and what makes a question a plain one.
 struct layout {
     const char *controller;
     uint8_t calls;
     uint8_t calls_size;
+    uint8_t known[2];
     void (*make_plain)(union question *question);
 };
 
@@ -50,10 +51,18 @@ static void make_pid_plain(union question *question)
 }
 
 static const struct layout layouts[] = {
-    {"an937", offsetof(struct an937_question, calls), 1, NULL},
-    {"an964", offsetof(struct an964_question, calls), 1, NULL},
-    {"an964_8bit", offsetof(struct an964_8bit_question, calls), 1, NULL},
-    {"pid", offsetof(struct pid_question, calls), 2, make_pid_plain},
+    {"an937", offsetof(struct an937_question, calls), 1, {0xFF, 0}, NULL},
+    {"an964", offsetof(struct an964_question, calls), 1, {0x07, 0}, NULL},
+    {"an964_8bit",
+     offsetof(struct an964_8bit_question, calls),
+     1,
+     {0x07, 0},
+     NULL},
+    {"pid",
+     offsetof(struct pid_question, calls),
+     2,
+     {0xFF, 0x01},
+     make_pid_plain},
 };
 
 static const struct search_plan *plan;
@@ -196,25 +205,33 @@ static void any_sequence(struct segment sequence[SEGMENTS])
     }
 }
 
-// The dearest step of a sequence, which begins with the controller's init; a
-// segment's calls are made with its first step.
+// A sequence begins with the controller's init, which does not come again.
+static void settle_calls(union question *question, bool first)
+{
+    uint8_t *const calls = calls_of(question);
+
+    for (uint8_t at = 0; at < layout->calls_size; at++) {
+        calls[at] &= first ? 0u : layout->known[at];
+    }
+    calls[0] = (uint8_t)(calls[0] & ~CALL_INIT);
+    if (first) {
+        calls[0] = CALL_INIT;
+    }
+}
+
+// The dearest step of a sequence; a segment's calls are made with its first.
 static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
 {
     uint32_t most = 0;
 
     for (uint32_t at = 0; at < SEGMENTS; at++) {
         union question question = sequence[at].question;
-        uint8_t *const calls = calls_of(&question);
 
-        *calls = (uint8_t)(*calls & ~CALL_INIT);
-        if (at == 0u) {
-            memset(calls, 0, layout->calls_size);
-            *calls = CALL_INIT;
-        }
+        settle_calls(&question, at == 0u);
         for (uint8_t time = 0; time < sequence[at].times; time++) {
             const uint32_t cost = measure_defined(&question);
 
-            memset(calls, 0, layout->calls_size);
+            memset(calls_of(&question), 0, layout->calls_size);
             if (cost > most) {
                 most = cost;
             }

@@ -28,12 +28,13 @@ module Limits
   # Controller, chip, build, variant: the figures and their limits.
   STEPS = {
     ['an937', 'pic18f4520', 'object', nil] => { most: 410, step_flash: 900 },
-    ['an937', 'pic18f4520', 'object', 'kernel'] => { most: 305, needed: 930, ram: 36 },
+    ['an937', 'pic18f4520', 'object', 'kernel'] => { most: 305 },
+    ['an937', 'pic18f4520', 'object', 'access-RAM'] => { most: 305, needed: 930, ram: 36 },
     ['an937', 'pic18f4520', 'pointer', nil] => { most: 860 },
     ['an964', 'pic16f684', 'object', nil] => { most: 835, step_flash: 450, fixed: 12 },
-    ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
     ['an964', 'pic16f684', 'object', 'kernel'] => { most: 600, step_flash: 440 },
     ['an964', 'pic16f684', 'object', 'unrolled'] => { most: 600 },
+    ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
     ['an964_8bit', 'pic16f684', 'object', 'kernel'] => { most: 400, step_flash: 440 },
     ['an964_8bit', 'pic16f684', 'pointer', nil] => { most: 1250 },
     ['pid_plain', 'pic18f4520', 'object', 'kernel'] => { most: 800 },

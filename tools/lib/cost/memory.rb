@@ -7,7 +7,7 @@ require 'json'
 # What was measured of the same sources with the same tools is not measured
 # again: build/cost/memory/, a file for each subject.
 class Memory
-  SHARED = %w[include/*.h port/pic/**/* port/gpsim/* src/*.h src/fixpid_*_pic1?.c test/avr/vectors_table.rb
+  SOURCES = %w[include/*.h port/pic/**/* port/gpsim/* src/*.h src/fixpid_*_pic1?.c test/avr/vectors_table.rb
               test/cost/**/* test/support/*.[ch] test/target/*.{c,h,cc,hh} test/target/{arm,shim}/**/* test/vectors/*
               tools/cost tools/lib/build_pic tools/lib/cost.rb tools/lib/cost/**/*].freeze
   TOOLS = %w[gcc g++ gpasm gplink avr-gcc avr-as arm-none-eabi-gcc qemu-system-arm].freeze
@@ -15,19 +15,18 @@ class Memory
   def initialize
     @folder = "#{Host.folder}/memory"
     FileUtils.mkdir_p(@folder)
-    files = SHARED.flat_map { |pattern| Dir.glob(pattern, base: Host.root) }.sort
-    @shared = digest(files.map { |file| "#{Host.root}/#{file}" } + tools)
+    files = SOURCES.flat_map { |pattern| Dir.glob(pattern, base: Host.root) }.sort
+    @sources = digest(files.map { |file| "#{Host.root}/#{file}" } + tools)
   end
 
   # The figures of a subject: remembered, or measured by the block.
   def of(subject)
-    key = "#{@shared} #{digest(own_sources(subject))}"
     path = "#{@folder}/#{subject.key}.json"
     found = read(path)
-    return load(found['figures']) if found && found['key'] == key
+    return load(found['figures']) if found && found['sources'] == @sources
 
     figures = yield
-    File.write("#{path}.new", JSON.generate({ key: key, figures: figures.is_a?(Figures) ? figures.to_h : figures }))
+    File.write("#{path}.new", JSON.generate({ sources: @sources, figures: figures.is_a?(Figures) ? figures.to_h : figures }))
     File.rename("#{path}.new", path)
     figures
   end
@@ -42,10 +41,6 @@ class Memory
 
   def load(figures)
     figures.is_a?(Hash) ? Figures.new(**figures.transform_keys(&:to_sym)) : figures
-  end
-
-  def own_sources(subject)
-    Dir.glob("#{Host.root}/src/fixpid_#{subject.controller.name}{,_access,_self}.[ch]").sort
   end
 
   def tools

@@ -40,7 +40,7 @@ class Picture
   end
 
   def own_title(subject, build)
-    "fixpid #{subject.controller.title}#{", #{subject.built}" unless build}"
+    ['fixpid', [subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')].join(' ')
   end
 
   def others(list, chip, build, color)
