@@ -31,7 +31,7 @@ module Limits
     ['an937', 'pic18f4520', 'object', 'kernel'] => { most: 305 },
     ['an937', 'pic18f4520', 'object', 'access-RAM'] => { most: 305, needed: 930, ram: 36 },
     ['an937', 'pic18f4520', 'pointer', nil] => { most: 860 },
-    ['an964', 'pic16f684', 'object', nil] => { most: 835, step_flash: 450, fixed: 12 },
+    ['an964', 'pic16f684', 'object', nil] => { most: 835, step_flash: 450, step_variables: 12 },
     ['an964', 'pic16f684', 'object', 'kernel'] => { most: 600, step_flash: 440 },
     ['an964', 'pic16f684', 'object', 'unrolled'] => { most: 600 },
     ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
@@ -59,7 +59,7 @@ module Limits
     ['motor, PIC18F4520', 'interrupt'] => [18, 'cycles']
   }.freeze
 
-  WORDS = { most: 'worst', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', fixed: 'RAM once',
+  WORDS = { most: 'worst', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
             ram: 'RAM in all' }.freeze
 
   class << self
@@ -86,7 +86,7 @@ module Limits
 
     def step(subject, figures, figure, most)
       now = figure == :ram ? figures.instance + figures.fixed : figures[figure]
-      unit = { most: subject.chip.cost, fixed: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
+      unit = { most: subject.chip.cost, step_variables: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
       Limit.new("#{subject}, #{WORDS.fetch(figure)}", most, now, unit)
     end
 

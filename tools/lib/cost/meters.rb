@@ -10,10 +10,10 @@ DIRECTED_STEPS = 100_000
 
 # What one subject costs; `most` is over all questions, `mean` over the
 # recorded rows, `bound` from the code. Flash of the step, of all functions that
-# an application needs, and as the linker takes it; RAM of a controller and
-# besides.
-Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :levels, :stack,
-                     keyword_init: true)
+# an application needs, and as the linker takes it; RAM of a controller, besides,
+# and of that the step's own variables on a PIC16, which SDCC keeps in RAM.
+Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :step_variables,
+                     :levels, :stack, keyword_init: true)
 
 # What a run prints, one line for each set of questions.
 class Answers
@@ -232,7 +232,16 @@ class PicMeter < Meter
     nothing = code_of("#{@path}-nothing")
     instance = bare.object_size("#{@controller.name}_controller")
     { linked: bare.library_flash - nothing.library_flash, instance: instance,
-      fixed: bare.ram_bytes - nothing.ram_bytes - instance }
+      fixed: bare.ram_bytes - nothing.ram_bytes - instance, step_variables: step_variables }
+  end
+
+  # Those that its assembly names.
+  def step_variables
+    return unless words?
+
+    assembly = File.read("#{@path}.d/fixpid_#{@controller.name}.asm")
+    step = assembly[/^_#{@step}:.*?^; exit point of _#{@step}$/m] or raise Host::Failure, "#{@subject}: no #{@step}"
+    step.scan(/\br0x\h+/).uniq.size
   end
 end
 
