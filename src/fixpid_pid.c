@@ -27,9 +27,9 @@ struct signals {
 };
 
 #if defined(__SDCC_pic14) || defined(__SDCC_pic16)
-static FIXPID_DATA struct signals signals;
-#define NOW signals
-#define LOCAL_SIGNALS FIXPID_DATA struct signals *const now = &signals
+FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
+#define NOW fixpid_pid_signals
+#define LOCAL_SIGNALS FIXPID_DATA struct signals *const now = &NOW
 #else
 #define NOW (*now)
 #define LOCAL_SIGNALS                                                          \

@@ -11,6 +11,8 @@
 #define FIXPID_PID_PIC18_H
 #include <stdint.h>
 
+#include "fixpid_pid.h"
+
 #if defined(__SDCC_pic16)
 
 struct fixpid_operands {
@@ -19,7 +21,7 @@ struct fixpid_operands {
     int32_t wide; // left, and result
     int32_t wide_right;
 };
-extern __data struct fixpid_operands fixpid_operands;
+extern __data struct fixpid_operands FIXPID_PID_OPERANDS_PLACE fixpid_operands;
 
 void fixpid_kernel_difference(void);     // left -= right
 void fixpid_kernel_signed_sum(void);     // wide += wide_right

@@ -3,7 +3,7 @@
 #include "bare.h"
 #include "fixpid_pid.h"
 
-FIXPID_DATA struct fixpid_pid pid_controller;
+FIXPID_DATA struct fixpid_pid FIXPID_PID_PLACE pid_controller;
 
 void main(void)
 {

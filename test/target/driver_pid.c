@@ -6,7 +6,7 @@
 #define ANSWER pid_exchange.answer
 
 // In object mode the library is built for the object of this name.
-FIXPID_DATA struct fixpid_pid pid_controller;
+FIXPID_DATA struct fixpid_pid FIXPID_PID_PLACE pid_controller;
 
 union pid_exchange pid_exchange;
 

@@ -43,6 +43,10 @@ VARIANTS = [
   Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_PRODUCT=4 FIXPID_AN937_PLACE=__at(0x20)],
               %w[src/fixpid_an937_pic18.c]),
   Variant.new('pid', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_pid_pic18.c]),
+  Variant.new('pid', 'pic18f4520', 'access-RAM',
+              %w[FIXPID_PRODUCT=4 FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
+                 FIXPID_PID_OPERANDS_PLACE=__at(0x4C)],
+              %w[src/fixpid_pid_pic18.c]),
   Variant.new('pid', 'atmega328p', 'kernel', %w[FIXPID_PRODUCT=4], [])
 ].freeze
 
