@@ -218,16 +218,13 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     }
     FIXPID_SATURATED_DIFFERENCE(fall, SELF.previous, NOW.input);
     SELF.previous = NOW.input;
+    FIXPID_SIGNED_PRODUCT(derivative, SELF.kd, fall);
     if ((SELF.options & FILTER) != 0u) {
         int32_t leak;
 
         FIXPID_FLOOR_BY(leak, SELF.derivative, SELF.options);
-        SELF.derivative -= leak;
-    }
-    FIXPID_SIGNED_PRODUCT(derivative, SELF.kd, fall);
-    if ((SELF.options & FILTER) != 0u) {
         // Both are within 2^30 - 2^24.
-        derivative += SELF.derivative;
+        derivative += SELF.derivative - leak;
         FIXPID_CLAMP(derivative, -DERIVATIVE_MAX, DERIVATIVE_MAX);
     }
     SELF.derivative = derivative;
@@ -337,8 +334,8 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
     } else {
         compare_specially(self, now, setpoint, measurement);
     }
-    differentiate(self, now);
     FIXPID_SIGNED_PRODUCT(NOW.others, SELF.kp, SELF.proportional_error);
+    differentiate(self, now);
     // within 2^30 - 2^15 + 2^30 - 2^24 + 2^23
     NOW.others += SELF.derivative + FIXPID_RAISED(SELF.feedforward, 8);
     if ((SELF.status & HELD) == 0u) {
