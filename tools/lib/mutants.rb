@@ -36,9 +36,9 @@ def number_replacements(token)
 end
 
 # Lines that are not arithmetic: preprocessor outside of macros, assertions,
-# parameter lists.
+# parameter lists, the frame of a macro.
 def skipped?(file, line)
-  line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef)|FIXPID_ASSERT|struct fixpid_|define VALID|define SELF/ ||
+  line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef)|FIXPID_ASSERT|struct fixpid_|define VALID|define SELF|\} while \(0\)/ ||
     (file.end_with?('.h') && line =~ /define FIXPID_(?:\w*PRODUCT\w*|\w+_H|INLINE|SCALED_\w+)\b(?!\()/)
 end
 
