@@ -5,12 +5,12 @@
 #include "fixpid_arith.h"
 
 #define ERROR_HIGHEST FIXPID_WORD(1023)
-#define ERROR_LOWEST FIXPID_WORD(0u - ERROR_HIGHEST)
+#define ERROR_LOWEST FIXPID_WORD(UINT32_C(0x10000) - ERROR_HIGHEST)
 #define ABOVE_GAIN_MAX 0xFC00u // the bits that no legal gain has
 #define TERM_LIMIT ((uint16_t)FIXPID_AN964_TERM_LIMIT)
 #define OUTPUT_LIMIT ((uint16_t)FIXPID_AN964_OUTPUT_LIMIT)
 #define SUM_HIGHEST FIXPID_WORD(FIXPID_AN964_SUM_LIMIT)
-#define SUM_LOWEST FIXPID_WORD(1u - SUM_HIGHEST)
+#define SUM_LOWEST FIXPID_WORD(UINT32_C(0x10001) - SUM_HIGHEST)
 
 // Of a negative sum. Every one is below a lowest sum of 0.
 #if FIXPID_AN964_SUM_LIMIT > 1

@@ -6,7 +6,7 @@
 
 #define ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
 #define SUM_HIGHEST FIXPID_WORD(FIXPID_AN964_8BIT_SUM_LIMIT)
-#define SUM_LOWEST FIXPID_WORD(0u - SUM_HIGHEST)
+#define SUM_LOWEST FIXPID_WORD(UINT32_C(0x10000) - SUM_HIGHEST)
 #define TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)
 #define BYTE_MAX FIXPID_WORD(127) // what an 8 x 8 signed product takes
 

@@ -50,12 +50,21 @@
 #define FIXPID_INLINE static inline
 #endif
 
+// The magnitude of a negative 16-bit two's complement pattern, -32768 included.
+// Each compiler does one of the two in place; others may trap on the first.
+// pre: bits != 0; post: 1..32768 for a negative value.
+#if defined(__SDCC)
+#define FIXPID_NEGATED(bits) ((uint16_t)(0u - (bits)))
+#else
+#define FIXPID_NEGATED(bits) ((uint16_t)((uint16_t) ~(uint16_t)(bits) + 1u))
+#endif
+
 // Signed values as two's complement in a uint16_t: a test of one bit for the
 // sign, and nothing can overflow. SDCC compares a uint16_t with a constant of
 // the same type best.
 #define FIXPID_WORD(value) ((uint16_t)(value))
 #define FIXPID_NEGATIVE(bits) (((bits)&0x8000u) != 0u)
-#define FIXPID_NEGATE(bits) ((bits) = (uint16_t)(0u - (bits)))
+#define FIXPID_NEGATE(bits) ((bits) = FIXPID_NEGATED(bits))
 
 // A uint8_t that is 0, or odd: SDCC tests one bit best.
 #define FIXPID_SAYS_SO(flag) (((flag)&1u) != 0u)
@@ -69,15 +78,6 @@
 #define FIXPID_SIGNED(bits) ((int16_t)(bits))
 #endif
 #define FIXPID_SIGNED_BYTE(bits) ((int8_t)(bits))
-
-// The magnitude of a negative 16-bit two's complement pattern, -32768 included.
-// Each compiler does one of the two in place; others may trap on the first.
-// pre: bits != 0; post: 1..32768 for a negative value.
-#if defined(__SDCC_pic16)
-#define FIXPID_NEGATED(bits) ((uint16_t)(0u - (bits)))
-#else
-#define FIXPID_NEGATED(bits) ((uint16_t)((uint16_t) ~(uint16_t)(bits) + 1u))
-#endif
 
 // a * b of two uint8_t variables, at most 65025. SDCC's pic16 port finds its
 // multiply instruction only without a cast, and does not trap on overflow.

@@ -14,6 +14,9 @@ TEST_SOURCE_FILE("src/fixpid_pid_access.c")
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
 #endif
+#ifndef TEST_PID_ROWS
+#define TEST_PID_ROWS 2000
+#endif
 
 FIXPID_DATA struct fixpid_pid pid_controller;
 static struct reference_pid reference;
@@ -239,7 +242,7 @@ void test_step_recorded_rows_match_the_definition(void)
         TEST_ASSERT_EQUAL_HEX8(row[STATUS], status());
         rows++;
     }
-    TEST_ASSERT_EQUAL_UINT(2000, rows);
+    TEST_ASSERT_EQUAL_UINT(TEST_PID_ROWS, rows);
 }
 
 void test_step_worked_example_gives_the_table(void)
@@ -577,10 +580,14 @@ void test_step_integral_gain_is_kept_to_15_bits_to_the_nearest(void)
         uint32_t ki_q24;
         int64_t kept;
     } rows[] = {
-        {32767, 32767},          {32768, 128 * 256},
-        {32895, 128 * 256},      {32896, 129 * 256},
-        {8388479, 32767 * 256L}, {8388480, 128 * 65536L},
-        {8421375, 128 * 65536L}, {8421376, 129 * 65536L},
+        {32767, 32767},
+        {32768, INT32_C(128) * 256},
+        {32895, INT32_C(128) * 256},
+        {32896, INT32_C(129) * 256},
+        {8388479, 32767 * 256L},
+        {8388480, 128 * 65536L},
+        {8421375, 128 * 65536L},
+        {8421376, 129 * 65536L},
     };
 
     config.gains.kp_q8 = 0;
@@ -648,18 +655,18 @@ void test_step_first_one_has_no_derivative(void)
 // 65024 + 32255 * 32767 is one beyond 2^30 - 2^24.
 void test_step_filtered_derivative_is_limited_on_both_sides(void)
 {
-    for (int16_t sign = -1; sign <= 1; sign = (int16_t)(sign + 2)) {
+    for (int32_t sign = -1; sign <= 1; sign += 2) {
         config.gains.kd_q8 = 16256;
         config.gains.derivative_filter = 1;
         TEST_ASSERT_TRUE(init());
         step(0, (int16_t)(sign * 32000));
         step(0, (int16_t)(sign * 31992));
-        TEST_ASSERT_EQUAL_INT32(sign * INT32_C(130048),
+        TEST_ASSERT_EQUAL_INT32(sign * 130048,
                                 fixpid_pid_derivative(&pid_controller));
         config.gains.kd_q8 = 32255;
         TEST_ASSERT_TRUE(set_gains());
         step(0, (int16_t)(sign * -775));
-        TEST_ASSERT_EQUAL_INT32(sign * INT32_C(0x3F000000),
+        TEST_ASSERT_EQUAL_INT32(sign * 0x3F000000,
                                 fixpid_pid_derivative(&pid_controller));
     }
 }
@@ -671,7 +678,7 @@ void test_step_setpoint_weight_softens_the_proportional_term_only(void)
     step(101, 20);
     TEST_ASSERT_EQUAL_INT32(512 * (51 - 20),
                             fixpid_pid_proportional(&pid_controller));
-    TEST_ASSERT_EQUAL_INT32(3277 * (101 - 20), integral());
+    TEST_ASSERT_EQUAL_INT32(INT32_C(3277) * (101 - 20), integral());
     config.setpoint_weight_q8 = 0;
     TEST_ASSERT_TRUE(init());
     step(100, 20);
@@ -1125,7 +1132,8 @@ void test_set_manual_proportional_and_derivative_follow_the_process(void)
     set_manual(100);
     step(700, 600);
     step(700, 610);
-    TEST_ASSERT_EQUAL_INT32(512 * 90, fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(INT32_C(512) * 90,
+                            fixpid_pid_proportional(&pid_controller));
     TEST_ASSERT_EQUAL_INT32(256 * -10, fixpid_pid_derivative(&pid_controller));
 }
 
@@ -1142,7 +1150,7 @@ void test_set_auto_gives_the_output_held_and_integrates_from_the_next(void)
     taken_over = integral();
     TEST_ASSERT_EQUAL_INT32((120 - 120) * INT32_C(65536), taken_over);
     step(700, 640);
-    TEST_ASSERT_EQUAL_INT32(taken_over + 60 * 3277, integral());
+    TEST_ASSERT_EQUAL_INT32(taken_over + INT32_C(60) * 3277, integral());
 }
 
 void test_set_auto_in_automatic_has_no_effect(void)
