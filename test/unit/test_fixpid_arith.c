@@ -256,6 +256,8 @@ static uint32_t wrong_sums(uint8_t gain, uint16_t magnitude, uint8_t negative)
 {
     const int32_t product = (int32_t)gain * magnitude;
     const int32_t expected = negative != 0u ? -product : product;
+    const int32_t once =
+        negative != 0u ? -(int32_t)magnitude : (int32_t)magnitude;
     const union number value = {.value = expected};
     const union number one = {.value = negative != 0u ? -1 : 1};
     const union number parts = {.parts = {magnitude, negative}};
@@ -273,10 +275,9 @@ static uint32_t wrong_sums(uint8_t gain, uint16_t magnitude, uint8_t negative)
     FIXPID_PARTS_ADD_PRODUCT(sum, gain, opposite, none);
     wrong += sum != -expected;
     FIXPID_PARTS_PRODUCTS(sum, 0, opposite, gain, parts, 1, parts, none);
-    wrong += sum != expected + (negative != 0u ? -magnitude : magnitude);
+    wrong += sum != expected + once;
     FIXPID_KERNEL_PRODUCTS(sum, gain, opposite, 1, parts, gain, opposite, none);
-    return wrong +
-           (sum != -2 * expected + (negative != 0u ? -magnitude : magnitude));
+    return wrong + (sum != -2 * expected + once);
 }
 
 void test_sum_of_products_whole_domain(void)
