@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Breaks src/ in every small way and names the unit test that notices each
+# Breaks the sources in src/ in every small way and names the unit test that notices each
 # break: build/test/mutants.txt. A break that no test notices must stand in
-# test/mutants/equivalent.txt with the reason why it changes nothing.
+# test/mutants/equivalent.txt with the reason why it changes nothing. The headers
+# of arithmetic are not broken: their leaves are walked over their domains.
 require 'fileutils'
 require 'open3'
 require 'timeout'
@@ -15,9 +16,7 @@ TESTS = { 'src/fixpid_an937.c' => 'test_fixpid_an937', 'src/fixpid_an937_access.
           'src/fixpid_an964_8bit.c' => 'test_fixpid_an964_8bit',
           'src/fixpid_an964_8bit_access.c' => 'test_fixpid_an964_8bit',
           'src/fixpid_pid.c' => 'test_fixpid_pid', 'src/fixpid_pid_access.c' => 'test_fixpid_pid',
-          'src/fixpid_autotune.c' => 'test_fixpid_autotune',
-          'src/fixpid_arith.h' => 'test_fixpid_arith', 'src/fixpid_an937_arith.h' => 'test_fixpid_arith',
-          'src/fixpid_pid_arith.h' => 'test_fixpid_arith' }.freeze
+          'src/fixpid_autotune.c' => 'test_fixpid_autotune' }.freeze
 OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
               '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '<<' => %w[>>], '>>' => %w[<<],
               '&' => %w[|], '|' => %w[&], '|=' => %w[=], '--' => %w[++], '>>=' => %w[<<=], '+=' => %w[-=],
