@@ -16,7 +16,7 @@
 //
 // Any number of controllers work side by side. Functions of one controller must
 // not interrupt each other, except that fixpid_an937_tick may interrupt all of
-// them where the compiler's code is re-entrant (never on a PIC16 under SDCC).
+// them where the compiler's code is re-entrant: fixpid.h says where it is not.
 //
 // Departures from the firmware that Microchip shipped with the note:
 // 1. Derivative sign: delta is error - previous error, as the note's text says;
@@ -92,7 +92,7 @@ struct fixpid_an937 {
         struct {
             uint8_t lowest;
             uint16_t middle;
-            uint8_t highest; // always 0
+            uint8_t highest; // 0 from init on
         } bytes;
     } room;
 #endif

@@ -37,6 +37,7 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
     FIXPID_NUMBER_CLEAR(SELF.accumulated_error);
     FIXPID_NUMBER_CLEAR(SELF.delta);
     SELF.previous_level = FIXPID_LEVEL(0);
+    FIXPID_CLEAR_ROOM(SELF.room);
 }
 
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,

@@ -15,11 +15,7 @@
     do {                                                                       \
         (number).value = 0;                                                    \
     } while (0)
-#define FIXPID_PARTS_CLEAR(number)                                             \
-    do {                                                                       \
-        (number).parts.magnitude = 0;                                          \
-        (number).parts.negative = 0;                                           \
-    } while (0)
+#define FIXPID_PARTS_CLEAR FIXPID_VALUE_CLEAR
 
 // number = from, an int16_t
 #define FIXPID_VALUE_SET(number, from)                                         \
@@ -135,6 +131,7 @@
         (room).bytes.lowest = (uint8_t)(low);                                  \
     } while (0)
 #define FIXPID_TOGETHER(room) ((room).all)
+#define FIXPID_CLEAR_ROOM(room) ((room).all = 0)
 #else
 #define FIXPID_PRODUCT_VARIABLE uint32_t product_;
 #define FIXPID_PUT_TOGETHER(high, low, room)                                   \
@@ -142,6 +139,7 @@
         product_ = ((uint32_t)(high) << 8) | ((low)&0xFFu);                    \
     } while (0)
 #define FIXPID_TOGETHER(room) ((int32_t)product_)
+#define FIXPID_CLEAR_ROOM(room)
 #endif
 
 #define FIXPID_PARTS_PRODUCT(sum, gain, number, room)                          \

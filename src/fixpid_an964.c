@@ -36,7 +36,9 @@ bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
     if (fixpid_an964_set_gains(self, gains->kp, gains->ki, gains->kd)) {
         return true;
     }
-    SELF.gains.kp = 0; // it multiplies all terms
+    SELF.gains.kp = 0;
+    SELF.gains.ki = 0;
+    SELF.gains.kd = 0;
     SELF.ready = 0;
     return false;
 }

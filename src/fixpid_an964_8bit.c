@@ -27,7 +27,9 @@ bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
     if (fixpid_an964_8bit_set_gains(self, gains->kp, gains->ki, gains->kd)) {
         return true;
     }
-    SELF.gains.kp = 0; // it multiplies all terms
+    SELF.gains.kp = 0;
+    SELF.gains.ki = 0;
+    SELF.gains.kd = 0;
     SELF.ready = 0;
     return false;
 }

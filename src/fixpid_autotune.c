@@ -99,6 +99,10 @@ void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
     SELF.side = SIDE_UNKNOWN;
     SELF.elapsed = 0;
     SELF.high_steps = 0;
+    SELF.highest = 0;
+    SELF.lowest = 0;
+    SELF.period_sum = 0;
+    SELF.swing_sum = 0;
     SELF.last_period = 0;
     SELF.last_swing = 0;
     SELF.seen = 0;

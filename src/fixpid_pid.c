@@ -26,7 +26,7 @@ struct signals {
     uint8_t fraction; // the candidate's next eight bits
 };
 
-#if defined(__SDCC_pic14) || defined(__SDCC_pic16)
+#if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
 FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
 #define NOW fixpid_pid_signals
 #define LOCAL_SIGNALS FIXPID_DATA struct signals *const now = &NOW
@@ -111,6 +111,7 @@ static bool take_config(FIXPID_DATA struct fixpid_pid *self,
 static void refuse(FIXPID_DATA struct fixpid_pid *self)
 {
     FIXPID_ASSERT(VALID(self));
+    SELF.options = 0;
     SELF.kp = 0;
     SELF.ki = 0;
     SELF.kd = 0;
@@ -144,6 +145,7 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
     SELF.integral = FIXPID_RAISED(rest, 16);
     SELF.integral_fraction = 0;
     SELF.derivative = 0;
+    SELF.previous = 0;
     SELF.proportional_error = 0;
     SELF.feedforward = 0;
     SELF.status = FIXPID_PID_FIRST;

@@ -24,6 +24,8 @@ namespace
 
 constexpr uint64_t cycles_of_an_answer = 100000; // far more than any takes
 constexpr unsigned reported_most = 5;            // the rest is only counted
+constexpr unsigned poison = 0xA5;
+constexpr unsigned object_size = offsetof(struct fixpid_autotune, averaged) + 1;
 
 struct Call {
     std::string line;
@@ -94,7 +96,7 @@ class Replay
   public:
     Replay(const std::string &cod, const std::string &path)
         : chip(cod), trace(path), exchange(chip.data("exchange")),
-          turn(chip.data("turn"))
+          turn(chip.data("turn")), object(chip.data("autotune_controller"))
     {
         if (!chip.lint().empty()) {
             throw ChipError(cod +
@@ -118,7 +120,7 @@ class Replay
 
     Chip chip;
     std::ifstream trace;
-    unsigned exchange, turn;
+    unsigned exchange, turn, object;
     Call call = {};
     bool started = false; // main has
     bool done = false;
@@ -154,6 +156,11 @@ void Replay::take_turn()
         done = true;
         chip.stop("done");
         return;
+    }
+    if (call.question.call == CALL_INIT) { // which must set every member
+        for (unsigned at = 0; at < object_size; at++) {
+            chip.poke(object + at, poison);
+        }
     }
     for (unsigned at = 0; at < sizeof call.question; at++) {
         chip.poke(exchange + at, bytes[at]);

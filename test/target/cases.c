@@ -565,16 +565,24 @@ static void pid_row(const int32_t columns[], union question *question,
     answer->pid.status = (uint8_t)columns[19];
 }
 
+// The size of an object whose last member is a byte.
+#define UP_TO(type, last) (offsetof(type, last) + 1u)
+
 const struct controller controllers[CONTROLLERS] = {
     {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
-     an937_members, "an937_firmware", an937_row, an937_ask, an937_define},
+     offsetof(struct an937_question, calls),
+     UP_TO(struct fixpid_an937, step_flags), an937_members, "an937_firmware",
+     an937_row, an937_ask, an937_define},
     {"an964", sizeof(struct an964_question), sizeof(struct an964_answer),
+     offsetof(struct an964_question, calls), UP_TO(struct fixpid_an964, ready),
      an964_members, "an964_firmware", an964_row, an964_ask, an964_define},
     {"an964_8bit", sizeof(struct an964_8bit_question),
-     sizeof(struct an964_answer), an964_members, "an964_firmware",
+     sizeof(struct an964_answer), offsetof(struct an964_8bit_question, calls),
+     UP_TO(struct fixpid_an964_8bit, ready), an964_members, "an964_firmware",
      an964_8bit_row, an964_8bit_ask, an964_8bit_define},
-    {"pid", sizeof(struct pid_question), sizeof(struct pid_answer), pid_members,
-     "pid_definition", pid_row, pid_ask, pid_define},
+    {"pid", sizeof(struct pid_question), sizeof(struct pid_answer),
+     offsetof(struct pid_question, calls), UP_TO(struct fixpid_pid, status),
+     pid_members, "pid_definition", pid_row, pid_ask, pid_define},
 };
 
 const struct controller *controller_named(const char *name)

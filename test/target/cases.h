@@ -33,6 +33,8 @@ struct controller {
     const char *name;
     uint8_t question_size;
     uint8_t answer_size;
+    uint8_t calls_at;    // of a question's calls, their low byte
+    uint8_t object_size; // without padding at its end
     const struct member *members;
     const char *recording; // the name of a file of test/vectors/
 

@@ -11,6 +11,7 @@ namespace
 
 constexpr uint64_t cycles_of_an_answer = 100000; // far more than any takes
 constexpr unsigned reported_most = 5;            // the rest is only counted
+constexpr unsigned poison = 0xA5;
 
 int32_t member_value(const answer &from, const member &what)
 {
@@ -36,7 +37,8 @@ int32_t member_value(const answer &from, const member &what)
 
 Driver::Driver(const std::string &cod, const controller &which)
     : chip(cod), tested(which), turn(chip.data("turn")),
-      exchange(chip.data(std::string(which.name) + "_exchange"))
+      exchange(chip.data(std::string(which.name) + "_exchange")),
+      object(chip.data(std::string(which.name) + "_controller"))
 {
     const std::vector<std::string> wrong = chip.lint();
 
@@ -76,11 +78,22 @@ void Driver::take_turn()
     waiting = true;
 }
 
+// Whatever the start-up code cleared: init must set every member.
+void Driver::poison_object()
+{
+    for (unsigned at = 0; at < tested.object_size; at++) {
+        chip.poke(object + at, poison);
+    }
+}
+
 void Driver::put(const question &asked)
 {
     const unsigned char *const bytes =
         reinterpret_cast<const unsigned char *>(&asked);
 
+    if ((bytes[tested.calls_at] & CALL_INIT) != 0) {
+        poison_object();
+    }
     for (unsigned at = 0; at < tested.question_size; at++) {
         chip.poke(exchange + at, bytes[at]);
     }

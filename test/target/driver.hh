@@ -18,6 +18,9 @@ class Driver
     // `cod` is a firmware of driver_main.c with this controller's driver.
     Driver(const std::string &cod, const controller &which);
 
+    // Before each question that initialises, the controller's object is filled
+    // with arbitrary bytes.
+
     // Question after question: `ask` gives the next or ends the run with false,
     // `judge` gets what came back. Throws ChipError for anything else that ends
     // the run, or if gpsim had anything to say.
@@ -36,10 +39,12 @@ class Driver
   private:
     void take_turn();
     void check_end();
+    void poison_object();
 
     const controller &tested;
     unsigned turn;
     unsigned exchange;
+    unsigned object;
     bool started = false; // main has
     bool waiting = false; // for an answer
 };

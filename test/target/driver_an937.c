@@ -32,6 +32,7 @@ static void start(void)
         config.kd_q4 = QUESTION.kd_q4;
         config.accumulated_error_limit = QUESTION.limit;
         config.derivative_period_ticks = QUESTION.period;
+        DRIVER_POISON(an937_controller);
         accept(fixpid_an937_init(&an937_controller, &config), CALL_INIT);
     }
     if ((QUESTION.calls & CALL_RESET) != 0u) {

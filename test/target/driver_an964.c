@@ -17,6 +17,7 @@ void an964_reply(void)
 {
     QUESTION.calls &= (uint8_t)(CALL_INIT | CALL_RESET | CALL_SET_GAINS);
     if ((QUESTION.calls & CALL_INIT) != 0u) {
+        DRIVER_POISON(an964_controller);
         if (!fixpid_an964_init(&an964_controller, &QUESTION.gains)) {
             QUESTION.calls &= (uint8_t)~CALL_INIT;
         }

@@ -15,6 +15,7 @@ static uint8_t calls_before_the_step(void)
     uint8_t accepted = 0;
 
     if ((QUESTION.calls & CALL_INIT) != 0u) {
+        DRIVER_POISON(an964_8bit_controller);
         if (fixpid_an964_8bit_init(&an964_8bit_controller, &QUESTION.gains)) {
             accepted |= CALL_INIT;
         }

@@ -47,6 +47,7 @@ static void start(void)
     accepted = 0;
     configure();
     if (called(CALL_INIT)) {
+        DRIVER_POISON(pid_controller);
         accept(fixpid_pid_init(&pid_controller, &config), CALL_INIT);
     }
     if (called(CALL_RESET)) {

@@ -9,6 +9,9 @@
 #ifndef EXCHANGE_H
 #define EXCHANGE_H
 #include <stdint.h>
+#if !defined(__SDCC)
+#include <string.h>
+#endif
 
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
@@ -103,6 +106,14 @@ struct pid_answer {
     uint8_t accepted;
     uint8_t status;
 };
+
+// A driver calls it before init, which must set every member of the object. On
+// a PIC the harness fills it from outside: there is no room for a loop.
+#if defined(__SDCC)
+#define DRIVER_POISON(object)
+#else
+#define DRIVER_POISON(object) ((void)memset(&(object), 0xA5, sizeof(object)))
+#endif
 
 union an937_exchange {
     struct an937_question question;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an937.h"
 #include "numbers.h"
+#include "poison.h"
 #include "reference.h"
 #include "straight_an937.h"
 #include "unity.h"
@@ -700,4 +701,32 @@ void test_gain_macro_rounds_to_a_sixteenth(void)
     static const uint8_t expected[] = {0, 0, 1, 16, 80, 96, 144, 255, 255};
 
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, gains, sizeof expected);
+}
+
+// ---- Memory ----
+
+static void init_good(void)
+{
+    static const struct fixpid_an937_config good = {96, 80, 16, 4000, 4};
+
+    (void)fixpid_an937_init(&an937_controller, &good);
+}
+
+static void init_bad(void)
+{
+    static const struct fixpid_an937_config bad = {96, 80, 16, 0, 4};
+
+    (void)fixpid_an937_init(&an937_controller, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_an937, step_flags);
+
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&an937_controller, sizeof(an937_controller), init_good));
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&an937_controller, sizeof(an937_controller), init_bad));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964.h"
 #include "numbers.h"
+#include "poison.h"
 #include "reference.h"
 #include "unity.h"
 #include "vectors.h"
@@ -399,4 +400,32 @@ void test_init_starts_from_rest(void)
     steps(40, 1000);
     start(1023, 1023, 1023);
     steps(5, -3);
+}
+
+// ---- Memory ----
+
+static void init_good(void)
+{
+    static const struct fixpid_an964_gains good = {600, 40, 100};
+
+    (void)fixpid_an964_init(&an964_controller, &good);
+}
+
+static void init_bad(void)
+{
+    static const struct fixpid_an964_gains bad = {600, 40, 1024};
+
+    (void)fixpid_an964_init(&an964_controller, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_an964, ready);
+
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&an964_controller, sizeof(an964_controller), init_good));
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&an964_controller, sizeof(an964_controller), init_bad));
 }

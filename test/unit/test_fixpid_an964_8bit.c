@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964_8bit.h"
 #include "numbers.h"
+#include "poison.h"
 #include "reference.h"
 #include "unity.h"
 
@@ -349,4 +350,32 @@ void test_init_starts_from_rest(void)
     steps(60, 127);
     start(127, 127, 127);
     steps(5, -3);
+}
+
+// ---- Memory ----
+
+static void init_good(void)
+{
+    static const struct fixpid_an964_8bit_gains good = {75, 5, 12};
+
+    (void)fixpid_an964_8bit_init(&an964_8bit_controller, &good);
+}
+
+static void init_bad(void)
+{
+    static const struct fixpid_an964_8bit_gains bad = {75, 5, 128};
+
+    (void)fixpid_an964_8bit_init(&an964_8bit_controller, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_an964_8bit, ready);
+
+    TEST_ASSERT_EQUAL_UINT(padding, poison_left(&an964_8bit_controller,
+                                                sizeof(an964_8bit_controller),
+                                                init_good));
+    TEST_ASSERT_EQUAL_UINT(padding, poison_left(&an964_8bit_controller,
+                                                sizeof(an964_8bit_controller),
+                                                init_bad));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_autotune.h"
+#include "poison.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_autotune.c")
@@ -849,4 +850,30 @@ void test_result_may_be_asked_again_by_another_rule(void)
     gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
     fixpid_autotune_reset(&autotune_controller);
     no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+}
+
+// ---- Memory ----
+
+static void init_good(void)
+{
+    (void)fixpid_autotune_init(&autotune_controller, &config);
+}
+
+static void init_bad(void)
+{
+    struct fixpid_autotune_config bad = config;
+    bad.cycles = 0;
+    (void)fixpid_autotune_init(&autotune_controller, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_autotune, averaged);
+
+    TEST_ASSERT_EQUAL_UINT(padding,
+                           poison_left(&autotune_controller,
+                                       sizeof(autotune_controller), init_good));
+    TEST_ASSERT_EQUAL_UINT(padding,
+                           poison_left(&autotune_controller,
+                                       sizeof(autotune_controller), init_bad));
 }

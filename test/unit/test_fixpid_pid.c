@@ -4,6 +4,7 @@
 #include "fixpid_pid.h"
 #include "numbers.h"
 #include "numbers_pid.h"
+#include "poison.h"
 #include "reference_pid.h"
 #include "unity.h"
 #include "vectors.h"
@@ -1280,4 +1281,30 @@ void test_macros_fold_real_units(void)
     TEST_ASSERT_EQUAL_UINT32(32255, kd[1]);
     TEST_ASSERT_EQUAL_UINT32(32200, kd[2]);
     TEST_ASSERT_EQUAL_UINT32(7200, kd[3]);
+}
+
+// ---- Memory ----
+
+static void init_good(void)
+{
+    (void)fixpid_pid_init(&pid_controller, &config);
+}
+
+static void init_bad(void)
+{
+    struct fixpid_pid_config bad = config;
+    bad.setpoint_weight_q8 = 257;
+    (void)fixpid_pid_init(&pid_controller, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_pid, status);
+
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&pid_controller, sizeof(pid_controller), init_good));
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&pid_controller, sizeof(pid_controller), init_bad));
 }
