@@ -53,9 +53,9 @@ struct fixpid_an937_config {
     uint8_t derivative_period_ticks;
 };
 
-// Private, like all down to the flags: open only so that the application can
-// allocate it. A signed number of 17 bits in one of two forms, as suits the
-// chip.
+// Private, like everything down to FIXPID_AN937_SUM_SATURATED: open only so
+// that the application can allocate it. A signed number of 17 bits, in two's
+// complement or in sign-magnitude, as suits the chip.
 union fixpid_an937_number {
     int32_t value;
     struct {
@@ -64,14 +64,6 @@ union fixpid_an937_number {
     } parts;
 };
 
-#if defined(__SDCC_pic16) && defined(FIXPID_AN937_OBJECT)
-#if !defined(FIXPID_PRODUCT) || (FIXPID_PRODUCT != 4)
-#define FIXPID_AN937_ROOM
-#endif
-#endif
-
-// No padding anywhere. Each gain lies 12 bytes behind what it multiplies: the
-// kernel relies on it.
 struct fixpid_an937 {
     union fixpid_an937_number error;             // AN937 error
     union fixpid_an937_number accumulated_error; // AN937 a_error
@@ -81,21 +73,11 @@ struct fixpid_an937 {
     uint16_t accumulated_error_limit; // 0: refused, gains are 0
     uint8_t ki_q4;
     uint8_t derivative_countdown;
-    uint16_t previous_level; // AN937 p_error, as a level
+    uint16_t previous_error; // AN937 p_error, in offset binary
     uint8_t kd_q4;
     volatile uint8_t tick_pending;
     volatile uint8_t tick_overrun;
     uint8_t step_flags;
-#ifdef FIXPID_AN937_ROOM // where SDCC puts a product together
-    union {
-        int32_t all;
-        struct {
-            uint8_t lowest;
-            uint16_t middle;
-            uint8_t highest; // 0 from init on
-        } bytes;
-    } room;
-#endif
 };
 
 // Bits of fixpid_an937_flags. The first two describe the last step: the value
@@ -104,8 +86,8 @@ struct fixpid_an937 {
 #define FIXPID_AN937_ACCUMULATED_ERROR_LIMITED 0x02u
 #define FIXPID_AN937_TICK_OVERRUN 0x04u // a tick came before the last was used
 
-// Bits of fixpid_an937_status (the note's Register 1, pid_stat1) and of
-// fixpid_an937_status2 (Register 2, pid_stat2). A sign bit is 1 for positive
+// Bits of fixpid_an937_stat1 (the note's Register 1, pid_stat1) and of
+// fixpid_an937_stat2 (Register 2, pid_stat2). A sign bit is 1 for positive
 // and for zero. The note's bit 5, `mag`, belongs to its sign-magnitude
 // routines and is always 0 here.
 #define FIXPID_AN937_PID_SIGN 0x80u   // the 24-bit sum, before the division
@@ -115,7 +97,7 @@ struct fixpid_an937 {
 #define FIXPID_AN937_ERR_SIGN 0x04u   // the error
 #define FIXPID_AN937_A_ERR_ZERO 0x02u
 #define FIXPID_AN937_ERR_ZERO 0x01u
-#define FIXPID_AN937_D_ERR_Z 0x04u // status2: delta is zero
+#define FIXPID_AN937_D_ERR_Z 0x04u // stat2: delta is zero
 
 // Object mode, for firmware with one controller: compile the application and
 // the sources of fixpid_an937 with -DFIXPID_AN937_OBJECT=name, and define that
@@ -178,19 +160,20 @@ int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
 // The terms of Equations 1 to 3 with their signs, before the division by 16:
 // within +-16711425. They are products of the last step's values with the
 // present gains: read them before the gains change.
-int32_t fixpid_an937_proportional(FIXPID_DATA struct fixpid_an937 *self);
-int32_t fixpid_an937_integral(FIXPID_DATA struct fixpid_an937 *self);
-int32_t fixpid_an937_derivative(FIXPID_DATA struct fixpid_an937 *self);
+int32_t fixpid_an937_proportional(FIXPID_DATA const struct fixpid_an937 *self);
+int32_t fixpid_an937_integral(FIXPID_DATA const struct fixpid_an937 *self);
+int32_t fixpid_an937_derivative(FIXPID_DATA const struct fixpid_an937 *self);
 
 // AN937 a_error, within +-accumulated_error_limit.
-int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self);
+int32_t fixpid_an937_accumulated_error(
+    FIXPID_DATA const struct fixpid_an937 *self);
 
 // The note's two status registers, bit by bit as above.
-uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self);
-uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self);
+uint8_t fixpid_an937_stat1(FIXPID_DATA const struct fixpid_an937 *self);
+uint8_t fixpid_an937_stat2(FIXPID_DATA const struct fixpid_an937 *self);
 
 // What was limited and whether ticks were lost; clear_flags sets all to 0.
-uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self);
+uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self);
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self);
 
 FIXPID_C_END

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an937.h"
 
-#include "fixpid_an937_self.h"
+#include "fixpid_an937_arith.h"
+
+#undef OBJECT
+#ifdef FIXPID_AN937_OBJECT
+#define OBJECT FIXPID_AN937_OBJECT
+#endif
+#include "fixpid_self.h"
 
 bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
                        const struct fixpid_an937_config *config)
 {
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    fixpid_an937_reset(&SELF);
+    fixpid_an937_reset(self);
     SELF.kp_q4 = config->kp_q4;
     SELF.ki_q4 = config->ki_q4;
     SELF.kd_q4 = config->kd_q4;
@@ -33,11 +39,10 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
     SELF.derivative_countdown = 1;
     SELF.tick_overrun = 0;
     SELF.step_flags = 0;
-    FIXPID_NUMBER_CLEAR(SELF.error);
-    FIXPID_NUMBER_CLEAR(SELF.accumulated_error);
-    FIXPID_NUMBER_CLEAR(SELF.delta);
-    SELF.previous_level = FIXPID_LEVEL(0);
-    FIXPID_CLEAR_ROOM(SELF.room);
+    SELF.error.value = 0; // in sign-magnitude, too
+    SELF.accumulated_error.value = 0;
+    SELF.delta.value = 0;
+    SELF.previous_error = FIXPID_OFFSET_BINARY(0);
 }
 
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
@@ -64,34 +69,28 @@ void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self)
 
 int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
 {
-    int32_t sum;
     uint8_t flags = 0;
+    int32_t output;
 
     FIXPID_ASSERT(VALID(self));
-    FIXPID_NUMBER_SET(SELF.error, error);
+    fixpid_number_set(&SELF.error, error);
     if (SELF.tick_pending != 0u) {
         SELF.tick_pending = 0;
         if (SELF.derivative_countdown > 1u) {
             SELF.derivative_countdown--;
         } else {
-            const uint16_t level = FIXPID_LEVEL(error);
+            const uint16_t now = FIXPID_OFFSET_BINARY(error);
 
             // Equation 3: delta = error - previous error, within +-65535
             SELF.derivative_countdown = SELF.derivative_period_ticks;
-            FIXPID_NUMBER_DIFFERENCE(SELF.delta, level, SELF.previous_level);
-            SELF.previous_level = level;
+            fixpid_number_difference(&SELF.delta, now, SELF.previous_error);
+            SELF.previous_error = now;
         }
         // Equation 2: accumulated = clamp(accumulated + error, -limit, limit)
-        FIXPID_NUMBER_ADD(SELF.accumulated_error, SELF.error,
-                          SELF.accumulated_error_limit, flags,
-                          FIXPID_AN937_ACCUMULATED_ERROR_LIMITED);
+        fixpid_number_add(&SELF.accumulated_error, &SELF.error,
+                          SELF.accumulated_error_limit, &flags);
     }
-
-    // Equation 4; |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
-    FIXPID_SUM_OF_PRODUCTS(sum, SELF.kp_q4, SELF.error, SELF.ki_q4,
-                           SELF.accumulated_error, SELF.kd_q4, SELF.delta,
-                           SELF.room);
-    FIXPID_SUM_SIXTEENTH(sum, flags);
+    output = fixpid_an937_output(&SELF, &flags); // Equation 4
     SELF.step_flags = flags;
-    return FIXPID_SUM_RESULT(sum);
+    return output;
 }

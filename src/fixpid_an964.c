@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964.h"
 
-#include "fixpid_an964_self.h"
-#include "fixpid_arith.h"
+#include "fixpid_an964_arith.h"
 
-#define ERROR_HIGHEST FIXPID_WORD(1023)
-#define ERROR_LOWEST FIXPID_WORD(UINT32_C(0x10000) - ERROR_HIGHEST)
-#define ABOVE_GAIN_MAX 0xFC00u // the bits that no legal gain has
-#define TERM_LIMIT ((uint16_t)FIXPID_AN964_TERM_LIMIT)
-#define OUTPUT_LIMIT ((uint16_t)FIXPID_AN964_OUTPUT_LIMIT)
-#define SUM_HIGHEST FIXPID_WORD(FIXPID_AN964_SUM_LIMIT)
-#define SUM_LOWEST FIXPID_WORD(UINT32_C(0x10001) - SUM_HIGHEST)
+#undef OBJECT
+#ifdef FIXPID_AN964_OBJECT
+#define OBJECT FIXPID_AN964_OBJECT
+#endif
+#include "fixpid_self.h"
 
-// Of a negative sum. Every one is below a lowest sum of 0.
+// Values with a sign are two's complement patterns in unsigned words, as
+// fixpid_bits.h says: a PIC16 would spend most of the step on signed compares.
+#define AN964_ERROR_MAX ((uint16_t)1023)
+#define AN964_ERROR_MIN ((uint16_t)(UINT32_C(0x10000) - AN964_ERROR_MAX))
+#define AN964_ABOVE_10_BITS 0xFC00u // bits that 0..1023 do not have
+#define AN964_TERM_LIMIT ((uint8_t)FIXPID_AN964_TERM_LIMIT)
+#define AN964_OUTPUT_LIMIT ((uint16_t)FIXPID_AN964_OUTPUT_LIMIT)
+#define AN964_SUM_MAX ((uint16_t)FIXPID_AN964_SUM_LIMIT)
+#define AN964_SUM_MIN ((uint16_t)(UINT32_C(0x10001) - AN964_SUM_MAX))
+
+// True if a negative sum is below AN964_SUM_MIN. With a limit of 1,
+// AN964_SUM_MIN is 0 and every negative sum is.
 #if FIXPID_AN964_SUM_LIMIT > 1
-#define BELOW_LOWEST(sum) ((sum) < SUM_LOWEST)
+#define AN964_BELOW_SUM_MIN(sum) ((sum) < AN964_SUM_MIN)
 #else
-#define BELOW_LOWEST(sum) FIXPID_NEGATIVE(sum)
+#define AN964_BELOW_SUM_MIN(sum) true
 #endif
-
-// Bits of the term limit beyond five: each costs a PIC16 one turn.
-#if FIXPID_AN964_TERM_LIMIT < 128
-#define TERM_MORE 2
-#else
-#define TERM_MORE 3
-#endif
-
 bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
                        const struct fixpid_an964_gains *gains)
 {
@@ -63,7 +63,7 @@ bool fixpid_an964_set_gains(FIXPID_DATA struct fixpid_an964 *self, uint16_t kp,
     if (SELF.ready == 0u) {
         return false;
     }
-    if (((kp | ki | kd) & ABOVE_GAIN_MAX) != 0u) {
+    if (((kp | ki | kd) & AN964_ABOVE_10_BITS) != 0u) {
         return false;
     }
     SELF.gains.kp = kp;
@@ -73,59 +73,56 @@ bool fixpid_an964_set_gains(FIXPID_DATA struct fixpid_an964 *self, uint16_t kp,
 }
 
 // The sum of errors, and I = ki * sum / 4096 in two divisions toward zero.
-FIXPID_INLINE uint16_t integrate(FIXPID_DATA struct fixpid_an964 *self,
-                                 uint16_t e)
+FIXPID_INLINE uint16_t integral_term(FIXPID_DATA struct fixpid_an964 *self,
+                                     uint16_t e)
 {
     uint16_t sum = (uint16_t)(SELF.sum + e); // |sum| <= 30000 + 1023 < 2^15
     uint16_t integral;
     uint8_t negative = 0;
 
-    FIXPID_ASSERT(VALID(self));
-    if (FIXPID_NEGATIVE(sum)) {
-        if (BELOW_LOWEST(sum)) {
-            sum = SUM_LOWEST;
+    if ((sum & FIXPID_SIGN_BIT) != 0u) {
+        if (AN964_BELOW_SUM_MIN(sum)) {
+            sum = AN964_SUM_MIN;
             SELF.sum_limited = FIXPID_AN964_SUM_LIMITED;
         }
         SELF.sum = sum;
-        FIXPID_NEGATE(sum);
+        sum = fixpid_negated(sum);
         negative = 1;
     } else {
-        if (sum > SUM_HIGHEST) {
-            sum = SUM_HIGHEST;
+        if (sum > AN964_SUM_MAX) {
+            sum = AN964_SUM_MAX;
             SELF.sum_limited = FIXPID_AN964_SUM_LIMITED;
         }
         SELF.sum = sum;
     }
     // |sum| / 256 <= 117 < 2^7, so |I| <= 117 * 1023 / 16 = 7480
-    sum >>= 8;
-    FIXPID_PRODUCT_10X8(integral, SELF.gains.ki, sum, 4, 3);
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(integral);
+    integral = fixpid_10x7_div16((uint8_t)(sum >> 8), SELF.gains.ki);
+    if ((negative & 1u) != 0u) {
+        integral = fixpid_negated(integral);
     }
     SELF.integral = integral;
     return integral;
 }
 
 // D = kd * (E(n) - E(n-3)) / 32, rounded down as the note's shift does.
-FIXPID_INLINE uint16_t differentiate(FIXPID_DATA struct fixpid_an964 *self,
-                                     uint16_t e)
+FIXPID_INLINE uint16_t derivative_term(FIXPID_DATA struct fixpid_an964 *self,
+                                       uint16_t e)
 {
     uint16_t change = (uint16_t)(e - SELF.error[2]); // within +-2046
     uint16_t derivative;
     uint8_t negative = 0;
 
-    FIXPID_ASSERT(VALID(self));
-    if (FIXPID_NEGATIVE(change)) {
-        FIXPID_NEGATE(change);
-        negative = 0xFFu;
+    if ((change & FIXPID_SIGN_BIT) != 0u) {
+        change = fixpid_negated(change);
+        negative = 0xFF;
     }
-    if (change > TERM_LIMIT) {
-        change = TERM_LIMIT;
+    if (change > AN964_TERM_LIMIT) {
+        change = AN964_TERM_LIMIT;
     }
-    FIXPID_LIMITED_10X8(derivative, SELF.gains.kd, change, negative, 5,
-                        TERM_MORE, TERM_LIMIT);
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(derivative);
+    derivative = fixpid_10x8_div32((uint8_t)change, SELF.gains.kd, negative,
+                                   AN964_TERM_LIMIT);
+    if ((negative & 1u) != 0u) {
+        derivative = fixpid_negated(derivative);
     }
     SELF.derivative = derivative;
     return derivative;
@@ -136,38 +133,38 @@ int16_t fixpid_an964_step(FIXPID_DATA struct fixpid_an964 *self, int16_t error)
     uint16_t e = (uint16_t)error;
     uint16_t sum_of_terms;
     uint16_t output;
-    uint8_t negative;
+    uint8_t negative = 0;
 
     FIXPID_ASSERT(VALID(self));
     SELF.sum_limited = 0;
     SELF.output_limited = 0;
-    if (FIXPID_NEGATIVE(e)) {
-        if (e < ERROR_LOWEST) {
-            e = ERROR_LOWEST;
+    if ((e & FIXPID_SIGN_BIT) != 0u) {
+        if (e < AN964_ERROR_MIN) {
+            e = AN964_ERROR_MIN;
         }
     } else {
-        if (e > ERROR_HIGHEST) {
-            e = ERROR_HIGHEST;
+        if ((e & AN964_ABOVE_10_BITS) != 0u) {
+            e = AN964_ERROR_MAX;
         }
     }
     // |e + I + D| <= 1023 + 7480 + 255 = 8758 < 2^14
-    sum_of_terms = (uint16_t)(e + integrate(self, e) + differentiate(self, e));
+    sum_of_terms =
+        (uint16_t)(e + integral_term(self, e) + derivative_term(self, e));
     SELF.error[2] = SELF.error[1];
     SELF.error[1] = SELF.error[0];
     SELF.error[0] = e;
 
-    negative = 0;
-    if (FIXPID_NEGATIVE(sum_of_terms)) {
-        FIXPID_NEGATE(sum_of_terms);
+    if ((sum_of_terms & FIXPID_SIGN_BIT) != 0u) {
+        sum_of_terms = fixpid_negated(sum_of_terms);
         negative = 1;
     }
-    FIXPID_PRODUCT_14X10(output, sum_of_terms, SELF.gains.kp);
-    if (output > OUTPUT_LIMIT) {
-        output = OUTPUT_LIMIT;
+    output = fixpid_14x10_div1024(sum_of_terms, SELF.gains.kp);
+    if (output > AN964_OUTPUT_LIMIT) {
+        output = AN964_OUTPUT_LIMIT;
         SELF.output_limited = FIXPID_AN964_OUTPUT_LIMITED;
     }
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(output);
+    if ((negative & 1u) != 0u) {
+        output = fixpid_negated(output);
     }
-    return FIXPID_SIGNED(output);
+    return (int16_t)output;
 }

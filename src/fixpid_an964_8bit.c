@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964_8bit.h"
 
-#include "fixpid_an964_8bit_self.h"
-#include "fixpid_arith.h"
+#include "fixpid_an964_8bit_arith.h"
 
-#define ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
-#define SUM_HIGHEST FIXPID_WORD(FIXPID_AN964_8BIT_SUM_LIMIT)
-#define SUM_LOWEST FIXPID_WORD(UINT32_C(0x10000) - SUM_HIGHEST)
-#define TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)
-#define BYTE_MAX FIXPID_WORD(127) // what an 8 x 8 signed product takes
-
-// Bits of the term limit beyond three: each costs a PIC16 some cycles.
-#if FIXPID_AN964_8BIT_TERM_LIMIT < 32
-#define TERM_MORE 2
-#else
-#define TERM_MORE 4
+#undef OBJECT
+#ifdef FIXPID_AN964_8BIT_OBJECT
+#define OBJECT FIXPID_AN964_8BIT_OBJECT
 #endif
+#include "fixpid_self.h"
+
+// Values with a sign are two's complement patterns in unsigned words, as
+// fixpid_bits.h says: a PIC16 would spend most of the step on signed compares.
+#define BYTE_ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
+#define BYTE_SUM_MAX ((uint16_t)FIXPID_AN964_8BIT_SUM_LIMIT)
+#define BYTE_SUM_MIN ((uint16_t)(UINT32_C(0x10000) - BYTE_SUM_MAX))
+#define BYTE_TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)
+#define BYTE_TERMS_MAX 127u          // what an 8 x 8 signed product takes
+#define BYTE_ABOVE_TERMS_MAX 0xFF80u // the bits that it does not have
 
 bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
                             const struct fixpid_an964_8bit_gains *gains)
@@ -54,7 +55,7 @@ bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
     if (SELF.ready == 0u) {
         return false;
     }
-    if (((kp | ki | kd) & ABOVE_GAIN_MAX) != 0u) {
+    if (((kp | ki | kd) & BYTE_ABOVE_GAIN_MAX) != 0u) {
         return false;
     }
     SELF.gains.kp = kp;
@@ -64,62 +65,60 @@ bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
 }
 
 // The sum of errors, and I = ki * sum / 512 in two divisions toward zero.
-FIXPID_INLINE uint16_t integrate(FIXPID_DATA struct fixpid_an964_8bit *self,
-                                 uint16_t e)
+FIXPID_INLINE uint16_t integral_byte(FIXPID_DATA struct fixpid_an964_8bit *self,
+                                     uint16_t e)
 {
     uint16_t sum = (uint16_t)(SELF.sum + e); // |sum| <= 8191 + 128
     uint16_t integral;
     uint8_t negative = 0;
 
-    FIXPID_ASSERT(VALID(self));
-    if (FIXPID_NEGATIVE(sum)) {
-        if (sum < SUM_LOWEST) {
-            sum = SUM_LOWEST;
+    if ((sum & FIXPID_SIGN_BIT) != 0u) {
+        if (sum < BYTE_SUM_MIN) {
+            sum = BYTE_SUM_MIN;
             SELF.sum_limited = FIXPID_AN964_8BIT_SUM_LIMITED;
         }
         SELF.sum = sum;
-        FIXPID_NEGATE(sum);
+        sum = fixpid_negated(sum);
         negative = 1;
     } else {
-        if (sum > SUM_HIGHEST) {
-            sum = SUM_HIGHEST;
+        if (sum > BYTE_SUM_MAX) {
+            sum = BYTE_SUM_MAX;
             SELF.sum_limited = FIXPID_AN964_8BIT_SUM_LIMITED;
         }
         SELF.sum = sum;
     }
-    // |sum| / 64 <= 127 < 2^7, so the product is at most 127 * 127 / 8 = 2016
-    sum = (uint16_t)(sum << 2) >> 8;
-    FIXPID_BYTE_7X7(integral, SELF.gains.ki, sum, 3, 3);
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(integral);
+    sum <<= 2; // |sum| / 64 <= 127 < 2^7 is now in its upper byte
+    integral = fixpid_7x7_div8(SELF.gains.ki, (uint8_t)(sum >> 8));
+    if ((negative & 1u) != 0u) {
+        integral = fixpid_negated(integral);
     }
     SELF.integral = (uint8_t)integral;
     return integral;
 }
 
-// D = kd * (E(n) - E(n-3)) / 4, rounded down.
-FIXPID_INLINE uint16_t differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
-                                     uint8_t e)
+// D = kd * (E(n) - E(n-3)) / 4, rounded down. In offset binary, a byte
+// with its highest bit turned over, errors compare without a sign.
+FIXPID_INLINE uint16_t
+derivative_byte(FIXPID_DATA struct fixpid_an964_8bit *self, uint8_t e)
 {
     uint8_t now = (uint8_t)(e ^ 0x80u);
     uint8_t change = (uint8_t)(SELF.error[2] ^ 0x80u);
     uint8_t negative = 0;
     uint16_t derivative;
 
-    FIXPID_ASSERT(VALID(self));
     if (now >= change) {
         change = (uint8_t)(now - change);
     } else {
         change = (uint8_t)(change - now);
-        negative = 0xFFu;
+        negative = 0xFF;
     }
-    if (change > TERM_LIMIT) {
-        change = TERM_LIMIT;
+    if (change > BYTE_TERM_LIMIT) {
+        change = BYTE_TERM_LIMIT;
     }
-    FIXPID_LIMITED_7X7(derivative, SELF.gains.kd, change, negative, 2,
-                       TERM_MORE, FIXPID_WORD(TERM_LIMIT));
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(derivative);
+    derivative =
+        fixpid_7x7_div4(SELF.gains.kd, change, negative, BYTE_TERM_LIMIT);
+    if ((negative & 1u) != 0u) {
+        derivative = fixpid_negated(derivative);
     }
     SELF.derivative = (uint8_t)derivative;
     return derivative;
@@ -128,8 +127,8 @@ FIXPID_INLINE uint16_t differentiate(FIXPID_DATA struct fixpid_an964_8bit *self,
 int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
                                int8_t error)
 {
-    uint8_t e_byte = (uint8_t)error;
-    uint16_t e = (uint16_t)(int16_t)error;
+    const uint8_t e_byte = (uint8_t)error;
+    const uint16_t e = (uint16_t)error;
     uint16_t sum_of_terms;
     uint16_t output;
     uint8_t negative = 0;
@@ -138,23 +137,23 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
     SELF.sum_limited = 0;
     SELF.output_limited = 0;
     sum_of_terms =
-        (uint16_t)(e + integrate(self, e) + differentiate(self, e_byte));
+        (uint16_t)(e + integral_byte(self, e) + derivative_byte(self, e_byte));
     SELF.error[2] = SELF.error[1];
     SELF.error[1] = SELF.error[0];
     SELF.error[0] = e_byte;
 
-    if (FIXPID_NEGATIVE(sum_of_terms)) {
-        FIXPID_NEGATE(sum_of_terms);
+    if ((sum_of_terms & FIXPID_SIGN_BIT) != 0u) {
+        sum_of_terms = fixpid_negated(sum_of_terms);
         negative = 1;
     }
-    if (sum_of_terms > BYTE_MAX) { // at most 128 + 127 + 127
-        sum_of_terms = BYTE_MAX;
+    if ((sum_of_terms & BYTE_ABOVE_TERMS_MAX) !=
+        0u) { // at most 128 + 127 + 127
+        sum_of_terms = BYTE_TERMS_MAX;
         SELF.output_limited = FIXPID_AN964_8BIT_OUTPUT_LIMITED;
     }
-    // at most 127 * 127 / 32 = 504
-    FIXPID_PRODUCT_7X7(output, SELF.gains.kp, sum_of_terms, 5, 1);
-    if (FIXPID_SAYS_SO(negative)) {
-        FIXPID_NEGATE(output);
+    output = fixpid_7x7_div32(SELF.gains.kp, (uint8_t)sum_of_terms);
+    if ((negative & 1u) != 0u) {
+        return (int16_t)fixpid_negated(output);
     }
-    return FIXPID_SIGNED(output);
+    return (int16_t)output;
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_autotune.h"
 
+#undef OBJECT
 #ifdef FIXPID_AUTOTUNE_OBJECT
-#define SELF FIXPID_AUTOTUNE_OBJECT
-#define VALID(self) ((self) == &SELF)
-#else
-#define SELF (*self)
-#define VALID(self) ((self) != 0)
+#define OBJECT FIXPID_AUTOTUNE_OBJECT
 #endif
+#include "fixpid_self.h"
 
 #define RUNNING ((uint8_t)FIXPID_AUTOTUNE_RUNNING)
 #define DONE ((uint8_t)FIXPID_AUTOTUNE_DONE)
@@ -128,7 +126,6 @@ static void add_cycle(FIXPID_DATA struct fixpid_autotune *self)
     const uint16_t swing =
         (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
 
-    FIXPID_ASSERT(VALID(self));
     SELF.seen++;
     if (SELF.seen == 1u) {
         return; // it began where the plant happened to be
@@ -155,7 +152,6 @@ static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint32_t cycles = SELF.averaged;
 
-    FIXPID_ASSERT(VALID(self));
     if (cycles != SELF.config.cycles) {
         return (SELF.seen == CYCLES_SEEN_MAX) ? FIXPID_AUTOTUNE_IRREGULAR
                                               : FIXPID_AUTOTUNE_RUNNING;
@@ -182,7 +178,6 @@ static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
 {
     const int32_t hysteresis = SELF.config.hysteresis;
 
-    FIXPID_ASSERT(VALID(self));
     if (SELF.side == SIDE_HIGH) {
         if (error < -hysteresis) {
             SELF.side = SIDE_LOW;
@@ -205,7 +200,6 @@ static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
 static void relay(FIXPID_DATA struct fixpid_autotune *self, int32_t error,
                   int16_t measurement)
 {
-    FIXPID_ASSERT(VALID(self));
     if (SELF.side == SIDE_UNKNOWN) {
         SELF.side = (error >= 0) ? SIDE_HIGH : SIDE_LOW;
         SELF.highest = measurement;
@@ -224,7 +218,6 @@ static void relay(FIXPID_DATA struct fixpid_autotune *self, int32_t error,
 static void watch_limits(FIXPID_DATA struct fixpid_autotune *self,
                          int16_t measurement)
 {
-    FIXPID_ASSERT(VALID(self));
     if (SELF.elapsed >= SELF.config.timeout_steps) {
         SELF.status = FIXPID_AUTOTUNE_NO_OSCILLATION;
     }
@@ -276,7 +269,6 @@ static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_autotune *self,
     const uint32_t ultimate_gain_q12 =
         FOUR_OVER_PI_Q8 * 16u * relay_counts * SELF.averaged / SELF.swing_sum;
 
-    FIXPID_ASSERT(VALID(self));
     if (ultimate_gain_q12 > ULTIMATE_GAIN_MAX) {
         return 0;
     }
@@ -328,7 +320,6 @@ static bool apply(FIXPID_DATA const struct fixpid_autotune *self,
     const uint32_t kp_q16 = proportional_q16(self, rule->kp_q8);
     const uint32_t kp_q8 = (kp_q16 + 128u) / 256u;
 
-    FIXPID_ASSERT(VALID(self));
     if (kp_q8 == 0u) {
         return false;
     }

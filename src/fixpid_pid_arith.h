@@ -5,185 +5,165 @@
 #include <limits.h>
 #include <stdint.h>
 
-#include "fixpid_arith.h"
+#if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
+#include "pic18/fixpid_pid_pic18.h"
+#else
 
-// 2^n as an int32_t. pre: n <= 30
-#define FIXPID_POWER(n) ((int32_t)(UINT32_C(1) << (n)))
+// `value` within low..high. pre: low <= high
+static inline int32_t clamp32(int32_t value, int32_t low, int32_t high)
+{
+    if (value > high) {
+        return high;
+    }
+    return (value < low) ? low : value;
+}
 
-// floor(x / 2^n) of an int32_t variable. pre: n <= 30
-#define FIXPID_FLOOR_SHIFT(x, n) ((x) >> (n))
-#define FIXPID_FLOOR_PORTABLE(x, n)                                            \
-    (((x) < 0) ? (-1 - ((-1 - (x)) / FIXPID_POWER(n)))                         \
-               : ((x) / FIXPID_POWER(n)))
-
-// C leaves the shift of a negative value open; these compilers document it.
+// floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
+// these compilers document it.
 #if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
-#define FIXPID_FLOOR FIXPID_FLOOR_SHIFT
+static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+{
+    return x >> n;
+}
 #else
-#define FIXPID_FLOOR FIXPID_FLOOR_PORTABLE
+static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+{
+    const int32_t power = (int32_t)(UINT32_C(1) << n);
+
+    return (x < 0) ? (-1 - ((-1 - x) / power)) : (x / power);
+}
 #endif
 
-// result = floor(x / 2^n) of int32_t variables, where the low three bits of
-// `bits` are n. In steps it needs no loop, where a compiler makes one of a
-// shift by a variable. The floor of a floor is that of both.
-#define FIXPID_FLOOR_BY_SHIFT(result, x, bits)                                 \
-    do {                                                                       \
-        (result) = FIXPID_FLOOR((x), ((bits)&7u));                             \
-    } while (0)
-#define FIXPID_FLOOR_BY_STEPS(result, x, bits)                                 \
-    do {                                                                       \
-        int32_t floor_ = (x);                                                  \
-        if (((bits)&4u) != 0u) {                                               \
-            floor_ = FIXPID_FLOOR(floor_, 4);                                  \
-        }                                                                      \
-        if (((bits)&2u) != 0u) {                                               \
-            floor_ = FIXPID_FLOOR(floor_, 2);                                  \
-        }                                                                      \
-        if (((bits)&1u) != 0u) {                                               \
-            floor_ = FIXPID_FLOOR(floor_, 1);                                  \
-        }                                                                      \
-        (result) = floor_;                                                     \
-    } while (0)
-
-// x * 2^n as an int32_t. pre: it fits. SDCC would call its multiplication.
-#if defined(__SDCC)
-#define FIXPID_RAISED(x, n) ((int32_t)((uint32_t)(x) << (n)))
-#else
-#define FIXPID_RAISED(x, n) ((int32_t)(x)*FIXPID_POWER(n))
-#endif
-
-// Keeps a variable within low..high. pre: low <= high
-#define FIXPID_CLAMP(variable, low, high)                                      \
-    do {                                                                       \
-        if ((variable) > (high)) {                                             \
-            (variable) = (high);                                               \
-        }                                                                      \
-        if ((variable) < (low)) {                                              \
-            (variable) = (low);                                                \
-        }                                                                      \
-    } while (0)
-
-// -1 - x: the mirror image that every int16_t has. The difference of two mirror
-// images is the difference turned round: MIRRORED(a) - MIRRORED(b) == b - a.
-#define FIXPID_MIRRORED(x) ((int16_t)(-1 - (x)))
-
-// result = a - b kept within int16_t. result, a and b are int16_t variables.
-#define FIXPID_DIFFERENCE_WIDE(result, a, b)                                   \
-    do {                                                                       \
-        int32_t difference_ = (int32_t)(a) - (b);                              \
-        FIXPID_CLAMP(difference_, INT16_MIN, INT16_MAX);                       \
-        (result) = (int16_t)difference_;                                       \
-    } while (0)
-
-// For an int of 16 bits: asks for the room before it subtracts.
-#define FIXPID_DIFFERENCE_NARROW(result, a, b)                                 \
-    do {                                                                       \
-        const int16_t a_ = (a);                                                \
-        const int16_t b_ = (b);                                                \
-        if (b_ < 0) {                                                          \
-            (result) =                                                         \
-                (a_ > (INT16_MAX + b_)) ? INT16_MAX : (int16_t)(a_ - b_);      \
-        } else {                                                               \
-            (result) =                                                         \
-                (a_ < (INT16_MIN + b_)) ? INT16_MIN : (int16_t)(a_ - b_);      \
-        }                                                                      \
-    } while (0)
-
-// result = a + b kept within int32_t. result, a and b are int32_t variables.
-#define FIXPID_SUM_PORTABLE(result, a, b)                                      \
-    do {                                                                       \
-        const int32_t a_ = (a);                                                \
-        const int32_t b_ = (b);                                                \
-        if (b_ < 0) {                                                          \
-            (result) = (a_ < (INT32_MIN - b_)) ? INT32_MIN : (a_ + b_);        \
-        } else {                                                               \
-            (result) = (a_ > (INT32_MAX - b_)) ? INT32_MAX : (a_ + b_);        \
-        }                                                                      \
-    } while (0)
-
-// With the processor's overflow flag.
-#define FIXPID_SUM_FLAG(result, a, b)                                          \
-    do {                                                                       \
-        int32_t sum_;                                                          \
-        if (__builtin_add_overflow((a), (b), &sum_)) {                         \
-            sum_ = ((a) < 0) ? INT32_MIN : INT32_MAX;                          \
-        }                                                                      \
-        (result) = sum_;                                                       \
-    } while (0)
-
-// result = gain * x for a uint16_t gain up to 32767, an int16_t x and an
-// int32_t result: within 32767 * 32768 = 2^30 - 2^15.
-#define FIXPID_SIGNED_MULTIPLY(result, gain, x)                                \
-    do {                                                                       \
-        (result) = (int32_t)(gain) * (x);                                      \
-    } while (0)
-
-// Four 8 x 8 products of the pattern of x, below 2^31; that of a negative x is
-// 2^16 too much.
-#define FIXPID_SIGNED_BYTES(result, gain, x)                                   \
-    do {                                                                       \
-        const uint16_t gain_ = (gain);                                         \
-        const uint16_t x_ = (uint16_t)(x);                                     \
-        const uint8_t gain_low_ = (uint8_t)(gain_ & 0xFFu);                    \
-        const uint8_t gain_high_ = (uint8_t)(gain_ >> 8);                      \
-        const uint8_t x_low_ = (uint8_t)(x_ & 0xFFu);                          \
-        const uint8_t x_high_ = (uint8_t)(x_ >> 8);                            \
-        const uint16_t low_ = FIXPID_BYTE_PRODUCT(gain_low_, x_low_);          \
-        const uint16_t high_ = FIXPID_BYTE_PRODUCT(gain_high_, x_high_);       \
-        const uint16_t left_ = FIXPID_BYTE_PRODUCT(gain_high_, x_low_);        \
-        const uint16_t right_ = FIXPID_BYTE_PRODUCT(gain_low_, x_high_);       \
-        uint32_t product_ = ((uint32_t)high_ << 16) | low_;                    \
-        product_ += (uint32_t)left_ << 8;                                      \
-        product_ += (uint32_t)right_ << 8;                                     \
-        (result) = (int32_t)product_;                                          \
-        if ((x_ & 0x8000u) != 0u) {                                            \
-            (result) -= (int32_t)((uint32_t)gain_ << 16);                      \
-        }                                                                      \
-    } while (0)
-
-// The leaves that fixpid_pid uses: in assembly for the families that have a
-// kernel, if FIXPID_PRODUCT asks for it, else in C.
-#if FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__AVR_HAVE_MUL__)
-#include "fixpid_pid_avr.h"
-#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_AVR
-#define FIXPID_SATURATED_SUM FIXPID_SUM_AVR
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_AVR
-#elif FIXPID_PRODUCT == FIXPID_PRODUCT_KERNEL && defined(__SDCC_pic16)
-#include "fixpid_pid_pic18.h"
-#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_PIC18
-#define FIXPID_SATURATED_SUM FIXPID_SUM_PIC18
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_PIC18
-#endif
-
+// floor(x / 2^n) with n the low three bits of `options`. Where int has 16 bits
+// in steps, as compilers make a loop of a shift by a variable there. The floor
+// of a floor is that of both.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
-#define FIXPID_FLOOR_BY FIXPID_FLOOR_BY_SHIFT
+static inline int32_t shift_right_by(int32_t x, uint8_t options)
+{
+    return shift_right_floor(x, options & 7u);
+}
 #else
-#define FIXPID_FLOOR_BY FIXPID_FLOOR_BY_STEPS
+static inline int32_t shift_right_by(int32_t x, uint8_t options)
+{
+    int32_t quotient = x;
+
+    if ((options & 4u) != 0u) {
+        quotient = shift_right_floor(quotient, 4);
+    }
+    if ((options & 2u) != 0u) {
+        quotient = shift_right_floor(quotient, 2);
+    }
+    if ((options & 1u) != 0u) {
+        quotient = shift_right_floor(quotient, 1);
+    }
+    return quotient;
+}
 #endif
 
-#if defined(FIXPID_SATURATED_DIFFERENCE)
+// x * 2^n. pre: it fits. SDCC would call its multiplication.
+#if defined(__SDCC)
+static inline int32_t shift_left(int32_t x, uint8_t n)
+{
+    return (int32_t)((uint32_t)x << n);
+}
+#else
+static inline int32_t shift_left(int32_t x, uint8_t n)
+{
+    return x * (int32_t)(UINT32_C(1) << n);
+}
+#endif
+
+// -1 - x: the mirror image that every int16_t has. The difference of two mirror
+// images is the difference turned round.
+static inline int16_t complement(int16_t x)
+{
+    return (int16_t)(-1 - x);
+}
+
+#if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "avr/fixpid_pid_avr.h"
+#else
+
+// a - b, saturated. Where int has 16 bits it asks for the room first.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
-#elif INT_MAX > 32767
-#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_WIDE
+#if INT_MAX > 32767
+static inline int16_t sub16_sat(int16_t a, int16_t b)
+{
+    return (int16_t)clamp32((int32_t)a - b, INT16_MIN, INT16_MAX);
+}
 #else
-#define FIXPID_SATURATED_DIFFERENCE FIXPID_DIFFERENCE_NARROW
+static inline int16_t sub16_sat(int16_t a, int16_t b)
+{
+    if (b < 0) {
+        return (a > (INT16_MAX + b)) ? INT16_MAX : (int16_t)(a - b);
+    }
+    return (a < (INT16_MIN + b)) ? INT16_MIN : (int16_t)(a - b);
+}
 #endif
 
-#if defined(FIXPID_SATURATED_SUM)
-#elif defined(__GNUC__)
-#define FIXPID_SATURATED_SUM FIXPID_SUM_FLAG
-#else
-#define FIXPID_SATURATED_SUM FIXPID_SUM_PORTABLE
+// Whether the compiler has __builtin_add_overflow, which is the CPU's flag: GCC
+// from version 5 on, clang.
+#if defined(__GNUC__) && (__GNUC__ >= 5)
+#define FIXPID_HAS_ADD_OVERFLOW
+#elif defined(__has_builtin)
+#if __has_builtin(__builtin_add_overflow)
+#define FIXPID_HAS_ADD_OVERFLOW
+#endif
 #endif
 
-#if defined(FIXPID_SIGNED_PRODUCT)
-#elif FIXPID_PRODUCT == FIXPID_PRODUCT_BYTES
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_BYTES
-#elif FIXPID_PRODUCT == FIXPID_PRODUCT_SHIFT
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_BYTES
+// a + b, saturated
+#if defined(FIXPID_HAS_ADD_OVERFLOW)
+static inline int32_t add32_sat(int32_t a, int32_t b)
+{
+    int32_t sum;
+
+    if (__builtin_add_overflow(a, b, &sum)) {
+        return (a < 0) ? INT32_MIN : INT32_MAX;
+    }
+    return sum;
+}
 #else
-#define FIXPID_SIGNED_PRODUCT FIXPID_SIGNED_MULTIPLY
+static inline int32_t add32_sat(int32_t a, int32_t b)
+{
+    if (b < 0) {
+        return (a < (INT32_MIN - b)) ? INT32_MIN : (a + b);
+    }
+    return (a > (INT32_MAX - b)) ? INT32_MAX : (a + b);
+}
+#endif
+
+// gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15. The
+// narrow form is for 8-bit PICs, and for an MSP430 without a multiplier, where
+// it takes a third: four 8 x 8 products of the pattern of x; that of a negative
+// x is 2^16 too much.
+#if defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                  \
+    defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__MSP430__)
+static inline int32_t mul16(uint16_t gain, int16_t x)
+{
+    const uint8_t gain_low = (uint8_t)(gain & 0xFFu);
+    const uint8_t gain_high = (uint8_t)(gain >> 8);
+    const uint8_t x_low = (uint8_t)((uint16_t)x & 0xFFu);
+    const uint8_t x_high = (uint8_t)((uint16_t)x >> 8);
+    const uint16_t low = (uint16_t)((uint32_t)gain_low * x_low);
+    const uint16_t high = (uint16_t)((uint32_t)gain_high * x_high);
+    const uint16_t left = (uint16_t)((uint32_t)gain_high * x_low);
+    const uint16_t right = (uint16_t)((uint32_t)gain_low * x_high);
+    const int32_t outer = (int32_t)(((uint32_t)high << 16) | low);
+    const int32_t inner = (int32_t)(((uint32_t)left + right) << 8);
+    const int32_t product = outer + inner; // below 2^31
+
+    return (x < 0) ? (product - (int32_t)((uint32_t)gain << 16)) : product;
+}
+#else
+static inline int32_t mul16(uint16_t gain, int16_t x)
+{
+    return (int32_t)gain * x;
+}
+#endif
+
+#endif
+
 #endif
 
 #endif

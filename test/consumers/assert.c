@@ -72,8 +72,8 @@ static void call(int number, bool wrong)
     case 9: fixpid_an937_integral(a); break;
     case 10: fixpid_an937_derivative(a); break;
     case 11: fixpid_an937_accumulated_error(a); break;
-    case 12: fixpid_an937_status(a); break;
-    case 13: fixpid_an937_status2(a); break;
+    case 12: fixpid_an937_stat1(a); break;
+    case 13: fixpid_an937_stat2(a); break;
     case 14: fixpid_an937_flags(a); break;
     case 15: fixpid_an937_clear_flags(a); break;
     case 16: fixpid_an964_init(b, &gains); break;
@@ -108,7 +108,7 @@ static void call(int number, bool wrong)
     case 43: fixpid_pid_proportional(d); break;
     case 44: fixpid_pid_integral(d); break;
     case 45: fixpid_pid_derivative(d); break;
-    case 46: fixpid_pid_status(d); break;
+    case 46: fixpid_pid_flags(d); break;
     case 47: fixpid_pid_init(&pid, wrong ? NULL : &valve); break;
     case 48: fixpid_pid_set_gains(&pid, wrong ? NULL : &valve.gains); break;
     case 49: fixpid_autotune_init(e, &experiment); break;

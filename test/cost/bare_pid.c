@@ -8,7 +8,7 @@ FIXPID_DATA struct fixpid_pid FIXPID_PID_PLACE pid_controller;
 void main(void)
 {
     static const struct fixpid_pid_config config = {
-        {FIXPID_PID_KI(0.5, 10), FIXPID_PID_KP(2), FIXPID_PID_KD(2, 10, 0), 0},
+        FIXPID_PID_GAINS(2, 0.5, 2, 10, 0),
         0,
         1023,
         0,

@@ -74,7 +74,10 @@ void numbers_pid_range(int16_t *low, int16_t *high)
         *low = *high;
         *high = swapped;
     }
-    if (one_in(4)) {
+    if (one_in(8)) {
+        *low = 0;
+        *high = 0;
+    } else if (one_in(4)) {
         *low = one_in(8) ? INT16_MIN : -INT16_MAX;
         *high = INT16_MAX;
     }
@@ -85,12 +88,17 @@ void numbers_pid_config(struct fixpid_pid_config *config)
     numbers_pid_gains(&config->gains);
     numbers_pid_range(&config->output_min, &config->output_max);
     numbers_pid_range(&config->integral_min, &config->integral_max);
-    config->setpoint_weight_q8 = (uint16_t)(one_in(60)  ? 257u
-                                            : one_in(2) ? 256u
-                                                        : numbers_below(256));
-    config->options = (uint8_t)(numbers_next() & 0xC0u);
+    config->options = (uint8_t)(numbers_next() & 0xE0u);
+    config->setpoint_weight_q8 = 0;
+    if ((config->options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) == 0u ||
+        one_in(40)) {
+        config->setpoint_weight_q8 =
+            (uint16_t)(one_in(60)  ? 257u
+                       : one_in(2) ? 256u
+                                   : numbers_below(256));
+    }
     if (one_in(100)) {
-        config->options |= (uint8_t)(1u << numbers_below(6));
+        config->options |= (uint8_t)(1u << numbers_below(5));
     }
 }
 

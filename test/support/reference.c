@@ -64,7 +64,7 @@ int64_t reference_an937_step(struct reference_an937 *self, int64_t error)
     return self->sum / 16;
 }
 
-uint8_t reference_an937_status(const struct reference_an937 *self)
+uint8_t reference_an937_stat1(const struct reference_an937 *self)
 {
     return (uint8_t)((self->sum >= 0 ? 0x80 : 0) |
                      (self->derivative >= 0 ? 0x40 : 0) |

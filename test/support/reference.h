@@ -18,7 +18,7 @@ void reference_an937_init(struct reference_an937 *self, int64_t kp, int64_t ki,
                           int64_t kd, int64_t limit, int64_t period);
 void reference_an937_tick(struct reference_an937 *self);
 int64_t reference_an937_step(struct reference_an937 *self, int64_t error);
-uint8_t reference_an937_status(const struct reference_an937 *self);
+uint8_t reference_an937_stat1(const struct reference_an937 *self);
 
 // Both forms of AN964 are one law with other widths and divisors.
 struct reference_an964_form {

@@ -39,23 +39,34 @@ static void take_gains(struct reference_pid *self,
     }
 }
 
+// Both 0: no range of its own.
+static void take_integral_limits(struct reference_pid *self, int64_t low,
+                                 int64_t high)
+{
+    self->integral_min = low == 0 && high == 0 ? -32767 : low;
+    self->integral_max = low == 0 && high == 0 ? 32767 : high;
+}
+
 bool reference_pid_init(struct reference_pid *self,
                         const struct fixpid_pid_config *config)
 {
     memset(self, 0, sizeof *self);
-    self->accepted = gains_are_legal(&config->gains) &&
-                     config->output_min < config->output_max &&
-                     config->integral_min >= -32767 &&
-                     config->integral_min <= config->integral_max &&
-                     config->setpoint_weight_q8 <= 256 &&
-                     (config->options & 0x3F) == 0;
+    self->accepted =
+        gains_are_legal(&config->gains) &&
+        config->output_min < config->output_max &&
+        config->integral_min >= -32767 &&
+        config->integral_min <= config->integral_max &&
+        config->setpoint_weight_q8 <= 256 && (config->options & 0x1F) == 0 &&
+        ((config->options & 0x20) == 0 || config->setpoint_weight_q8 == 0);
     if (self->accepted) {
         take_gains(self, &config->gains);
         self->output_min = config->output_min;
         self->output_max = config->output_max;
-        self->integral_min = config->integral_min;
-        self->integral_max = config->integral_max;
+        take_integral_limits(self, config->integral_min, config->integral_max);
         self->weight = config->setpoint_weight_q8;
+        if (self->weight == 0 && (config->options & 0x20) == 0) {
+            self->weight = 256;
+        }
         self->reverse = (config->options & 0x80) != 0;
         self->on_error = (config->options & 0x40) != 0;
     }
@@ -77,6 +88,7 @@ void reference_pid_reset(struct reference_pid *self)
     self->manual = false;
     self->at_max = false;
     self->at_min = false;
+    self->integral_at_limit = false;
 }
 
 bool reference_pid_set_gains(struct reference_pid *self,
@@ -119,10 +131,10 @@ bool reference_pid_set_integral_limits(struct reference_pid *self, int64_t low,
     if (!self->accepted || low < -32767 || low > high) {
         return false;
     }
-    self->integral_min = low;
-    self->integral_max = high;
+    take_integral_limits(self, low, high);
     if (!self->manual && !self->seeded) {
-        self->integral = reference_clamp(self->integral, ONE * low, ONE * high);
+        self->integral = reference_clamp(
+            self->integral, ONE * self->integral_min, ONE * self->integral_max);
     }
     return true;
 }
@@ -187,6 +199,7 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
              256 * self->feedforward;
     self->at_max = false;
     self->at_min = false;
+    self->integral_at_limit = false;
     if (self->manual) {
         return self->held;
     }
@@ -196,6 +209,8 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
     } else if (self->ki != 0) {
         integral += self->ki * error * (ONE / self->ki_divisor);
     }
+    self->integral_at_limit = integral > ONE * self->integral_max ||
+                              integral < ONE * self->integral_min;
     integral = reference_clamp(integral, ONE * self->integral_min,
                                ONE * self->integral_max);
     output = reference_floor_divide(
@@ -222,9 +237,10 @@ int64_t reference_pid_integral(const struct reference_pid *self)
                : reference_floor_divide(self->integral, 256);
 }
 
-uint8_t reference_pid_status(const struct reference_pid *self)
+uint8_t reference_pid_flags(const struct reference_pid *self)
 {
     return (uint8_t)((self->at_max ? 0x01 : 0) | (self->at_min ? 0x02 : 0) |
-                     (self->seen ? 0 : 0x10) | (self->seeded ? 0x20 : 0) |
-                     (self->manual ? 0x40 : 0));
+                     (self->integral_at_limit ? 0x04 : 0) |
+                     (self->accepted ? 0 : 0x80) | (self->seen ? 0 : 0x10) |
+                     (self->seeded ? 0x20 : 0) | (self->manual ? 0x40 : 0));
 }

@@ -19,7 +19,7 @@ struct reference_pid {
     int64_t integral;   // x 2^24
     int64_t derivative; // x 2^8
     int64_t proportional_error, previous, feedforward, held;
-    bool seen, seeded, manual, at_max, at_min;
+    bool seen, seeded, manual, at_max, at_min, integral_at_limit;
 };
 
 bool reference_pid_init(struct reference_pid *self,
@@ -41,6 +41,6 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
 // What the getters return.
 int64_t reference_pid_proportional(const struct reference_pid *self);
 int64_t reference_pid_integral(const struct reference_pid *self);
-uint8_t reference_pid_status(const struct reference_pid *self);
+uint8_t reference_pid_flags(const struct reference_pid *self);
 
 #endif

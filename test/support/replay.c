@@ -15,6 +15,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_pid.h"
+#include "vectors_pid.h"
 
 #define ROWS 2000
 #define REPORTED_MAX 10 // differing values; the rest is only counted
@@ -205,7 +206,7 @@ static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
         .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
         .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
         .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
-        .options = (uint8_t)at[PID_OPTIONS],
+        .options = vectors_pid_options(at[PID_OPTIONS], at[PID_WEIGHT]),
     };
     const int16_t value = (int16_t)at[PID_VALUE];
 
@@ -255,7 +256,8 @@ static bool pid_row_is_same(const int32_t at[], bool fresh)
     equal &= same("p_q8", at[PID_P], fixpid_pid_proportional(&pid));
     equal &= same("i_q16", at[PID_I], fixpid_pid_integral(&pid));
     equal &= same("d_q8", at[PID_D], fixpid_pid_derivative(&pid));
-    equal &= same("status", at[PID_STATUS], fixpid_pid_status(&pid));
+    equal &= same("flags", at[PID_STATUS],
+                  fixpid_pid_flags(&pid) & VECTORS_PID_FLAGS);
     return equal;
 }
 

@@ -9,6 +9,7 @@
 #include "numbers_pid.h"
 #include "reference.h"
 #include "reference_pid.h"
+#include "vectors_pid.h"
 
 static bool first;         // no question has been asked yet
 static bool first_row;     // no row has been read yet
@@ -108,8 +109,8 @@ static const struct member an937_members[] = {
     {"accumulated", offsetof(struct an937_answer, accumulated), 4},
     {"accepted", offsetof(struct an937_answer, accepted), 1},
     {"flags", offsetof(struct an937_answer, flags), 1},
-    {"status", offsetof(struct an937_answer, status), 1},
-    {"status2", offsetof(struct an937_answer, status2), 1},
+    {"stat1", offsetof(struct an937_answer, stat1), 1},
+    {"stat2", offsetof(struct an937_answer, stat2), 1},
     {NULL, 0, 0},
 };
 
@@ -217,8 +218,8 @@ static void an937_getters(struct an937_answer *expected)
                   (an937.limited ? FIXPID_AN937_ACCUMULATED_ERROR_LIMITED
                                  : 0u) |
                   (an937.overrun ? FIXPID_AN937_TICK_OVERRUN : 0u));
-    expected->status = reference_an937_status(&an937);
-    expected->status2 = an937.delta == 0 ? FIXPID_AN937_D_ERR_Z : 0u;
+    expected->stat1 = reference_an937_stat1(&an937);
+    expected->stat2 = an937.delta == 0 ? FIXPID_AN937_D_ERR_Z : 0u;
 }
 
 static void an937_define(const union question *question, union answer *answer)
@@ -256,7 +257,7 @@ static void an937_row(const int32_t columns[], union question *question,
     };
 
     question->an937 = asked;
-    an937_define(question, answer); // flags and status are not recorded
+    an937_define(question, answer); // flags and registers are not recorded
     answer->an937.output = columns[6];
     answer->an937.accumulated = columns[7];
     answer->an937.proportional = with_sign_of(columns[4], columns[9]);
@@ -310,6 +311,8 @@ static uint8_t an964_calls(struct an964 *self, uint8_t calls,
             accepted |= CALL_INIT;
         } else {
             self->law.kp = 0;
+            self->law.ki = 0;
+            self->law.kd = 0;
         }
     }
     if ((calls & CALL_SET_GAINS) != 0u && an964_set(self, gains, most)) {
@@ -421,7 +424,7 @@ static const struct member pid_members[] = {
     {"derivative", offsetof(struct pid_answer, derivative), 4},
     {"output", offsetof(struct pid_answer, output), 2},
     {"accepted", offsetof(struct pid_answer, accepted), 1},
-    {"status", offsetof(struct pid_answer, status), 1},
+    {"flags", offsetof(struct pid_answer, flags), 1},
     {NULL, 0, 0},
 };
 
@@ -529,7 +532,7 @@ static void pid_define(const union question *question, union answer *answer)
     expected->proportional = (int32_t)reference_pid_proportional(&pid);
     expected->integral = (int32_t)reference_pid_integral(&pid);
     expected->derivative = (int32_t)pid.derivative;
-    expected->status = reference_pid_status(&pid);
+    expected->flags = reference_pid_flags(&pid);
 }
 
 // Columns: run, kp_q8, ki_q24, kd_q8, filter, output_min, output_max,
@@ -553,7 +556,7 @@ static void pid_row(const int32_t columns[], union question *question,
         .measurement = (int16_t)columns[14],
         .calls = (uint16_t)((1u << columns[11]) >> 1),
         .derivative_filter = (uint8_t)columns[4],
-        .options = (uint8_t)columns[10],
+        .options = vectors_pid_options(columns[10], columns[9]),
     };
 
     question->pid = asked;
@@ -562,7 +565,8 @@ static void pid_row(const int32_t columns[], union question *question,
     answer->pid.proportional = columns[16];
     answer->pid.integral = columns[17];
     answer->pid.derivative = columns[18];
-    answer->pid.status = (uint8_t)columns[19];
+    answer->pid.flags =
+        (uint8_t)((answer->pid.flags & ~VECTORS_PID_FLAGS) | columns[19]);
 }
 
 // The size of an object whose last member is a byte.

@@ -84,8 +84,8 @@ static void get(void)
     ANSWER.derivative = fixpid_an937_derivative(&an937_controller);
     ANSWER.accumulated = fixpid_an937_accumulated_error(&an937_controller);
     ANSWER.flags = fixpid_an937_flags(&an937_controller);
-    ANSWER.status = fixpid_an937_status(&an937_controller);
-    ANSWER.status2 = fixpid_an937_status2(&an937_controller);
+    ANSWER.stat1 = fixpid_an937_stat1(&an937_controller);
+    ANSWER.stat2 = fixpid_an937_stat2(&an937_controller);
 }
 
 static void get_nothing(void)
@@ -95,8 +95,8 @@ static void get_nothing(void)
     ANSWER.derivative = 0;
     ANSWER.accumulated = 0;
     ANSWER.flags = 0;
-    ANSWER.status = 0;
-    ANSWER.status2 = 0;
+    ANSWER.stat1 = 0;
+    ANSWER.stat2 = 0;
 }
 
 // The question ends where the answer begins: with the step.

@@ -105,5 +105,5 @@ void pid_reply(void)
     ANSWER.proportional = fixpid_pid_proportional(&pid_controller);
     ANSWER.integral = fixpid_pid_integral(&pid_controller);
     ANSWER.derivative = fixpid_pid_derivative(&pid_controller);
-    ANSWER.status = fixpid_pid_status(&pid_controller);
+    ANSWER.flags = fixpid_pid_flags(&pid_controller);
 }

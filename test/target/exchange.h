@@ -54,8 +54,8 @@ struct an937_answer {
     int32_t accumulated;
     uint8_t accepted;
     uint8_t flags;
-    uint8_t status;
-    uint8_t status2;
+    uint8_t stat1;
+    uint8_t stat2;
 };
 
 struct an964_question {
@@ -104,7 +104,7 @@ struct pid_answer {
     int32_t derivative;
     int16_t output;
     uint8_t accepted;
-    uint8_t status;
+    uint8_t flags;
 };
 
 // A driver calls it before init, which must set every member of the object. On

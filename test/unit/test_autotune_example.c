@@ -4,7 +4,7 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/fixpid_autotune.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")

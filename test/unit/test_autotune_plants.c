@@ -7,7 +7,7 @@
 
 TEST_SOURCE_FILE("src/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 
 #define DELAY_MAX 40
 #define PERCENT (INT64_C(1) << 24)

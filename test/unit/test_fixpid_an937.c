@@ -8,8 +8,7 @@
 #include "vectors.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
@@ -50,10 +49,10 @@ static int32_t step(int16_t error)
                             fixpid_an937_derivative(&an937_controller));
     TEST_ASSERT_EQUAL_INT32(reference.accumulated,
                             fixpid_an937_accumulated_error(&an937_controller));
-    TEST_ASSERT_EQUAL_HEX8(reference_an937_status(&reference),
-                           fixpid_an937_status(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(reference_an937_stat1(&reference),
+                           fixpid_an937_stat1(&an937_controller));
     TEST_ASSERT_EQUAL_HEX8(reference.delta == 0 ? FIXPID_AN937_D_ERR_Z : 0,
-                           fixpid_an937_status2(&an937_controller));
+                           fixpid_an937_stat2(&an937_controller));
     TEST_ASSERT_EQUAL_HEX8(
         (reference.saturated ? FIXPID_AN937_SUM_SATURATED : 0) |
             (reference.limited ? FIXPID_AN937_ACCUMULATED_ERROR_LIMITED : 0) |
@@ -245,7 +244,7 @@ void test_step_output_is_truncated_toward_zero(void)
     TEST_ASSERT_EQUAL_INT32(0, step(-15));
     TEST_ASSERT_EQUAL_INT32(-1, step(-16));
     TEST_ASSERT_EQUAL_INT32(-1, step(-31));
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_status(&an937_controller) &
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_stat1(&an937_controller) &
                                   FIXPID_AN937_PID_SIGN);
 }
 
@@ -256,7 +255,7 @@ void test_step_sum_saturates_at_24_bits_on_both_sides(void)
     TEST_ASSERT_EQUAL_INT32(-1048575, tick_and_step(INT16_MIN));
     TEST_ASSERT_BITS_HIGH(FIXPID_AN937_SUM_SATURATED,
                           fixpid_an937_flags(&an937_controller));
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_status(&an937_controller) &
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_stat1(&an937_controller) &
                                   FIXPID_AN937_PID_SIGN);
     start(255, 255, 255, 65535, 1);
     tick_and_step(INT16_MAX);
@@ -352,7 +351,7 @@ void test_step_opposite_errors_bring_the_accumulated_error_to_positive_zero(
     TEST_ASSERT_EQUAL_INT32(0,
                             fixpid_an937_accumulated_error(&an937_controller));
     TEST_ASSERT_BITS_HIGH(FIXPID_AN937_A_ERR_SIGN | FIXPID_AN937_A_ERR_ZERO,
-                          fixpid_an937_status(&an937_controller));
+                          fixpid_an937_stat1(&an937_controller));
 }
 
 void test_step_nasty_errors_crossed_match_the_reference(void)
@@ -425,7 +424,7 @@ void test_step_random_runs_match_the_straightforward_form(void)
                 (straight.tick_overrun ? FIXPID_AN937_TICK_OVERRUN : 0),
             fixpid_an937_flags(&an937_controller));
         TEST_ASSERT_EQUAL(straight.sum >= 0,
-                          (fixpid_an937_status(&an937_controller) &
+                          (fixpid_an937_stat1(&an937_controller) &
                            FIXPID_AN937_PID_SIGN) != 0u);
     }
 }
@@ -556,8 +555,8 @@ void test_init_starts_from_rest(void)
     tick();
     tick();
     start(96, 80, 16, 4000, 4);
-    TEST_ASSERT_EQUAL_HEX8(0xDF, fixpid_an937_status(&an937_controller));
-    TEST_ASSERT_EQUAL_HEX8(0x04, fixpid_an937_status2(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(0xDF, fixpid_an937_stat1(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(0x04, fixpid_an937_stat2(&an937_controller));
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_flags(&an937_controller));
     step(100);
     tick_and_step(100);
@@ -571,7 +570,7 @@ void test_reset_clears_the_state_and_keeps_the_configuration(void)
     tick();
     fixpid_an937_reset(&an937_controller);
     reference_an937_init(&reference, 96, 80, 16, 4000, 4);
-    TEST_ASSERT_EQUAL_HEX8(0xDF, fixpid_an937_status(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(0xDF, fixpid_an937_stat1(&an937_controller));
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_flags(&an937_controller));
     TEST_ASSERT_EQUAL_INT32(0, fixpid_an937_proportional(&an937_controller));
     step(50);
@@ -615,10 +614,10 @@ void test_clear_flags_leaves_the_status_alone(void)
 {
     tick_and_step(-4001);
     fixpid_an937_clear_flags(&an937_controller);
-    TEST_ASSERT_EQUAL_HEX8(reference_an937_status(&reference),
-                           fixpid_an937_status(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(reference_an937_stat1(&reference),
+                           fixpid_an937_stat1(&an937_controller));
     TEST_ASSERT_BITS_LOW(FIXPID_AN937_PID_SIGN,
-                         fixpid_an937_status(&an937_controller));
+                         fixpid_an937_stat1(&an937_controller));
 }
 
 void test_status_derivative_sign_is_that_of_the_term(void)
@@ -626,15 +625,15 @@ void test_status_derivative_sign_is_that_of_the_term(void)
     start(0, 0, 0, 1, 1);
     tick_and_step(-5);
     TEST_ASSERT_BITS_HIGH(FIXPID_AN937_D_ERR_SIGN,
-                          fixpid_an937_status(&an937_controller));
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_status2(&an937_controller));
+                          fixpid_an937_stat1(&an937_controller));
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_an937_stat2(&an937_controller));
 }
 
 void test_status_mag_is_always_zero(void)
 {
     for (unsigned i = 0; i < NASTY_COUNT; i++) {
         tick_and_step(nasty[i]);
-        TEST_ASSERT_BITS_LOW(0x20, fixpid_an937_status(&an937_controller));
+        TEST_ASSERT_BITS_LOW(0x20, fixpid_an937_stat1(&an937_controller));
     }
 }
 

@@ -7,8 +7,7 @@
 #include "vectors.h"
 
 TEST_SOURCE_FILE("src/fixpid_an964.c")
-TEST_SOURCE_FILE("src/fixpid_an964_access.c")
-TEST_SOURCE_FILE("src/fixpid_an964_pic14.c")
+TEST_SOURCE_FILE("src/fixpid_an964_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

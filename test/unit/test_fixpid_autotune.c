@@ -646,8 +646,8 @@ static void no_gains(uint8_t rule)
 
     TEST_ASSERT_FALSE(
         fixpid_autotune_result(&autotune_controller, rule, &gains));
-    TEST_ASSERT_EQUAL_UINT32(1, gains.ki_q24);
-    TEST_ASSERT_EQUAL_UINT16(2, gains.kp_q8);
+    TEST_ASSERT_EQUAL_UINT16(1, gains.kp_q8);
+    TEST_ASSERT_EQUAL_UINT32(2, gains.ki_q24);
     TEST_ASSERT_EQUAL_UINT16(3, gains.kd_q8);
     TEST_ASSERT_EQUAL_UINT8(4, gains.derivative_filter);
 }

@@ -12,16 +12,13 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_more.c")
 TEST_SOURCE_FILE("src/fixpid_an964.c")
-TEST_SOURCE_FILE("src/fixpid_an964_access.c")
+TEST_SOURCE_FILE("src/fixpid_an964_more.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_access.c")
-TEST_SOURCE_FILE("src/fixpid_an964_pic14.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_pic14.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/fixpid_autotune.c")
 
 #define COUNT 5

@@ -8,11 +8,9 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an964.c")
-TEST_SOURCE_FILE("src/fixpid_an964_access.c")
+TEST_SOURCE_FILE("src/fixpid_an964_more.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_access.c")
-TEST_SOURCE_FILE("src/fixpid_an964_pic14.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_pic14.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

@@ -8,9 +8,10 @@
 #include "reference_pid.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_pid.h"
 
 TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_access.c")
+TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
@@ -24,12 +25,9 @@ static struct reference_pid reference;
 
 // kp 2, ki 0.05 per step, a valve of 8 bits.
 static const struct fixpid_pid_config valve = {
-    .gains = {.ki_q24 = 838861, .kp_q8 = 512},
+    .gains = {.kp_q8 = 512, .ki_q24 = 838861},
     .output_min = 0,
     .output_max = 255,
-    .integral_min = -32767,
-    .integral_max = 32767,
-    .setpoint_weight_q8 = 256,
 };
 
 static struct fixpid_pid_config config; // of the running controller
@@ -43,8 +41,8 @@ static void compare(void)
                             fixpid_pid_integral(&pid_controller));
     TEST_ASSERT_EQUAL_INT32(reference.derivative,
                             fixpid_pid_derivative(&pid_controller));
-    TEST_ASSERT_EQUAL_HEX8(reference_pid_status(&reference),
-                           fixpid_pid_status(&pid_controller));
+    TEST_ASSERT_EQUAL_HEX8(reference_pid_flags(&reference),
+                           fixpid_pid_flags(&pid_controller));
 }
 
 static bool init(void)
@@ -137,9 +135,9 @@ static int32_t integral(void)
     return fixpid_pid_integral(&pid_controller);
 }
 
-static uint8_t status(void)
+static uint8_t flags(void)
 {
-    return fixpid_pid_status(&pid_controller);
+    return fixpid_pid_flags(&pid_controller);
 }
 
 void setUp(void)
@@ -232,7 +230,7 @@ void test_step_recorded_rows_match_the_definition(void)
         config.integral_min = (int16_t)row[INTEGRAL_MIN];
         config.integral_max = (int16_t)row[INTEGRAL_MAX];
         config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
-        config.options = (uint8_t)row[OPTIONS];
+        config.options = vectors_pid_options(row[OPTIONS], row[WEIGHT]);
         make_event(row);
         TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[SETPOINT],
                                                   (int16_t)row[MEASUREMENT]));
@@ -240,7 +238,7 @@ void test_step_recorded_rows_match_the_definition(void)
                                 fixpid_pid_proportional(&pid_controller));
         TEST_ASSERT_EQUAL_INT32(row[I], integral());
         TEST_ASSERT_EQUAL_INT32(row[D], fixpid_pid_derivative(&pid_controller));
-        TEST_ASSERT_EQUAL_HEX8(row[STATUS], status());
+        TEST_ASSERT_EQUAL_HEX8(row[STATUS], flags() & VECTORS_PID_FLAGS);
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(TEST_PID_ROWS, rows);
@@ -280,24 +278,25 @@ void test_step_worked_example_gives_the_table(void)
         TEST_ASSERT_EQUAL_INT32(rows[n].i, integral());
         TEST_ASSERT_EQUAL_INT32(rows[n].d,
                                 fixpid_pid_derivative(&pid_controller));
-        TEST_ASSERT_EQUAL_HEX8(rows[n].status, status());
+        TEST_ASSERT_EQUAL_HEX8(rows[n].status, flags());
     }
 }
 
 void test_step_nasty_inputs_crossed_match_the_definition(void)
 {
     static const struct fixpid_pid_gains gains[] = {
-        {838861, 512, 256, 0},
+        {512, 838861, 256, 0},
         {32767, 32767, 32255, 0},
-        {FIXPID_PID_KI_MAX, 32767, 32255, 7},
-        {8388608, 1, 1, 1},
+        {32767, FIXPID_PID_KI_MAX, 32255, 7},
+        {1, 8388608, 1, 1},
     };
 
     for (unsigned i = 0; i < NASTY_COUNT; i++) {
         for (unsigned j = 0; j < NASTY_COUNT; j++) {
             config.gains = gains[(i + j) % 4];
-            config.options = (uint8_t)((i % 4) << 6);
-            config.setpoint_weight_q8 = (uint16_t)(j % 3 * 128);
+            config.options = (uint8_t)((i % 8) << 5);
+            config.setpoint_weight_q8 =
+                (uint16_t)(i % 2 != 0 ? 0u : j % 3 * 128);
             config.output_min = j % 2 != 0 ? INT16_MIN : -100;
             config.output_max = j % 2 != 0 ? INT16_MAX : 100;
             TEST_ASSERT_TRUE(init());
@@ -474,7 +473,7 @@ void test_init_integral_limits_outside_their_range_are_refused(void)
 
 void test_init_setpoint_weight_above_one_is_refused(void)
 {
-    config.setpoint_weight_q8 = 0;
+    config.setpoint_weight_q8 = 256;
     TEST_ASSERT_TRUE(init());
     config.setpoint_weight_q8 = 257;
     is_refused();
@@ -484,9 +483,10 @@ void test_init_setpoint_weight_above_one_is_refused(void)
 
 void test_init_unknown_options_are_refused(void)
 {
-    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR;
+    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR |
+                     FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
     TEST_ASSERT_TRUE(init());
-    for (uint8_t bit = 1; bit < 0x40u; bit = (uint8_t)(bit << 1)) {
+    for (uint8_t bit = 1; bit < 0x20u; bit = (uint8_t)(bit << 1)) {
         config.options = bit;
         is_refused();
     }
@@ -499,8 +499,74 @@ void test_all_zero_object_is_a_refused_controller(void)
     TEST_ASSERT_FALSE(fixpid_pid_set_limits(&pid_controller, 0, 255));
     TEST_ASSERT_FALSE(fixpid_pid_set_integral_limits(&pid_controller, 0, 1));
     fixpid_pid_set_feedforward(&pid_controller, 5);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 100, -100));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
+}
+
+// ---- What an initialiser leaves out ----
+
+void test_init_weight_0_is_the_plain_pid(void)
+{
+    config.setpoint_weight_q8 = 0;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(205, step(100, 0));
+    config.setpoint_weight_q8 = 256;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(205, step(100, 0));
+}
+
+void test_init_weight_beside_proportional_on_measurement_is_refused(void)
+{
+    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.setpoint_weight_q8 = 0;
+    TEST_ASSERT_TRUE(init());
+    config.setpoint_weight_q8 = 1;
+    is_refused();
+    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.setpoint_weight_q8 = 256;
+    is_refused();
+}
+
+void test_init_integral_limits_both_0_are_none(void)
+{
+    config.integral_min = 0;
+    config.integral_max = 0;
+    TEST_ASSERT_TRUE(init());
+    for (unsigned n = 0; n < 100; n++) {
+        step(30, 0);
+    }
+    TEST_ASSERT_TRUE(integral() > 0);
+}
+
+void test_init_one_integral_limit_of_0_is_a_range(void)
+{
+    config.integral_max = 500;
+    TEST_ASSERT_TRUE(init());
+    step(-30, 0);
+    step(-30, 0);
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN | FIXPID_PID_INTEGRAL_AT_LIMIT,
+                           flags());
+}
+
+void test_set_integral_limits_both_0_are_none(void)
+{
+    TEST_ASSERT_TRUE(set_integral_limits(0, 1));
+    TEST_ASSERT_TRUE(set_integral_limits(0, 0));
+    for (unsigned n = 0; n < 100; n++) {
+        step(30, 0);
+    }
+    TEST_ASSERT_TRUE(integral() > INT32_C(65536));
+}
+
+void test_init_refused_is_a_flag_beside_the_others(void)
+{
+    config.output_max = config.output_min;
+    TEST_ASSERT_FALSE(init());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED | FIXPID_PID_FIRST, flags());
+    step(1, 2);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
 }
 
 void test_init_starts_from_rest_in_automatic(void)
@@ -509,10 +575,10 @@ void test_init_starts_from_rest_in_automatic(void)
     set_feedforward(20);
     set_manual(10);
     TEST_ASSERT_TRUE(init());
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, flags());
     TEST_ASSERT_EQUAL_INT32(0, integral());
     TEST_ASSERT_EQUAL_INT16(0, step(0, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
 }
 
 void test_reset_integral_is_0_or_the_limit_next_to_it(void)
@@ -537,7 +603,7 @@ void test_reset_forgets_derivative_and_feedforward_and_keeps_the_gains(void)
     step(100, 40);
     reset();
     TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, flags());
     TEST_ASSERT_EQUAL_INT16(21, step(110, 100)); // 20 + 0.5, half up
     TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
 }
@@ -680,11 +746,78 @@ void test_step_setpoint_weight_softens_the_proportional_term_only(void)
     TEST_ASSERT_EQUAL_INT32(512 * (51 - 20),
                             fixpid_pid_proportional(&pid_controller));
     TEST_ASSERT_EQUAL_INT32(INT32_C(3277) * (101 - 20), integral());
-    config.setpoint_weight_q8 = 0;
+}
+
+void test_step_proportional_on_measurement_has_no_setpoint(void)
+{
+    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
     TEST_ASSERT_TRUE(init());
     step(100, 20);
     TEST_ASSERT_EQUAL_INT32(512 * -20,
                             fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(INT32_C(3277) * (100 - 20), integral());
+}
+
+// The integral ends at 32767, which P on the measurement needs for itself.
+void test_step_integral_at_its_limit_is_flagged_once_it_is_beyond(void)
+{
+    config.gains.ki_q24 = UINT32_C(1) << 24;
+    config.integral_min = -10;
+    config.integral_max = 10;
+    config.output_min = -255;
+    TEST_ASSERT_TRUE(init());
+    step(10, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, flags()); // at the limit, not beyond it
+    step(0, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_INTEGRAL_AT_LIMIT, flags());
+    step(-1, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
+    step(-19, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
+    step(0, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
+    step(-1, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_INTEGRAL_AT_LIMIT, flags());
+}
+
+// A 2^24th of a count beyond the limit is beyond it.
+void test_step_integral_beyond_its_limit_by_a_fraction_is_flagged(void)
+{
+    config.gains.ki_q24 = UINT32_C(1) << 24;
+    config.integral_min = -10;
+    config.integral_max = 10;
+    config.output_min = -255;
+    TEST_ASSERT_TRUE(init());
+    step(10, 0);
+    config.gains.ki_q24 = 1;
+    TEST_ASSERT_TRUE(set_gains());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_INTEGRAL_AT_LIMIT, flags());
+    TEST_ASSERT_EQUAL_INT32(10 * INT32_C(65536), integral());
+}
+
+void test_step_integral_at_its_limit_is_flagged_though_the_output_is(void)
+{
+    config.gains.ki_q24 = UINT32_C(1) << 24;
+    config.integral_min = -10;
+    config.integral_max = 10;
+    TEST_ASSERT_TRUE(init());
+    step(300, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX | FIXPID_PID_INTEGRAL_AT_LIMIT,
+                           flags());
+    TEST_ASSERT_EQUAL_INT32(0, integral()); // forgotten, as it wound up
+    set_manual(5);
+    TEST_ASSERT_BITS_HIGH(FIXPID_PID_INTEGRAL_AT_LIMIT, flags());
+    step(300, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL, flags());
+    set_auto();
+    step(300, 0);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_INTEGRAL_AT_LIMIT | FIXPID_PID_AT_MAX,
+                           flags());
+    reset();
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, flags());
 }
 
 void test_step_feedforward_is_added_to_the_output(void)
@@ -694,7 +827,7 @@ void test_step_feedforward_is_added_to_the_output(void)
     TEST_ASSERT_EQUAL_INT16(77, step(10, 10));
     set_feedforward(INT16_MIN);
     TEST_ASSERT_EQUAL_INT16(0, step(10, 10));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, flags());
 }
 
 void test_step_output_at_its_limit_is_not_flagged_and_beyond_it_is(void)
@@ -703,13 +836,13 @@ void test_step_output_at_its_limit_is_not_flagged_and_beyond_it_is(void)
     config.gains.kp_q8 = 256;
     TEST_ASSERT_TRUE(init());
     TEST_ASSERT_EQUAL_INT16(255, step(255, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
     TEST_ASSERT_EQUAL_INT16(255, step(256, 0));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
     TEST_ASSERT_EQUAL_INT16(0, step(0, 0));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
     TEST_ASSERT_EQUAL_INT16(0, step(-1, 0));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, flags());
 }
 
 void test_step_limited_output_stops_the_integral_until_the_error_turns(void)
@@ -721,20 +854,20 @@ void test_step_limited_output_stops_the_integral_until_the_error_turns(void)
     }
     wound = integral();
     step(700, 600);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
     TEST_ASSERT_EQUAL_INT32(wound, integral());
     set_feedforward(500); // still at its limit
     step(700, 701);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
     TEST_ASSERT_EQUAL_INT32(wound - 3277, integral());
     step(700, 700); // and without an error
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
     set_feedforward(-1000);
     step(700, 701);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, flags());
     TEST_ASSERT_EQUAL_INT32(wound - 3277, integral());
     step(700, 699);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, flags());
     TEST_ASSERT_EQUAL_INT32(wound, integral());
 }
 
@@ -1013,7 +1146,7 @@ void test_set_limits_drops_what_would_be_windup(void)
 
 void test_set_limits_keeps_what_other_terms_take_away_again(void)
 {
-    config.setpoint_weight_q8 = 0;
+    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
     config.output_max = 10000;
     TEST_ASSERT_TRUE(init());
     for (int n = 0; n < 2000; n++) {
@@ -1114,10 +1247,10 @@ void test_set_manual_holds_the_output_inside_the_limits(void)
 {
     step(700, 500);
     set_manual(120);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL | FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL | FIXPID_PID_AT_MAX, flags());
     for (int16_t n = 0; n < 10; n++) {
         TEST_ASSERT_EQUAL_INT16(120, step(700, n));
-        TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL, status());
+        TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL, flags());
         TEST_ASSERT_EQUAL_INT32(120 * INT32_C(65536), integral());
     }
     set_manual(256);
@@ -1145,9 +1278,9 @@ void test_set_auto_gives_the_output_held_and_integrates_from_the_next(void)
     set_manual(120);
     step(700, 650);
     set_auto();
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT16(120, step(700, 640));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
     taken_over = integral();
     TEST_ASSERT_EQUAL_INT32((120 - 120) * INT32_C(65536), taken_over);
     step(700, 640);
@@ -1158,18 +1291,18 @@ void test_set_auto_in_automatic_has_no_effect(void)
 {
     step(700, 650);
     set_auto();
-    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, flags());
     seed(50);
     set_auto();
-    TEST_ASSERT_BITS_HIGH(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_BITS_HIGH(FIXPID_PID_SEEDED, flags());
 }
 
 void test_set_auto_before_the_first_step_starts_without_a_bump(void)
 {
     set_manual(33);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_MANUAL, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_MANUAL, flags());
     set_auto();
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT16(33, step(500, 490));
 }
 
@@ -1181,12 +1314,14 @@ void test_take_over_beyond_the_integral_limits_is_flagged(void)
     set_manual(100);
     set_auto();
     TEST_ASSERT_EQUAL_INT16(255, step(700, 0));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX | FIXPID_PID_INTEGRAL_AT_LIMIT,
+                           flags());
     TEST_ASSERT_EQUAL_INT32(-10 * INT32_C(65536), integral());
     set_manual(100);
     set_auto();
     TEST_ASSERT_EQUAL_INT16(0, step(0, 700));
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MIN | FIXPID_PID_INTEGRAL_AT_LIMIT,
+                           flags());
     TEST_ASSERT_EQUAL_INT32(10 * INT32_C(65536), integral());
 }
 
@@ -1213,12 +1348,12 @@ void test_take_over_from_the_largest_terms_does_not_overflow(void)
 void test_seed_starts_from_a_given_output_inside_the_limits(void)
 {
     seed(77);
-    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST | FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT32(77 * INT32_C(65536), integral());
     TEST_ASSERT_EQUAL_INT16(77, step(500, 450));
     seed(300);
     TEST_ASSERT_EQUAL_INT16(255, step(500, 450));
-    TEST_ASSERT_EQUAL_HEX8(0, status());
+    TEST_ASSERT_EQUAL_HEX8(0, flags());
     seed(-300);
     TEST_ASSERT_EQUAL_INT16(0, step(500, 450));
 }
@@ -1227,13 +1362,13 @@ void test_seed_in_manual_moves_the_output_held(void)
 {
     set_manual(10);
     seed(99);
-    TEST_ASSERT_BITS_HIGH(FIXPID_PID_MANUAL, status());
-    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_BITS_HIGH(FIXPID_PID_MANUAL, flags());
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT16(99, step(500, 450));
     seed(98);
     set_auto();
     set_manual(97);
-    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, status());
+    TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT16(97, step(500, 450));
 }
 
@@ -1241,16 +1376,12 @@ void test_seed_in_manual_moves_the_output_held(void)
 
 void test_macros_fold_real_units(void)
 {
-    static const struct fixpid_pid_gains gains = {
-        FIXPID_PID_KI(0.5, 100),
-        FIXPID_PID_KP(2.5),
-        FIXPID_PID_KD(0.1, 100, 2),
-        2,
-    };
+    static const struct fixpid_pid_gains gains =
+        FIXPID_PID_GAINS(2.5, 0.5, 0.1, 100, 2);
     static const uint32_t kp[] = {
         FIXPID_PID_KP(0),
-        FIXPID_PID_KP(0.001953),
-        FIXPID_PID_KP(0.00196),
+        FIXPID_PID_KP(0.001953125),
+        FIXPID_PID_KP(1.49 / 256),
         FIXPID_PID_KP(127.998),
     };
     static const uint32_t ki[] = {
@@ -1259,17 +1390,17 @@ void test_macros_fold_real_units(void)
         FIXPID_PID_TI(0, 10, 1),
     };
     static const uint32_t kd[] = {
-        FIXPID_PID_KD(0, 1, 0),
-        FIXPID_PID_KD(125.998, 1, 0),
-        FIXPID_PID_KD(161, 100, 7),
+        FIXPID_PID_KD(0, 1, 0),        FIXPID_PID_KD(0.25 / 128, 1, 0),
+        FIXPID_PID_KD(125.998, 1, 0),  FIXPID_PID_KD(161, 100, 7),
         FIXPID_PID_TD(1.5, 3, 100, 4),
     };
 
     TEST_ASSERT_EQUAL_UINT32(83886, gains.ki_q24);
     TEST_ASSERT_EQUAL_UINT16(640, gains.kp_q8);
     TEST_ASSERT_EQUAL_UINT16(640, gains.kd_q8);
+    TEST_ASSERT_EQUAL_UINT8(2, gains.derivative_filter);
     TEST_ASSERT_EQUAL_UINT32(0, kp[0]);
-    TEST_ASSERT_EQUAL_UINT32(0, kp[1]);
+    TEST_ASSERT_EQUAL_UINT32(1, kp[1]);
     TEST_ASSERT_EQUAL_UINT32(1, kp[2]);
     TEST_ASSERT_EQUAL_UINT32(32767, kp[3]);
     TEST_ASSERT_EQUAL_UINT32(0, ki[0]);
@@ -1278,9 +1409,10 @@ void test_macros_fold_real_units(void)
     TEST_ASSERT_EQUAL_UINT32(111848, ki[3]);
     TEST_ASSERT_EQUAL_UINT32(0, ki[4]);
     TEST_ASSERT_EQUAL_UINT32(0, kd[0]);
-    TEST_ASSERT_EQUAL_UINT32(32255, kd[1]);
-    TEST_ASSERT_EQUAL_UINT32(32200, kd[2]);
-    TEST_ASSERT_EQUAL_UINT32(7200, kd[3]);
+    TEST_ASSERT_EQUAL_UINT32(1, kd[1]);
+    TEST_ASSERT_EQUAL_UINT32(32255, kd[2]);
+    TEST_ASSERT_EQUAL_UINT32(32200, kd[3]);
+    TEST_ASSERT_EQUAL_UINT32(7200, kd[4]);
 }
 
 // ---- Memory ----

@@ -4,8 +4,7 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_access.c")
-TEST_SOURCE_FILE("src/fixpid_an937_pic18.c")
+TEST_SOURCE_FILE("src/fixpid_an937_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/motor")
 

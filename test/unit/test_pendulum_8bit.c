@@ -4,8 +4,7 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_access.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_pic14.c")
+TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
 TEST_INCLUDE_PATH("port/pic/pic16f684")
 TEST_INCLUDE_PATH("examples/pendulum_8bit")
 

@@ -36,18 +36,14 @@ CONTROLLERS = [
 Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
 
 VARIANTS = [
-  Variant.new('an964', 'pic16f684', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an964_pic14.c]),
-  Variant.new('an964', 'pic16f684', 'unrolled', %w[FIXPID_PRODUCT=5], []),
-  Variant.new('an964_8bit', 'pic16f684', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an964_8bit_pic14.c]),
-  Variant.new('an937', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_an937_pic18.c]),
-  Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_PRODUCT=4 FIXPID_AN937_PLACE=__at(0x20)],
-              %w[src/fixpid_an937_pic18.c]),
-  Variant.new('pid', 'pic18f4520', 'kernel', %w[FIXPID_PRODUCT=4], %w[src/fixpid_pid_pic18.c]),
+  Variant.new('an964', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an964_8bit', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an937', 'pic18f4520', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_AN937_PLACE=__at(0x20)], []),
   Variant.new('pid', 'pic18f4520', 'access-RAM',
-              %w[FIXPID_PRODUCT=4 FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
+              %w[FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
                  FIXPID_PID_OPERANDS_PLACE=__at(0x4C)],
-              %w[src/fixpid_pid_pic18.c]),
-  Variant.new('pid', 'atmega328p', 'kernel', %w[FIXPID_PRODUCT=4], [])
+              [])
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.
@@ -63,6 +59,9 @@ CHIPS = [
   Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
   Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes')
 ].freeze
+
+# src/ has a folder for each: a source that is not meant for a chip is empty.
+CHIP_FOLDERS = 'pic14,pic18'
 
 # One controller in one build on one chip: a row of the table. `form` is the
 # library's or :straight, test/cost/straight_NAME.c: the same law as one writes
@@ -122,11 +121,11 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   def sources
     return ["test/cost/straight_#{controller.name}.c"] if straight?
 
-    ["src/fixpid_#{controller.name}.c"] + (variant ? variant.sources : [])
+    ["src/fixpid_#{controller.name}.c"] + Dir.glob("src/*/fixpid_#{controller.name}_{#{CHIP_FOLDERS}}.c", base: Host.root)
   end
 
   def all_sources
-    straight? ? sources : sources + Dir.glob("src/fixpid_#{controller.name}_access.c", base: Host.root)
+    straight? ? sources : sources + ["src/fixpid_#{controller.name}_more.c"]
   end
 
   class << self

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The products of AN964's 8-bit form.
-#include "fixpid_an964_pic14.h"
+#include "fixpid_an964_8bit.h"
 
-#if defined(__SDCC_pic14)
+// Nothing where another chip or no assembly is meant.
+#if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_an964_8bit_pic14.h"
 
 // The sum moves right once per bit of STK01; W has the other operand. Below
 // 2 * 127 before it moves, and the carry is 0 after each bit. Then STK02 has
@@ -22,11 +23,11 @@
     ADD_AND_MOVE(5);                                                           \
     ADD_AND_MOVE(6)
 
-// up in W, x in STK00, k in STK01. A quotient above 127 has a bit in 0x7C of
-// the upper byte.
-uint8_t fixpid_kernel_7x7_2(uint8_t up, uint8_t x, uint8_t k) __naked
+// round_up in W, x in STK00, k in STK01. A quotient above 127 has a bit in 0x7C
+// of the upper byte.
+uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t x, uint8_t k) __naked
 {
-    (void)up;
+    (void)round_up;
     (void)x;
     (void)k;
     __asm__(
@@ -37,8 +38,8 @@ uint8_t fixpid_kernel_7x7_2(uint8_t up, uint8_t x, uint8_t k) __naked
     __asm__("rrf STK02,f\n\trrf STK03,w\n\treturn");
 }
 
-// Likewise with 0x78, and add is 0.
-uint8_t fixpid_kernel_7x7_3(uint8_t x, uint8_t k) __naked
+// Likewise with 0x78, and nothing is added first.
+uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k) __naked
 {
     (void)x;
     (void)k;
@@ -50,7 +51,7 @@ uint8_t fixpid_kernel_7x7_3(uint8_t x, uint8_t k) __naked
     __asm__("return");
 }
 
-uint16_t fixpid_kernel_7x7_5(uint8_t x, uint8_t k) __naked
+uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k) __naked
 {
     (void)x;
     (void)k;
@@ -59,31 +60,6 @@ uint16_t fixpid_kernel_7x7_5(uint8_t x, uint8_t k) __naked
     MULTIPLY();
     __asm__("rlf STK03,f\n\trlf STK02,f\n\trlf STK03,f\n\trlf STK02,w");
     __asm__("movwf STK00\n\tmovlw 0\n\tbtfsc STATUS,0\n\tmovlw 1\n\treturn");
-}
-
-#else
-
-static uint8_t limited(uint16_t value)
-{
-    if (value > 127u) {
-        return 127;
-    }
-    return (uint8_t)value;
-}
-
-uint8_t fixpid_kernel_7x7_2(uint8_t up, uint8_t x, uint8_t k)
-{
-    return limited((uint16_t)((((uint32_t)x * k) + (up & 3u)) >> 2));
-}
-
-uint8_t fixpid_kernel_7x7_3(uint8_t x, uint8_t k)
-{
-    return limited((uint16_t)(((uint32_t)x * k) >> 3));
-}
-
-uint16_t fixpid_kernel_7x7_5(uint8_t x, uint8_t k)
-{
-    return (uint16_t)(((uint32_t)x * k) >> 5);
 }
 
 #endif

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What not every program needs; SDCC links whole objects.
+// Setters and getters that not every program calls. They have their own file
+// because SDCC links whole object files: firmware that calls none of them does
+// not pay for them.
 #include "fixpid_pid.h"
-#include "fixpid_pid_self.h"
+
+#include "fixpid_pid_private.h"
 
 static void limit_integral(FIXPID_DATA struct fixpid_pid *self)
 {
-    const int16_t counts = (int16_t)FIXPID_FLOOR(SELF.integral, 16);
+    const int16_t counts = (int16_t)shift_right_floor(SELF.integral, 16);
 
-    FIXPID_ASSERT(VALID(self));
     if (counts >= SELF.integral_max) {
-        SELF.integral = FIXPID_RAISED(SELF.integral_max, 16);
+        SELF.integral = shift_left(SELF.integral_max, 16);
         SELF.integral_fraction = 0;
     }
     if (counts < SELF.integral_min) {
-        SELF.integral = FIXPID_RAISED(SELF.integral_min, 16);
+        SELF.integral = shift_left(SELF.integral_min, 16);
         SELF.integral_fraction = 0;
     }
 }
@@ -21,48 +23,39 @@ static void limit_integral(FIXPID_DATA struct fixpid_pid *self)
 // What does not fit lies beyond every limit, too.
 static void set_integral(FIXPID_DATA struct fixpid_pid *self, int32_t value_q8)
 {
-    int32_t limited = value_q8;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_CLAMP(limited, -COUNTS_MAX_Q8, COUNTS_MAX_Q8);
-    SELF.integral = FIXPID_RAISED(limited, 8);
+    SELF.integral =
+        shift_left(clamp32(value_q8, -COUNTS_MAX_Q8, COUNTS_MAX_Q8), 8);
     SELF.integral_fraction = 0;
     limit_integral(self);
 }
 
 static void hold(FIXPID_DATA struct fixpid_pid *self, int16_t output)
 {
-    int16_t held = output;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_CLAMP(held, SELF.output_min, SELF.output_max);
-    SELF.integral = FIXPID_RAISED(held, 16);
+    SELF.integral =
+        shift_left(clamp32(output, SELF.output_min, SELF.output_max), 16);
 }
 
 // What the integral holds beyond the output limits is wind-up, unless the other
 // terms take it away again.
 static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
 {
-    int32_t terms; // within 2^31 - 2^15 - 2^24, so a limit is within 2^31
-    int32_t limit;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_SIGNED_PRODUCT(terms, SELF.kp, SELF.proportional_error);
-    terms += SELF.derivative;
-    limit = (int32_t)SELF.output_max - SELF.feedforward;
-    limit = FIXPID_RAISED(limit, 8);
+    // within 2^31 - 2^15 - 2^24, so that a limit is within 2^31
+    const int32_t terms =
+        mul16(SELF.kp, SELF.proportional_error) + SELF.derivative;
+    int32_t limit = (int32_t)SELF.output_max - SELF.feedforward;
+    limit = shift_left(limit, 8);
     if (terms < 0) {
         limit -= terms;
     }
-    if (FIXPID_FLOOR(SELF.integral, 8) >= limit) {
+    if (shift_right_floor(SELF.integral, 8) >= limit) {
         set_integral(self, limit);
     }
     limit = (int32_t)SELF.output_min - SELF.feedforward;
-    limit = FIXPID_RAISED(limit, 8);
+    limit = shift_left(limit, 8);
     if (terms > 0) {
         limit -= terms;
     }
-    if (FIXPID_FLOOR(SELF.integral, 8) < limit) {
+    if (shift_right_floor(SELF.integral, 8) < limit) {
         set_integral(self, limit);
     }
 }
@@ -80,7 +73,7 @@ bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
     SELF.output_min = output_min;
     SELF.output_max = output_max;
     if ((SELF.status & HELD) != 0u) {
-        hold(self, (int16_t)FIXPID_FLOOR(SELF.integral, 16));
+        hold(self, (int16_t)shift_right_floor(SELF.integral, 16));
     } else {
         drop_windup(self);
     }
@@ -94,14 +87,9 @@ bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
     if (REFUSED) {
         return false;
     }
-    if (integral_min < -INT16_MAX) {
+    if (!fixpid_pid_accept_integral_limits(self, integral_min, integral_max)) {
         return false;
     }
-    if (integral_min > integral_max) {
-        return false;
-    }
-    SELF.integral_min = integral_min;
-    SELF.integral_max = integral_max;
     if ((SELF.status & HELD) == 0u) {
         limit_integral(self);
     }
@@ -142,29 +130,29 @@ void fixpid_pid_seed(FIXPID_DATA struct fixpid_pid *self, int16_t output)
     }
 }
 
-int32_t fixpid_pid_proportional(FIXPID_DATA struct fixpid_pid *self)
+int32_t fixpid_pid_proportional(FIXPID_DATA const struct fixpid_pid *self)
 {
-    int32_t proportional;
-
     FIXPID_ASSERT(VALID(self));
-    FIXPID_SIGNED_PRODUCT(proportional, SELF.kp, SELF.proportional_error);
-    return proportional;
+    return mul16(SELF.kp, SELF.proportional_error);
 }
 
-int32_t fixpid_pid_integral(FIXPID_DATA struct fixpid_pid *self)
+int32_t fixpid_pid_integral(FIXPID_DATA const struct fixpid_pid *self)
 {
     FIXPID_ASSERT(VALID(self));
     return SELF.integral;
 }
 
-int32_t fixpid_pid_derivative(FIXPID_DATA struct fixpid_pid *self)
+int32_t fixpid_pid_derivative(FIXPID_DATA const struct fixpid_pid *self)
 {
     FIXPID_ASSERT(VALID(self));
     return SELF.derivative;
 }
 
-uint8_t fixpid_pid_status(FIXPID_DATA struct fixpid_pid *self)
+uint8_t fixpid_pid_flags(FIXPID_DATA const struct fixpid_pid *self)
 {
     FIXPID_ASSERT(VALID(self));
+    if (REFUSED) {
+        return SELF.status | FIXPID_PID_REFUSED;
+    }
     return SELF.status;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The products of AN964's 10-bit form.
-#include "fixpid_an964_pic14.h"
+#include "fixpid_an964.h"
 
-#if defined(__SDCC_pic14)
+// Nothing where another chip or no assembly is meant.
+#if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_an964_pic14.h"
 
 // The sum moves right once per bit of the second operand. In STK03 and STK04;
 // W holds the first operand. Whatever RRF drops is 0 where both bytes move, and
@@ -22,11 +23,11 @@
 
 // k in W, x in STK00 and STK01. The second label is for a sum that does not
 // start at 0.
-uint16_t fixpid_kernel_10x8_4(uint8_t k, uint16_t x) __naked
+uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x) __naked
 {
     (void)k;
     (void)x;
-    __asm__("clrf STK03\nfixpid_kernel_10x8:\n\tclrf STK04");
+    __asm__("clrf STK03\nfixpid_10x8_sum:\n\tclrf STK04");
     DROP(STK01, 0);
     DROP(STK01, 1);
     DROP(STK01, 2);
@@ -43,57 +44,35 @@ uint16_t fixpid_kernel_10x8_4(uint8_t k, uint16_t x) __naked
     __asm__("movwf STK00\n\tmovf STK03,w\n\treturn");
 }
 
-// up in STK02. The quotient of above is in STK03 and STK00, its upper byte in
-// W, too.
-uint8_t fixpid_kernel_10x8_5(uint8_t k, uint16_t x, uint8_t up) __naked
+// round_up in STK02. The quotient of above is in STK03 and STK00, its upper
+// byte in W, too.
+uint8_t fixpid_10x8_div32_byte(uint8_t k, uint16_t x, uint8_t round_up) __naked
 {
     (void)k;
     (void)x;
-    (void)up;
+    (void)round_up;
     __asm__("movwf STK04\n\tmovf STK02,w\n\tandlw 31\n\tmovwf STK03");
-    __asm__("movf STK04,w\n\tpagesel fixpid_kernel_10x8\n"
-            "\tcall fixpid_kernel_10x8\n\tpagesel $");
+    __asm__("movf STK04,w\n\tpagesel fixpid_10x8_sum\n"
+            "\tcall fixpid_10x8_sum\n\tpagesel $");
     __asm__("andlw 0xFE\n\tbtfss STATUS,2\n\tretlw 255");
     __asm__("rrf STK03,f\n\trrf STK00,w\n\treturn");
 }
 
 // x in W and STK00, k in STK01 and STK02. The sum is in STK04 and STK05; below
 // 2^15, so that the carry is 0 when it moves.
-uint16_t fixpid_kernel_14x10(uint16_t x, uint16_t k) __naked
+uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k) __naked
 {
     (void)x;
     (void)k;
     __asm__("movwf STK03\n\tclrf STK04\n\tclrf STK05");
     __asm__("movlw 10\n\tmovwf STK06");
-    __asm__("fixpid_kernel_turn:\n\trrf STK01,f\n\trrf STK02,f");
-    __asm__("btfss STATUS,0\n\tgoto fixpid_kernel_move");
+    __asm__("fixpid_14x10_turn:\n\trrf STK01,f\n\trrf STK02,f");
+    __asm__("btfss STATUS,0\n\tgoto fixpid_14x10_move");
     __asm__("movf STK00,w\n\taddwf STK05,f\n\tmovf STK03,w");
     __asm__("btfsc STATUS,0\n\tincfsz STK03,w\n\taddwf STK04,f");
-    __asm__("fixpid_kernel_move:\n\trrf STK04,f\n\trrf STK05,f");
-    __asm__("decfsz STK06,f\n\tgoto fixpid_kernel_turn");
+    __asm__("fixpid_14x10_move:\n\trrf STK04,f\n\trrf STK05,f");
+    __asm__("decfsz STK06,f\n\tgoto fixpid_14x10_turn");
     __asm__("movf STK05,w\n\tmovwf STK00\n\tmovf STK04,w\n\treturn");
-}
-
-#else
-
-uint16_t fixpid_kernel_10x8_4(uint8_t k, uint16_t x)
-{
-    return (uint16_t)(((uint32_t)x * k) >> 4);
-}
-
-uint8_t fixpid_kernel_10x8_5(uint8_t k, uint16_t x, uint8_t up)
-{
-    const uint16_t quotient = (uint16_t)((((uint32_t)x * k) + (up & 31u)) >> 5);
-
-    if (quotient > 255u) {
-        return 255;
-    }
-    return (uint8_t)quotient;
-}
-
-uint16_t fixpid_kernel_14x10(uint16_t x, uint16_t k)
-{
-    return (uint16_t)(((uint32_t)x * k) >> 10);
 }
 
 #endif

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What firmware can do without: SDCC links whole objects, so this is one of its
-// own.
+// Setters and getters that not every program calls. They have their own file
+// because SDCC links whole object files: firmware that calls none of them does
+// not pay for them.
 #include "fixpid_an937.h"
 
-#include "fixpid_an937_self.h"
+#include "fixpid_an937_arith.h"
+
+#undef OBJECT
+#ifdef FIXPID_AN937_OBJECT
+#define OBJECT FIXPID_AN937_OBJECT
+#endif
+#include "fixpid_self.h"
 
 #define STEP_FLAGS                                                             \
     (FIXPID_AN937_SUM_SATURATED | FIXPID_AN937_ACCUMULATED_ERROR_LIMITED)
@@ -61,68 +68,60 @@ int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
     return (int8_t)percent;
 }
 
-int32_t fixpid_an937_proportional(FIXPID_DATA struct fixpid_an937 *self)
-{
-    int32_t term;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_NUMBER_TERM(term, SELF.kp_q4, SELF.error, SELF.room);
-    return term;
-}
-
-int32_t fixpid_an937_integral(FIXPID_DATA struct fixpid_an937 *self)
-{
-    int32_t term;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_NUMBER_TERM(term, SELF.ki_q4, SELF.accumulated_error, SELF.room);
-    return term;
-}
-
-int32_t fixpid_an937_derivative(FIXPID_DATA struct fixpid_an937 *self)
-{
-    int32_t term;
-
-    FIXPID_ASSERT(VALID(self));
-    FIXPID_NUMBER_TERM(term, SELF.kd_q4, SELF.delta, SELF.room);
-    return term;
-}
-
-int32_t fixpid_an937_accumulated_error(FIXPID_DATA struct fixpid_an937 *self)
+int32_t fixpid_an937_proportional(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    return FIXPID_NUMBER_GET(SELF.accumulated_error);
+    return fixpid_number_term(SELF.kp_q4, &SELF.error);
 }
 
-// A macro: a function makes the status a quarter larger on a PIC18.
+int32_t fixpid_an937_integral(FIXPID_DATA const struct fixpid_an937 *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return fixpid_number_term(SELF.ki_q4, &SELF.accumulated_error);
+}
+
+int32_t fixpid_an937_derivative(FIXPID_DATA const struct fixpid_an937 *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return fixpid_number_term(SELF.kd_q4, &SELF.delta);
+}
+
+int32_t fixpid_an937_accumulated_error(
+    FIXPID_DATA const struct fixpid_an937 *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return fixpid_number_value(&SELF.accumulated_error);
+}
+
+// A macro: a function makes the registers a quarter larger on a PIC18.
 #define BIT_IF(condition, bit) ((condition) ? (bit) : 0u)
 
-uint8_t fixpid_an937_status(FIXPID_DATA struct fixpid_an937 *self)
+uint8_t fixpid_an937_stat1(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    return (uint8_t)(BIT_IF((SELF.step_flags & FIXPID_SUM_NEGATIVE) == 0u,
+    return (uint8_t)(BIT_IF((SELF.step_flags & FIXPID_AN937_SUM_NEGATIVE) == 0u,
                             FIXPID_AN937_PID_SIGN) |
                      BIT_IF(fixpid_an937_derivative(self) >= 0,
                             FIXPID_AN937_D_ERR_SIGN) |
-                     BIT_IF(SELF.previous_level >= FIXPID_LEVEL(0),
+                     BIT_IF(SELF.previous_error >= FIXPID_OFFSET_BINARY(0),
                             FIXPID_AN937_P_ERR_SIGN) |
                      BIT_IF(fixpid_an937_accumulated_error(self) >= 0,
                             FIXPID_AN937_A_ERR_SIGN) |
-                     BIT_IF(FIXPID_NUMBER_GET(SELF.error) >= 0,
+                     BIT_IF(fixpid_number_value(&SELF.error) >= 0,
                             FIXPID_AN937_ERR_SIGN) |
                      BIT_IF(fixpid_an937_accumulated_error(self) == 0,
                             FIXPID_AN937_A_ERR_ZERO) |
-                     BIT_IF(FIXPID_NUMBER_GET(SELF.error) == 0,
+                     BIT_IF(fixpid_number_value(&SELF.error) == 0,
                             FIXPID_AN937_ERR_ZERO));
 }
 
-uint8_t fixpid_an937_status2(FIXPID_DATA struct fixpid_an937 *self)
+uint8_t fixpid_an937_stat2(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    return BIT_IF(FIXPID_NUMBER_GET(SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
+    return BIT_IF(fixpid_number_value(&SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
 }
 
-uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self)
+uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
     return (
@@ -133,6 +132,6 @@ uint8_t fixpid_an937_flags(FIXPID_DATA struct fixpid_an937 *self)
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID(self));
-    SELF.step_flags &= FIXPID_SUM_NEGATIVE; // it belongs to the status
+    SELF.step_flags &= FIXPID_AN937_SUM_NEGATIVE; // for stat1
     SELF.tick_overrun = 0;
 }

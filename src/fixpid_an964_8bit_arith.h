@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The products of AN964's 8-bit form, of two magnitudes below 2^7, each with
+// the division that follows it.
+#ifndef FIXPID_AN964_8BIT_ARITH_H
+#define FIXPID_AN964_8BIT_ARITH_H
+#include <stdint.h>
+
+#include "fixpid_bits.h"
+
+// `round_up` is 0, or 0xFF where the quotient is to be rounded up: the floor of
+// a negative quotient is its magnitude rounded up.
+
+#if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
+#include "pic14/fixpid_an964_8bit_pic14.h"
+#elif defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
+#include "pic18/fixpid_an964_8bit_pic18.h"
+#elif FIXPID_MULTIPLIER_BITS < 8
+#include "fixpid_an964_8bit_narrow.h"
+#else
+
+// x * k / 4, rounded down or up, at most `limit`. pre: x, k < 2^7
+static inline uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
+                                      uint8_t limit)
+{
+    const uint16_t quotient =
+        (uint16_t)((uint16_t)(((uint16_t)x * k) + (round_up & 3u)) >> 2);
+
+    return (quotient > limit) ? limit : (uint8_t)quotient;
+}
+
+// floor(x * k / 8), at most 127. pre: x, k < 2^7
+static inline uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
+{
+    const uint16_t quotient = (uint16_t)((uint16_t)((uint16_t)x * k) >> 3);
+
+    return (quotient > 127u) ? 127u : (uint8_t)quotient;
+}
+
+// floor(x * k / 32). pre: x, k < 2^7; post: at most 504
+static inline uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
+{
+    return (uint16_t)((uint16_t)((uint16_t)x * k) >> 5);
+}
+
+#endif
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Signed 16-bit values as two's complement patterns in a uint16_t: the sign is
+// one bit to test, comparisons need no sign, and nothing can overflow.
+#ifndef FIXPID_BITS_H
+#define FIXPID_BITS_H
+#include <stdint.h>
+
+// A function that is written apart and compiled into its one caller. SDCC keeps
+// a copy of a static one that nobody calls; its pic14 port does without, and
+// its Padauk ports fail on the locals of a static one.
+#if defined(__SDCC_pic14) || defined(__SDCC_pdk13) || defined(__SDCC_pdk14) || \
+    defined(__SDCC_pdk15)
+#define FIXPID_INLINE inline
+#else
+#define FIXPID_INLINE static inline
+#endif
+
+// The widest multiplier of the chip: bits of an operand, as far as its compiler
+// tells. By it each controller chooses between its two forms of arithmetic,
+// wide and narrow; the exceptions were measured.
+#if defined(__SDCC_pic14) || defined(_PIC14) || defined(_PIC14E) ||            \
+    defined(__SDCC_pdk13) || defined(__SDCC_pdk14) || defined(__SDCC_pdk15) || \
+    defined(__SDCC_z80) || defined(__SDCC_z180) || defined(__SDCC_sm83) ||     \
+    defined(__SDCC_tlcs90) || defined(__MSP430__) ||                           \
+    (defined(__AVR__) && !defined(__AVR_HAVE_MUL__)) ||                        \
+    (defined(__riscv) && !defined(__riscv_mul))
+#define FIXPID_MULTIPLIER_BITS 0
+#elif defined(__SDCC_pic16) || defined(_PIC18) || defined(__SDCC_stm8) ||      \
+    defined(__SDCC_mcs51) || defined(__SDCC_hc08) || defined(__SDCC_s08) ||    \
+    defined(__AVR__)
+#define FIXPID_MULTIPLIER_BITS 8
+#else
+#define FIXPID_MULTIPLIER_BITS 16 // or more
+#endif
+
+#define FIXPID_SIGN_BIT 0x8000u
+
+#if defined(__SDCC_pic16)
+#include "pic18/fixpid_bits_pic18.h"
+#else
+
+// The magnitude of a negative pattern: 1..32768. Two spellings of it, because
+// SDCC negates in place what other compilers' sanitizers report as a wrap.
+#if defined(__SDCC)
+FIXPID_INLINE uint16_t fixpid_negated(uint16_t bits)
+{
+    return (uint16_t)(0u - bits);
+}
+#else
+FIXPID_INLINE uint16_t fixpid_negated(uint16_t bits)
+{
+    return (uint16_t)((uint16_t)~bits + 1u);
+}
+#endif
+
+#endif
+
+#endif

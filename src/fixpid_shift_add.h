@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The step of a multiplication by shift and add: a summand, if a bit says so.
+#ifndef FIXPID_SHIFT_ADD_H
+#define FIXPID_SHIFT_ADD_H
+#include <stdint.h>
+
+#include "fixpid_bits.h"
+
+#if defined(__SDCC)
+#include "sdcc/fixpid_shift_add_sdcc.h"
+#else
+
+// sum += x if `bit` is not 0. pre: it fits
+static inline void fixpid_add_byte_if(uint8_t *sum, uint8_t x, uint8_t bit)
+{
+    if (bit != 0u) {
+        *sum = (uint8_t)(*sum + x);
+    }
+}
+
+static inline void fixpid_add_word_if(uint16_t *sum, uint16_t x, uint8_t bit)
+{
+    if (bit != 0u) {
+        *sum = (uint16_t)(*sum + x);
+    }
+}
+
+#endif
+
+#endif

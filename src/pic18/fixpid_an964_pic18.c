@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_an964.h"
+
+// Nothing where another chip or no assembly is meant.
+#if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_an964_pic18.h"
+
+#define PRODH 0xFF4
+#define PRODL 0xFF3
+#define STATUS 0xFD8
+
+FIXPID_DATA struct fixpid_an964_operands fixpid_an964_operands;
+
+// Where the members lie.
+#define X _fixpid_an964_operands
+#define K _fixpid_an964_operands + 2
+#define QUOTIENT _fixpid_an964_operands + 4
+#define ROUND_UP _fixpid_an964_operands + 6
+#define LIMIT _fixpid_an964_operands + 7
+
+// clang-format off
+
+// x * k has 18 bits, in QUOTIENT + 1, QUOTIENT and PRODL; then every nibble moves
+// one place.
+void fixpid_an964_divide_16(void) __naked
+{
+    __asm
+    rcall   fixpid_an964_multiply
+    swapf   PRODL, w, a
+    andlw   0x0F
+    movwf   PRODL, a
+    swapf   QUOTIENT, w, b
+    movwf   QUOTIENT, b
+    andlw   0xF0
+    iorwf   PRODL, w, a
+    movwf   PRODL, a
+    movlw   0x0F
+    andwf   QUOTIENT, f, b
+    swapf   QUOTIENT + 1, w, b
+    iorwf   QUOTIENT, w, b
+    movwf   QUOTIENT + 1, b
+    movff   PRODL, QUOTIENT
+    return
+fixpid_an964_multiply:
+    banksel X
+    movf    K, w, b
+    mulwf   X + 1, b
+    movff   PRODL, QUOTIENT
+    movff   PRODH, QUOTIENT + 1
+    mulwf   X, b
+    movf    PRODH, w, a
+    addwf   QUOTIENT, f, b
+    movlw   0
+    addwfc  QUOTIENT + 1, f, b
+    return
+    __endasm;
+}
+
+// After three moves to the left the quotient is in the upper two bytes. What the
+// carry brings in stays in the lowest.
+void fixpid_an964_divide_32(void) __naked
+{
+    __asm
+    rcall   fixpid_an964_multiply
+    movf    ROUND_UP, w, b
+    andlw   31
+    addwf   PRODL, f, a
+    movlw   0
+    addwfc  QUOTIENT, f, b
+    addwfc  QUOTIENT + 1, f, b
+    rlcf    PRODL, f, a
+    rlcf    QUOTIENT, f, b
+    rlcf    QUOTIENT + 1, f, b
+    rlcf    PRODL, f, a
+    rlcf    QUOTIENT, f, b
+    rlcf    QUOTIENT + 1, f, b
+    rlcf    PRODL, f, a
+    rlcf    QUOTIENT, f, b
+    rlcf    QUOTIENT + 1, f, b
+    movf    LIMIT, w, b
+    tstfsz  QUOTIENT + 1, b
+    bra     fixpid_an964_limited
+    cpfsgt  QUOTIENT, b
+    return
+fixpid_an964_limited:
+    movwf   QUOTIENT, b
+    return
+    __endasm;
+}
+
+// Of x * k, 24 bits, the upper 14; the lowest byte of the products counts for
+// nothing.
+void fixpid_an964_divide_1024(void) __naked
+{
+    __asm
+    banksel X
+    movf    K, w, b
+    mulwf   X, b
+    movff   PRODH, QUOTIENT
+    mulwf   X + 1, b
+    movff   PRODH, QUOTIENT + 1
+    movf    PRODL, w, a
+    addwf   QUOTIENT, f, b
+    movlw   0
+    addwfc  QUOTIENT + 1, f, b
+    movf    K + 1, w, b
+    mulwf   X, b
+    movf    PRODL, w, a
+    addwf   QUOTIENT, f, b
+    movf    PRODH, w, a
+    addwfc  QUOTIENT + 1, f, b
+    movf    K + 1, w, b
+    mulwf   X + 1, b
+    movf    PRODL, w, a
+    addwf   QUOTIENT + 1, f, b
+    bcf     STATUS, 0, a
+    rrcf    QUOTIENT + 1, f, b
+    rrcf    QUOTIENT, f, b
+    bcf     STATUS, 0, a
+    rrcf    QUOTIENT + 1, f, b
+    rrcf    QUOTIENT, f, b
+    return
+    __endasm;
+}
+
+// clang-format on
+
+#endif
