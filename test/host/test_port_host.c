@@ -7,8 +7,9 @@
 #include "unity.h"
 #include "world.h"
 
-TEST_SOURCE_FILE("port/host/port_host.c")
-TEST_INCLUDE_PATH("port/host")
+TEST_SOURCE_FILE("sim/host/port_host.c")
+TEST_INCLUDE_PATH("sim/host")
+TEST_INCLUDE_PATH("sim/world")
 TEST_INCLUDE_PATH("port/pic/pic16f684")
 
 static double now_s, voltage, drive;

@@ -143,7 +143,7 @@ documents.each do |path|
   check_named_tests(path, new_text, tests)
   check_sums(path, new_text)
 end
-Dir['{src,include,port,examples,test}/**/*.[ch]'].each do |path|
+Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
 lines = File.readlines('examples/quick_start.c').size

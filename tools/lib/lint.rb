@@ -14,7 +14,7 @@ COMPLEXITY_MAX = 8
 # The include path and the definitions that a source is compiled with: those of
 # its board, or of both boards in turn.
 def includes(file)
-  base = %w[-Iinclude -Isrc -Iport -Iport/host -Iport/gpsim]
+  base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/gpsim]
   return [base] if file.start_with?('src/', 'include/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys
@@ -120,8 +120,9 @@ end
 
 FileUtils.mkdir_p('build/cppcheck')
 library = Dir['src/*.c'].sort
-# SDCC compiles the support files, the co-simulation the rest that is left out.
-programs = Dir['{port,examples,tools/probe}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/chip\.c})
+# SDCC compiles the support files, the co-simulation those of chips, and the
+# comparisons of tools/demo are programs for a PC.
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/chip\.c})
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_leaves(file) }
 (library + programs).each { |file| tidy(file) }
@@ -129,7 +130,7 @@ library.each { |file| modes_and_leaves(file) }
   misra('src', library, mode + ["-DFIXPID_PRODUCT=#{leaf}"])
 end
 programs.group_by { |file| File.dirname(file) }.each do |directory, files|
-  misra(directory, files, directory.start_with?('tools/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : [])
+  misra(directory, files, directory.start_with?('sim/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : [])
 end
 shape(library + programs)
 single_conditions(library)
