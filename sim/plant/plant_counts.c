@@ -13,7 +13,8 @@ static int noise(struct motion *self)
     const uint32_t range = 2u * (uint32_t)self->plant->noise_counts + 1u;
 
     self->noise = self->noise * UINT32_C(1664525) + UINT32_C(1013904223);
-    return (int)((self->noise >> 16) % range) - self->plant->noise_counts;
+    const uint32_t drawn = (self->noise >> 16) % range;
+    return (int)drawn - self->plant->noise_counts;
 }
 
 int16_t motion_read(struct motion *self)
