@@ -6,7 +6,8 @@ require 'open3'
 
 STRICT = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
             -Wundef -Wstrict-prototypes -Wmissing-prototypes -Wredundant-decls -Werror].freeze
-OBJECT_MODE = %w[AN937 AN964 AN964_8BIT PID AUTOTUNE].map { |name| "-DFIXPID_#{name}_OBJECT=#{name.downcase}_controller" }.freeze
+OBJECT_MODE = Dir['include/fixpid_*.h'].sort.map { |header| File.basename(header, '.h') }
+                                       .map { |noun| "-D#{noun.upcase}_OBJECT=#{noun.delete_prefix('fixpid_')}_controller" }.freeze
 BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|autotune/ }.freeze
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
@@ -119,7 +120,7 @@ def single_conditions(files)
 end
 
 FileUtils.mkdir_p('build/cppcheck')
-library = Dir['src/*.c'].sort
+library = Dir['src/**/*.c'].sort
 # SDCC compiles the support files, the co-simulation those of chips, and the
 # comparisons of tools/demo are programs for a PC.
 programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/chip\.c})
