@@ -49,7 +49,7 @@ module Facts
     # The word, if it names a file, a function or a macro that does not exist. In
     # a name `...`, `*`, capitals and a single x, as in fixpid_x.h, are any part.
     def name(word)
-      pattern = word.delete_prefix('-:').delete_prefix('+:').gsub('...', '*').gsub(/[A-Z]{4,}|(?<=_)x(?=[_.])/, '*')
+      pattern = word.delete_prefix('-:').delete_prefix('+:').gsub('...', '*').gsub(/[A-Z]{4,}|(?<=_)x(?=[_.*])/, '*')
       macro = word[/FIXPID_\w+(?<!_)/]
       known = if ELSEWHERE.key?(word) then true
               elsif macro then identifiers.include?(macro)
