@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole hardware an application sees: a timer tick, an A/D converter and a
-// drive with a sign. Six functions, bound by the linker: one application, one
-// port. Nothing here knows a controller.
+// drive with a sign. Seven functions, bound by the linker: one application, one
+// port. Nothing here knows a controller. template/ is a port to fill in.
 //
 // A port's folder supplies port_board.h with what its board fixes:
 //   PORT_TICKS_PER_SECOND  the nominal tick rate
@@ -25,13 +25,20 @@ void port_init(void);
 bool port_running(void);
 #endif
 
-// Timer ticks since the last call to this or to port_wait_tick, saturating at
+// Timer ticks since the last call to this or to one that waits, saturating at
 // 255; 0 if there was none. Feeds the watchdog when there was one.
 uint8_t port_ticks(void);
 
 // The same, but waits for a tick: at least 1. More than 1 says that the loop
 // takes longer than a tick.
 uint8_t port_wait_tick(void);
+
+// The same, but waits until n have come since the last call to one of the
+// three: n..255, saturating at 255; 0 is taken for 1. Feeds the watchdog as
+// ticks come, so a wait may be longer than the watchdog's time. For a loop that
+// runs once in n ticks, however long it takes. The same for every port, in
+// port_wait_ticks.c: a source for those applications that call it.
+uint8_t port_wait_ticks(uint8_t n);
 
 // One conversion of a channel, 0..1023 over the converter's reference.
 uint16_t port_read(uint8_t channel);

@@ -5,12 +5,14 @@
 #include "fixpid_pid.h"
 #include "port.h"
 
+#include "../oven_sensor.h"
+
 // The rule that makes gains of the experiment, an enum fixpid_autotune_rule.
 #ifndef AUTOTUNE_RULE
 #define AUTOTUNE_RULE FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID
 #endif
 
-#define CONTROL_PERIOD_MS 100u
+#define CONTROL_PERIOD_TICKS 100u
 
 // The heater of the experiment is off or at 30 %, which leaves the 15 % that
 // the setpoint needs in the middle.
@@ -33,16 +35,6 @@ FIXPID_DATA struct fixpid_autotune tuner;
 // its EEPROM and not tune again. All 0 before, and after a failure.
 // Deviation 8.4: found by its name.
 struct fixpid_pid_gains tuned_gains;
-
-// Four conversions, added, average their noise: 1/16 of a degree.
-static int16_t temperature(void)
-{
-    uint16_t sum = 0;
-    for (uint8_t i = 0; i < 4u; i++) {
-        sum = (uint16_t)(sum + port_read(PORT_TEMPERATURE));
-    }
-    return (int16_t)sum;
-}
 
 // A controller without gains: its output is 0, and stays so after a failure.
 static void start(void)
@@ -86,7 +78,7 @@ static bool experiment_is(enum fixpid_autotune_status status)
 
 static void control(void)
 {
-    const int16_t setpoint = (int16_t)(port_read(PORT_SETPOINT) * 4u);
+    const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
 
     if (experiment_is(FIXPID_AUTOTUNE_RUNNING)) {
@@ -99,26 +91,13 @@ static void control(void)
     }
 }
 
-static bool control_is_due(uint8_t ticks_ms)
-{
-    static uint16_t waited_ms = 0;
-
-    waited_ms = (uint16_t)(waited_ms + ticks_ms);
-    if (waited_ms < CONTROL_PERIOD_MS) {
-        return false;
-    }
-    waited_ms = (uint16_t)(waited_ms - CONTROL_PERIOD_MS);
-    return true;
-}
-
 int main(void)
 {
     port_init();
     start();
     while (port_running()) {
-        if (control_is_due(port_wait_tick())) {
-            control();
-        }
+        (void)port_wait_ticks(CONTROL_PERIOD_TICKS);
+        control();
     }
     return 0;
 }

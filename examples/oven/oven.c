@@ -4,6 +4,8 @@
 #include "fixpid_an937.h"
 #include "port.h"
 
+#include "../oven_sensor.h"
+
 // The gains x 16, each 0..255.
 #ifndef OVEN_KP_Q4
 #define OVEN_KP_Q4 136
@@ -40,16 +42,11 @@
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an937 oven;
 
-// Four times the difference in counts: 1023 counts are the note's 4000. The
-// four conversions of the temperature average their noise.
+// Four times the difference in counts: 1023 counts are the note's 4000.
 static int16_t temperature_error(void)
 {
-    const int16_t setpoint = (int16_t)port_read(PORT_SETPOINT);
-    int16_t sum = 0;
-    for (uint8_t i = 0; i < 4u; i++) {
-        sum = (int16_t)(sum + setpoint - (int16_t)port_read(PORT_TEMPERATURE));
-    }
-    return sum;
+    const int16_t setpoint = set_temperature();
+    return (int16_t)(setpoint - temperature());
 }
 
 // A heater cannot cool: 0..PORT_DRIVE_FULL.
@@ -64,16 +61,15 @@ static int16_t heater_duty(int32_t output)
     return (int16_t)(output / OUTPUT_PER_DUTY);
 }
 
+// At most one control tick: 255 ms are less than its period.
 static void count_milliseconds(uint8_t ticks)
 {
     static uint16_t waited_ms = 0;
 
-    for (uint8_t i = 0; i < ticks; i++) {
-        waited_ms++;
-        if (waited_ms == CONTROL_TICK_MS) {
-            waited_ms = 0;
-            fixpid_an937_tick(&oven);
-        }
+    waited_ms = (uint16_t)(waited_ms + ticks);
+    if (waited_ms >= CONTROL_TICK_MS) {
+        waited_ms = (uint16_t)(waited_ms - CONTROL_TICK_MS);
+        fixpid_an937_tick(&oven);
     }
 }
 

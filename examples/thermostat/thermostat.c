@@ -5,7 +5,9 @@
 #include "fixpid_pid.h"
 #include "port.h"
 
-#define CONTROL_PERIOD_MS 100u
+#include "../oven_sensor.h"
+
+#define CONTROL_PERIOD_TICKS 100u
 #define STEPS_PER_SECOND 10.0
 
 // Duty counts per count of temperature, of which a degree has 16.
@@ -66,33 +68,11 @@ static void follow_selector(void)
     last = now;
 }
 
-// Four conversions, added, average their noise: 1/16 of a degree.
-static int16_t temperature(void)
-{
-    uint16_t sum = 0;
-    for (uint8_t i = 0; i < 4u; i++) {
-        sum = (uint16_t)(sum + port_read(PORT_TEMPERATURE));
-    }
-    return (int16_t)sum;
-}
-
 static void control(void)
 {
     follow_selector();
-    const int16_t setpoint = (int16_t)(port_read(PORT_SETPOINT) * 4u);
+    const int16_t setpoint = set_temperature();
     port_drive(fixpid_pid_step(&thermostat, setpoint, temperature()));
-}
-
-static bool control_is_due(uint8_t ticks_ms)
-{
-    static uint16_t waited_ms = 0;
-
-    waited_ms = (uint16_t)(waited_ms + ticks_ms);
-    if (waited_ms < CONTROL_PERIOD_MS) {
-        return false;
-    }
-    waited_ms = (uint16_t)(waited_ms - CONTROL_PERIOD_MS);
-    return true;
 }
 
 int main(void)
@@ -114,9 +94,8 @@ int main(void)
     (void)fixpid_pid_init(&thermostat, &config);
     fixpid_pid_set_manual(&thermostat, 0);
     while (port_running()) {
-        if (control_is_due(port_wait_tick())) {
-            control();
-        }
+        (void)port_wait_ticks(CONTROL_PERIOD_TICKS);
+        control();
     }
     return 0;
 }

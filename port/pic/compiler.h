@@ -48,7 +48,6 @@
 #else
 #define PORT_REGISTER(address, name) extern volatile uint8_t name
 #define PORT_BITS(address, type, name) extern volatile type name
-#define PORT_AT(address)
 #define PORT_BYTE(address, name) static volatile uint8_t name
 #define PORT_CLEAR_WATCHDOG() ((void)0)
 #define PORT_TICK_INTERRUPT()                                                  \

@@ -10,11 +10,11 @@
 #include "plant_pendulum.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("port/host/plant.c")
-TEST_SOURCE_FILE("port/host/plant_motor.c")
-TEST_SOURCE_FILE("port/host/plant_oven.c")
-TEST_SOURCE_FILE("port/host/plant_pendulum.c")
-TEST_INCLUDE_PATH("port/host")
+TEST_SOURCE_FILE("sim/plant/plant.c")
+TEST_SOURCE_FILE("sim/plant/plant_motor.c")
+TEST_SOURCE_FILE("sim/plant/plant_oven.c")
+TEST_SOURCE_FILE("sim/plant/plant_pendulum.c")
+TEST_INCLUDE_PATH("sim/plant")
 
 static struct pendulum pendulum;
 static struct motor motor;

@@ -7,8 +7,10 @@
 #include "unity.h"
 #include "world.h"
 
-TEST_SOURCE_FILE("port/host/port_host.c")
-TEST_INCLUDE_PATH("port/host")
+TEST_SOURCE_FILE("port/port_wait_ticks.c")
+TEST_SOURCE_FILE("sim/host/port_host.c")
+TEST_INCLUDE_PATH("sim/host")
+TEST_INCLUDE_PATH("sim/world")
 TEST_INCLUDE_PATH("port/pic/pic16f684")
 
 static double now_s, voltage, drive;
@@ -93,6 +95,40 @@ void test_port_wait_tick_after_a_long_turn_counts_what_was_missed(void)
     world_advance(3.5 / 256.0);
     TEST_ASSERT_EQUAL_UINT8(3, port_wait_tick());
     TEST_ASSERT_EQUAL_UINT8(1, port_wait_tick());
+}
+
+void test_port_wait_ticks_returns_with_the_last_of_them(void)
+{
+    static const uint8_t waits[] = {1, 2, 100, 255};
+    double last_s = 0.0;
+
+    for (int i = 0; i < 4; i++) {
+        last_s += waits[i] / 256.0;
+        TEST_ASSERT_EQUAL_UINT8(waits[i], port_wait_ticks(waits[i]));
+        TEST_ASSERT_TRUE(now_s > last_s - 1e-6 && now_s < last_s + 1e-4);
+    }
+}
+
+void test_port_wait_ticks_0_waits_for_one(void)
+{
+    TEST_ASSERT_EQUAL_UINT8(1, port_wait_ticks(0));
+    TEST_ASSERT_TRUE(now_s > 1.0 / 256.0 - 1e-6);
+}
+
+void test_port_wait_ticks_counts_from_the_last_ones_taken(void)
+{
+    world_advance(3.5 / 256.0);
+    TEST_ASSERT_EQUAL_UINT8(4, port_wait_ticks(4));
+    TEST_ASSERT_TRUE(now_s < 4.1 / 256.0);
+    world_advance(7.0 / 256.0);
+    TEST_ASSERT_EQUAL_UINT8(7, port_wait_ticks(4));
+}
+
+void test_port_wait_ticks_saturates_at_255(void)
+{
+    world_advance(300.0 / 256.0);
+    TEST_ASSERT_EQUAL_UINT8(255, port_wait_ticks(3));
+    TEST_ASSERT_EQUAL_UINT8(1, port_wait_ticks(1));
 }
 
 void test_port_ticks_counts_and_does_not_wait(void)

@@ -5,7 +5,8 @@
 // 0 gives the turn to the harness, which sets it to 1 when it has asked.
 volatile uint8_t turn;
 
-// Which function: 'r'ead, 'd'rive, 't'icks or 'w'ait_tick.
+// Which function: 'r'ead, 'd'rive, 't'icks, 'w'ait_tick or, with the number of
+// them in `channel`, wait_ticks 'n'.
 volatile uint8_t call;
 volatile uint8_t channel;
 volatile uint16_t reading;
@@ -25,6 +26,8 @@ void main(void)
             port_drive(duty);
         } else if (call == (uint8_t)'t') {
             ticks_told = port_ticks();
+        } else if (call == (uint8_t)'n') {
+            ticks_told = port_wait_ticks(channel);
         } else {
             ticks_told = port_wait_tick();
         }

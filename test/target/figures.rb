@@ -5,12 +5,13 @@
 #
 # Fails if the document says something else; with --update it is rewritten.
 require 'json'
+require_relative '../../tools/lib/cost/subjects'
 
-CONTROLLERS = { 'an937' => 'AN937', 'an964' => 'AN964', 'an964_8bit' => 'AN964 8-bit', 'pid' => 'PID' }.freeze
-NOT_FOR_PIC14 = %w[an937 pid].freeze
-CHIPS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
+TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
+NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(&:name).freeze
+PROCESSORS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
+POINTER_AND_OBJECT = MODES.reverse.freeze
 MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3' }.freeze
-MODES = %w[pointer object].freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000 }.freeze
 
@@ -63,35 +64,35 @@ end
 def on_chip(controller, chip)
   return 'not meant for it' if NOT_FOR_PIC14.include?(controller) && chip == 'pic16f684'
 
-  exact_cell(MODES.map { |mode| "replay-#{controller}-#{chip}-#{mode}" }, /rows .* cycles/)
+  exact_cell(POINTER_AND_OBJECT.map { |mode| "replay-#{controller}-#{chip}-#{mode}" }, /rows .* cycles/)
 end
 
 # A digest that is not the host's is what cmp reports.
 def on_machine(controller, machine)
-  names = MODES.map { |mode| "machine-#{machine}-#{mode}" }
+  names = POINTER_AND_OBJECT.map { |mode| "machine-#{machine}-#{mode}" }
   names.each { |name| abort "figures: #{name} is not what the host computes" if LOGS.read(name).match?(/differ:|EOF on/) }
   exact_cell(names, /^#{controller} .*$/)
 end
 
 def exact
-  rows = CHIPS.map { |chip, name| [name] + CONTROLLERS.keys.map { |controller| on_chip(controller, chip) } }
+  rows = PROCESSORS.map { |chip, name| [name] + TITLES.keys.map { |controller| on_chip(controller, chip) } }
   rows += MACHINES.map do |machine, name|
-    [name] + CONTROLLERS.keys.map { |controller| on_machine(controller, machine) }
+    [name] + TITLES.keys.map { |controller| on_machine(controller, machine) }
   end
-  table(['', *CONTROLLERS.values], rows)
+  table(['', *TITLES.values], rows)
 end
 
 def pairs
-  CHIPS.keys.product(CONTROLLERS.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
+  PROCESSORS.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
 def interrupts
   rows = pairs.map do |chip, controller|
     good = LOGS.numbers("interrupts_tick-#{controller}-#{chip}-object", /interrupts .*/).to_h
     racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
-    ["#{CHIPS[chip]} #{CONTROLLERS[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
+    ["#{PROCESSORS[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
-  rows += MODES.map do |mode|
+  rows += POINTER_AND_OBJECT.map do |mode|
     ticking = LOGS.numbers("interrupts_ticking-an937-pic18f4520-#{mode}", /interrupts .*/).to_h
     ["PIC18 AN937, `fixpid_an937_tick` in the interrupt, #{mode} mode", ticking['interrupts'], '-',
      ticking['changed'], '-']

@@ -88,7 +88,7 @@ class Port
     bool run();
 
   private:
-    void call(char function);
+    void call(char function, uint64_t most = turn_most);
     void drive(int duty);
     unsigned duty_counts() const;
     bool reverse() const;
@@ -98,6 +98,7 @@ class Port
 
     void off_after_reset();
     void tick_period();
+    void waits();
     void late_interrupts();
     void readings();
     void duties();
@@ -170,11 +171,11 @@ void Port::wrong(const char *format, ...)
 }
 
 // The chip's turn, until it ends.
-void Port::call(char function)
+void Port::call(char function, uint64_t most)
 {
     chip.poke(chip.data("call"), static_cast<unsigned char>(function));
     chip.poke(chip.data("turn"), 1);
-    chip.run(turn_most);
+    chip.run(most);
     if (chip.stopped() != Stop::requested) {
         throw ChipError(
             std::string("port function ") + function + ": " +
@@ -280,6 +281,25 @@ void Port::tick_period()
         wrong("an interrupt takes %" PRIu64 " cycles, %" PRIu64 " expected",
               interrupt->most, board.interrupt_cycles);
     }
+}
+
+// A wait for many ticks ends with the last of them, and the watchdog, whose
+// time is shorter than the longest, stays quiet.
+void Port::waits()
+{
+    for (const unsigned wanted : {0u, 1u, 2u, 100u, ticks_most}) {
+        const unsigned least = std::max(wanted, 1u);
+
+        call('w'); // just after a tick
+        ticks = 0;
+        chip.poke(chip.data("channel"), wanted);
+        call('n', (least + 2) * turn_most);
+        if (ticks != least || chip.peek(chip.data("ticks_told")) != least) {
+            wrong("a wait for %u ticks took %" PRIu64 " and told %u", wanted,
+                  ticks, chip.peek(chip.data("ticks_told")));
+        }
+    }
+    std::printf("waits end with their last tick\n");
 }
 
 // An application may mask the interrupt: that tick is late and the next is not.
@@ -466,6 +486,7 @@ bool Port::run()
 {
     off_after_reset();
     tick_period();
+    waits();
     late_interrupts();
     readings();
     duties();

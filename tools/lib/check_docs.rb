@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Checks what the documents say: parts that are made from the code, code blocks
-# and what they print, tests they name, links, and sums that are written out, in
-# comments of the code too. With --update it renews the parts first.
+# and what they print, files, functions and tests that they name, links, sums that
+# are written out, in comments of the code too; and that CMake's list of sources
+# and the version agree with what is there. With --update it renews the parts first.
 require 'fileutils'
 require 'open3'
 require_relative 'docs/code_blocks'
+require_relative 'docs/facts'
 
 @failures = []
 
@@ -17,7 +19,7 @@ def quick_start_output
   FileUtils.mkdir_p('build/test')
   program = 'build/test/quick_start'
   output, status = Open3.capture2e('cc', '-std=c99', '-Wall', '-Wextra', '-Werror', '-Iinclude',
-                                   *Dir['src/*.c'], 'examples/quick_start.c', '-o', program)
+                                   *Dir['src/**/*.c'], 'examples/quick_start.c', '-o', program)
   abort output unless status.success?
   output, status = Open3.capture2e(program)
   abort "#{program} failed" unless status.success?
@@ -143,9 +145,10 @@ documents.each do |path|
   check_named_tests(path, new_text, tests)
   check_sums(path, new_text)
 end
-Dir['{src,include,port,examples,test}/**/*.[ch]'].each do |path|
+Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
+@failures.concat(Facts.failures)
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 20
 puts @failures

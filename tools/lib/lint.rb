@@ -6,7 +6,8 @@ require 'open3'
 
 STRICT = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
             -Wundef -Wstrict-prototypes -Wmissing-prototypes -Wredundant-decls -Werror].freeze
-OBJECT_MODE = %w[AN937 AN964 AN964_8BIT PID AUTOTUNE].map { |name| "-DFIXPID_#{name}_OBJECT=#{name.downcase}_controller" }.freeze
+OBJECT_MODE = Dir['include/fixpid_*.h'].sort.map { |header| File.basename(header, '.h') }
+                                       .map { |noun| "-D#{noun.upcase}_OBJECT=#{noun.delete_prefix('fixpid_')}_controller" }.freeze
 BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|autotune/ }.freeze
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
@@ -14,7 +15,7 @@ COMPLEXITY_MAX = 8
 # The include path and the definitions that a source is compiled with: those of
 # its board, or of both boards in turn.
 def includes(file)
-  base = %w[-Iinclude -Isrc -Iport -Iport/host -Iport/gpsim]
+  base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/gpsim]
   return [base] if file.start_with?('src/', 'include/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys
@@ -119,9 +120,10 @@ def single_conditions(files)
 end
 
 FileUtils.mkdir_p('build/cppcheck')
-library = Dir['src/*.c'].sort
-# SDCC compiles the support files, the co-simulation the rest that is left out.
-programs = Dir['{port,examples,tools/probe}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/chip\.c})
+library = Dir['src/**/*.c'].sort
+# SDCC compiles the support files, the co-simulation those of chips, and the
+# comparisons of tools/demo are programs for a PC.
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/chip\.c})
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_leaves(file) }
 (library + programs).each { |file| tidy(file) }
@@ -129,7 +131,7 @@ library.each { |file| modes_and_leaves(file) }
   misra('src', library, mode + ["-DFIXPID_PRODUCT=#{leaf}"])
 end
 programs.group_by { |file| File.dirname(file) }.each do |directory, files|
-  misra(directory, files, directory.start_with?('tools/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : [])
+  misra(directory, files, directory.start_with?('sim/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : [])
 end
 shape(library + programs)
 single_conditions(library)

@@ -64,7 +64,9 @@ module Host
 
     def setup(root)
       @root = root
-      @programs = "#{root}/build/host-examples/examples"
+      build = "#{root}/build/host-examples"
+      @programs = "#{build}/examples"
+      @comparisons = "#{build}/sim"
       @folder = "#{root}/build/demo"
     end
 
@@ -97,7 +99,7 @@ module Host
     # What a program prints, kept as build/demo/<name>; its path.
     def print(program, name, *arguments)
       path = "#{folder}/#{name}"
-      execute({}, "#{@programs}/#{program}", *arguments, { out: path })
+      execute({}, "#{@comparisons}/#{program}", *arguments, { out: path })
       path
     end
 

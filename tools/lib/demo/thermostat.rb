@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The scenario of port/host/world_oven.c, in seconds.
+# The scenario of sim/world/world_oven.c, in seconds.
 Stretch = Struct.new(:from, :to, :title)
 
 MANUAL = Stretch.new(20.0, 35.0, 'manual, 10 %')

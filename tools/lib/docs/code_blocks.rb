@@ -53,7 +53,7 @@ class CodeBlocks
   end
 
   def run(code, failures)
-    complaint = compile(code, '-Isrc', *Dir['src/*.c'], '-o', name)
+    complaint = compile(code, '-Isrc', *Dir['src/**/*.c'], '-o', name)
     if complaint
       failures << "#{@path}, code block #{@number}:\n#{complaint}"
       return nil

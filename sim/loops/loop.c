@@ -23,21 +23,21 @@ struct fixpid_pid_config loop_config(const struct law_gains *gains,
     };
 }
 
-void loop_start(struct loop *self, const struct plant *plant, bool fixed,
+void loop_start(struct loop *self, const struct trial *trial, bool fixed,
                 enum law_without without)
 {
     const struct fixpid_pid_config config =
-        loop_config(&plant->gains, plant->setpoint_weight, plant->output_min,
-                    plant->output_max);
+        loop_config(&trial->gains, trial->setpoint_weight, trial->output_min,
+                    trial->output_max);
 
     self->fixed = fixed;
     if (!fixpid_pid_init(&self->pid, &config)) {
-        (void)fprintf(stderr, "%s: refused\n", plant->name);
+        (void)fprintf(stderr, "%s: refused\n", trial->plant.name);
         exit(EXIT_FAILURE);
     }
-    law_init(&self->law, without, &plant->gains, plant->setpoint_weight,
-             plant->output_min, plant->output_max);
-    motion_start(&self->motion, plant);
+    law_init(&self->law, without, &trial->gains, trial->setpoint_weight,
+             trial->output_min, trial->output_max);
+    motion_start(&self->motion, &trial->plant);
     self->output = 0.0;
 }
 

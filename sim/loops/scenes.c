@@ -17,8 +17,8 @@ struct event {
 struct scene {
     const char *name;
     enum law_without without;
-    int plant;
-    struct law_gains gains; // all 0: the plant's own
+    int trial;
+    struct law_gains gains; // all 0: the trial's own
     double setpoint_weight; // with those gains
     int steps;
     struct event events[EVENTS_MAX]; // the first is the setpoint at step 0
@@ -28,13 +28,13 @@ struct scene {
 static const struct scene scenes[] = {
     {.name = "windup",
      .without = LAW_NO_ANTI_WINDUP,
-     .plant = 0,
+     .trial = 0,
      .steps = 400,
      .events = {{0, SETPOINT, 700.0}},
      .event_count = 1},
     {.name = "sign_blind",
      .without = LAW_SIGN_BLIND,
-     .plant = 0,
+     .trial = 0,
      .gains = {0.5, 0.02, 0.0, 0},
      .setpoint_weight = 0.7,
      .steps = 900,
@@ -44,19 +44,19 @@ static const struct scene scenes[] = {
      .event_count = 3},
     {.name = "clamped",
      .without = LAW_INTEGRAL_CLAMPED,
-     .plant = 4,
+     .trial = 4,
      .steps = 9000,
      .events = {{0, SETPOINT, 600.0}},
      .event_count = 1},
     {.name = "kick",
      .without = LAW_DERIVATIVE_ON_ERROR,
-     .plant = 1,
+     .trial = 1,
      .steps = 500,
      .events = {{0, SETPOINT, 400.0}, {300, SETPOINT, 440.0}},
      .event_count = 2},
     {.name = "eight_bits",
      .without = LAW_EIGHT_FRACTIONAL_BITS,
-     .plant = 4,
+     .trial = 4,
      .gains = {2.0, 0.0015, 0.0, 0},
      .setpoint_weight = 1.0,
      .steps = 9000,
@@ -64,7 +64,7 @@ static const struct scene scenes[] = {
      .event_count = 1},
     {.name = "no_seed",
      .without = LAW_NO_SEED,
-     .plant = 0,
+     .trial = 0,
      .steps = 800,
      .events = {{0, SETPOINT, 700.0}, {300, MANUAL, 120.0}, {450, AUTO, 0.0}},
      .event_count = 3},
@@ -89,14 +89,14 @@ static void happen(struct loop *loop, const struct event *event,
     }
 }
 
-static void print_steps(const struct scene *scene, const struct plant *plant)
+static void print_steps(const struct scene *scene, const struct trial *trial)
 {
     struct loop loops[3];
     double setpoint = 0.0;
 
-    loop_start(&loops[0], plant, true, LAW_WHOLE);
-    loop_start(&loops[1], plant, false, LAW_WHOLE);
-    loop_start(&loops[2], plant, false, scene->without);
+    loop_start(&loops[0], trial, true, LAW_WHOLE);
+    loop_start(&loops[1], trial, false, LAW_WHOLE);
+    loop_start(&loops[2], trial, false, scene->without);
     (void)printf("step,setpoint,fixpid,fixpid_output,law,law_output,"
                  "without,without_output\n");
     for (int step = 0; step < scene->steps; step++) {
@@ -121,12 +121,12 @@ bool print_scene(const char *name)
 {
     for (size_t i = 0; i < sizeof(scenes) / sizeof(scenes[0]); i++) {
         if (strcmp(scenes[i].name, name) == 0) {
-            struct plant plant = plants[scenes[i].plant];
+            struct trial trial = trials[scenes[i].trial];
             if (scenes[i].gains.kp > 0.0) {
-                plant.gains = scenes[i].gains;
-                plant.setpoint_weight = scenes[i].setpoint_weight;
+                trial.gains = scenes[i].gains;
+                trial.setpoint_weight = scenes[i].setpoint_weight;
             }
-            print_steps(&scenes[i], &plant);
+            print_steps(&scenes[i], &trial);
             return true;
         }
     }

@@ -54,8 +54,8 @@ uint32_t seed = 1;
 FILE *trace = nullptr;
 double trace_period_s = tick_s;
 
-// The loop of the application: from the return of COSIM_WAIT, which is
-// port_wait_tick or port_ticks, to its next call.
+// The loop of the application: from the return of COSIM_WAIT, which is the
+// port's function that it calls for ticks, to its next call.
 struct Pass {
     bool begun = false;
     double ready_s = -1.0; // when the first of them was called

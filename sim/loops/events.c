@@ -38,7 +38,7 @@ static void watch(struct loop *loop, const char *event)
 static void change_gains(struct loop *loop)
 {
     const struct fixpid_pid_gains gains =
-        loop_config(&plants[0].gains, 1.0, 0.0, 255.0).gains;
+        loop_config(&trials[0].gains, 1.0, 0.0, 255.0).gains;
     struct fixpid_pid_gains other = gains;
 
     other.ki_q24 *= 4u;
@@ -112,7 +112,7 @@ void print_bumps(void)
     struct loop loop;
 
     (void)printf("event;before;first;largest\n");
-    loop_start(&loop, &plants[0], true, LAW_WHOLE);
+    loop_start(&loop, &trials[0], true, LAW_WHOLE);
     rest(&loop, 600);
     change_gains(&loop);
     change_modes(&loop);

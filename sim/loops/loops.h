@@ -3,7 +3,7 @@
 #ifndef LOOPS_H
 #define LOOPS_H
 #include "fixpid_pid.h"
-#include "plants.h"
+#include "trials.h"
 
 // fixpid_pid, or what it is compared with, as one thing in a loop.
 struct loop {
@@ -19,9 +19,9 @@ struct fixpid_pid_config loop_config(const struct law_gains *gains,
                                      double setpoint_weight, double output_min,
                                      double output_max);
 
-// Both controllers of a plant's gains, its plant at rest. The actuator takes
+// Both controllers with a trial's gains, its plant at rest. The actuator takes
 // whole counts, of either of them.
-void loop_start(struct loop *self, const struct plant *plant, bool fixed,
+void loop_start(struct loop *self, const struct trial *trial, bool fixed,
                 enum law_without without);
 
 // One step; self->motion.value is what it led to.

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# The quick start ends with the lines that stand in the README:
+#
+#   cmake -DPROGRAM=quick_start -DREADME=README.md -P quick_start.cmake
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE printed
+                RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} ends with ${status}")
+endif()
+
+file(READ ${README} text)
+set(marker "<!-- quick_start_output:")
+if(NOT text MATCHES "${marker}begin -->\n```[a-z]*\n(.+)```\n${marker}end -->")
+  message(FATAL_ERROR "${README} has no output of the quick start")
+endif()
+set(promised "${CMAKE_MATCH_1}")
+
+string(LENGTH "${printed}" all)
+string(LENGTH "${promised}" some)
+math(EXPR start "${all} - ${some}")
+if(start LESS 0)
+  set(start 0)
+endif()
+string(SUBSTRING "${printed}" ${start} -1 end)
+if(NOT end STREQUAL promised)
+  message(FATAL_ERROR "promised:\n${promised}printed:\n${printed}")
+endif()
