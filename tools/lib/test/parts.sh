@@ -177,13 +177,14 @@ part_cost() {
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo chip
+    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip
     count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/cosim_check
 }
 
 part_demo() {
-    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --check-docs
+    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
+    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
 }
 
 part_docs() {
