@@ -123,7 +123,7 @@ def draw_autotune(runs)
   plot = Plot.new('autotune', 'An oven that finds its own gains, by a relay ' \
                               'experiment from power-on',
                   height: 620, rows: [1.5, 1.0],
-                  margins: { bottom: 0.095 })
+                  margins: { top: 0.925, bottom: 0.095 })
   autotune_temperature(plot, runs)
   autotune_drive(plot, runs)
   plot.draw
