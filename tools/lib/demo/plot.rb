@@ -30,10 +30,13 @@ class Plot
 
   # `curves` are gnuplot's plot elements, `settings` its commands.
   def panel(row, column, curves, settings)
-    place = ["set lmargin at screen #{@x[column][0]}",
-             "set rmargin at screen #{@x[column][1]}",
-             "set bmargin at screen #{@y[row][0]}",
-             "set tmargin at screen #{@y[row][1]}"]
+    panel_at(@x[column], @y[row], curves, settings)
+  end
+
+  # From x[0] to x[1] and from y[0] to y[1], shares of the whole from below left.
+  def panel_at(x, y, curves, settings)
+    place = ["set lmargin at screen #{x[0]}", "set rmargin at screen #{x[1]}",
+             "set bmargin at screen #{y[0]}", "set tmargin at screen #{y[1]}"]
     @panels << [*place, *settings, "plot #{curves.join(", \\\n     ")}"]
   end
 
