@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 # Checks what the documents say: parts that are made from the code, code blocks
 # and what they print, files, functions and tests that they name, links, sums that
-# are written out, in comments of the code too; and that CMake's list of sources
-# and the version agree with what is there. With --update it renews the parts first.
+# are written out, in comments of the code too; the Dockerfile's packages; and that
+# CMake's list of sources and the version agree with what is there. With --update it
+# renews the parts first.
 require 'fileutils'
 require 'open3'
 require_relative 'docs/code_blocks'
 require_relative 'docs/facts'
+require_relative 'docs/packages'
+
+Encoding.default_external = 'UTF-8'
 
 @failures = []
 
@@ -85,11 +89,39 @@ def bounds_table
   "| | value | magnitude at most | fits |\n|---|---|---|---|\n#{rows.join}"
 end
 
+# What tools/test runs and how long each part takes.
+def parts_table
+  rows = File.readlines('test/parts.txt', chomp: true).grep(/^[a-z]/).map { |line| line.split(' ', 4) }
+  lines = rows.map do |name, checks, seconds, what|
+    seconds = seconds.to_i
+    time = seconds < 100 ? "#{seconds} s" : "#{(seconds + 30) / 60} minutes"
+    "| `#{name}` | #{checks} | #{time} | #{what} |\n"
+  end
+  "| part | checks | about | what |\n|---|---|---|---|\n#{lines.join}"
+end
+
+# The packages as a paragraph.
+def packages
+  words = Packages.wanted.map { |name| "`#{name}`" }.join(', ')
+  "#{words}.".gsub(/(.{1,78})(?: |\z)/, "\\1\n")
+end
+
+def check_packages
+  wanted = Packages.wanted
+  found = Packages.of_dockerfile(File.read('Dockerfile'))
+  @failures << "Dockerfile lacks #{(wanted - found).join(', ')}" unless (wanted - found).empty?
+  @failures << "Dockerfile has #{(found - wanted).join(', ')}, which nobody needs" unless (found - wanted).empty?
+  unknown = Packages.without_command.reject { |name| File.read('tools/lib/setup.sh').include?("    #{name})") }
+  @failures << "setup.sh cannot tell whether #{unknown.join(', ')} is there" unless unknown.empty?
+end
+
 def renewed(path, text)
   case path
   when 'README.md'
     text = part(text, 'quick_start', "```c\n#{File.read('examples/quick_start.c')}```\n")
     part(text, 'quick_start_output', "```\n#{quick_start_output.lines.last(3).join}```\n")
+  when 'CONTRIBUTING.md'
+    part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/arithmetic.md'
     part(text, 'bounds', bounds_table)
   else
@@ -149,6 +181,7 @@ Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
 @failures.concat(Facts.failures)
+check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 20
 puts @failures

@@ -108,17 +108,23 @@ class Cost
   end
 end
 
+# The user's words do not name anything.
+class WrongUse < StandardError; end
+
 def chosen(words)
   unknown = words.reject { |word| Subject.kind_of_word(word) }
-  raise Host::Failure, "nothing is called #{unknown.join(', ')}; see --help" if unknown.any?
+  raise WrongUse, "nothing is called #{unknown.join(', ')} (see --help)" if unknown.any?
 
   subjects = Subject.all.select { |one| one.matches?(words) }
-  raise Host::Failure, "nothing is #{words.join(' ')}" if subjects.empty?
+  raise WrongUse, "nothing is #{words.join(' ')} (see --help)" if subjects.empty?
 
   subjects
 end
 
-def main(mode, root, *words)
+# MODE ROOT WORD..., or `words WORD...`: only whether something is called so.
+def main(mode, root = nil, *words)
+  return chosen([root, *words].compact) if mode == 'words'
+
   Host.setup(root)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
@@ -133,6 +139,9 @@ end
 begin
   $stdout.sync = true
   exit(main(*ARGV) == false ? 1 : 0)
+rescue WrongUse => e
+  warn "cost: #{e.message}"
+  exit 2
 rescue Host::Failure, SystemCallError => e
   warn "cost: #{e.message}"
   exit 1

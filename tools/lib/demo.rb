@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 # Runs the loops, checks what must hold, draws, and reports. Called by
-# tools/demo: demo.rb MODE ROOT LOOP...
+# tools/demo: demo.rb MODE ROOT [--verbose] LOOP...
 require 'fileutils'
 require 'json'
 
@@ -22,18 +22,26 @@ require_relative 'demo/chip'
 
 Encoding.default_external = 'UTF-8'
 
+# What a loop shows, and what runs it.
+Loop = Struct.new(:shows, :run)
+
 LOOPS = {
-  'pendulum' => -> { pendulum('pendulum', 'AN964, 10 bits', -0.3) },
-  'pendulum_8bit' =>
-    -> { pendulum('pendulum_8bit', 'AN964, 8 x 8 bits', -0.2) },
-  'motor' => -> { motor },
-  'oven' => -> { oven },
-  'tuning' => -> { tuning },
-  'thermostat' => -> { thermostat },
-  'autotune' => -> { autotune },
-  'others' => -> { others },
-  'chip' => -> { chip }
+  'pendulum' => Loop.new('caught at 8 degrees, back after a shove, upright on a failing supply',
+                         -> { pendulum('pendulum', 'AN964, 10 bits', -0.3) }),
+  'pendulum_8bit' => Loop.new('the same with 8 x 8-bit products',
+                              -> { pendulum('pendulum_8bit', 'AN964, 8 x 8 bits', -0.2) }),
+  'motor' => Loop.new('to speed with little overshoot, new gains in flight, a load', -> { motor }),
+  'oven' => Loop.new('an offset with P, none with PI, sooner with PID', -> { oven }),
+  'tuning' => Loop.new('the pendulum step by step, from falling to upright', -> { tuning }),
+  'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
+                           -> { thermostat }),
+  'autotune' => Loop.new('an oven finds its gains, and five plants work with theirs', -> { autotune }),
+  'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
+  'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
+
+# The one to look at first, if it was drawn.
+BEST = 'thermostat'
 
 def remove_results(loops)
   loops.each do |name|
@@ -42,20 +50,43 @@ def remove_results(loops)
   FileUtils.rm_f("#{Host.folder}/results.json")
 end
 
+# A line for each loop, its name at once.
 def run_loops(loops)
-  loops.each_with_index do |name, i|
-    puts "[#{i + 1}/#{loops.size}] #{name}"
+  name_width = loops.map(&:size).max
+  width = loops.map { |name| LOOPS.fetch(name).shows.size }.max
+  loops.each do |name|
+    print name.ljust(name_width + 2)
     Report.start(name)
-    LOOPS.fetch(name).call
+    begin
+      LOOPS.fetch(name).run.call
+    rescue Host::Failure => e
+      Report.failure(e.message)
+    end
+    puts [LOOPS.fetch(name).shows.ljust(width), Report.outcome(name).ljust(16),
+          picture(name)].join('  ').rstrip
   end
 end
 
-def main(mode, root, *loops)
+def picture(name)
+  path = "#{Host.folder}/#{name}.png"
+  File.exist?(path) ? "build/demo/#{name}.png" : ''
+end
+
+def tell(loops, verbose)
+  Report.print(verbose)
+  first = picture(loops.include?(BEST) ? BEST : loops.first)
+  puts '', "#{Report.summary}."
+  puts "Look at #{first} first; the numbers are in build/demo/results.json." unless first.empty?
+end
+
+def main(mode, root, *words)
+  verbose = words.first == '--verbose'
+  loops = words.drop(verbose ? 1 : 0)
   Host.setup(root)
   remove_results(loops)
   run_loops(loops)
   Report.write("#{Host.folder}/results.json")
-  Report.print
+  tell(loops, verbose)
   exit(Report.good? && Docs.update(mode, root) ? 0 : 1)
 end
 

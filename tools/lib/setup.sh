@@ -11,21 +11,76 @@ die() {
     exit 1
 }
 
+# work_folder FOLDER MEGABYTES: makes it, or says why nothing can be written
+# there.
+work_folder() {
+    mkdir -p "$1" 2>/dev/null ||
+        die "cannot create $1: is the disk full, or the folder read-only?"
+    [ -w "$1" ] || die "cannot write to $1"
+    free_megabytes=$(df -Pm "$1" | awk 'NR == 2 { print $4 }')
+    [ "$free_megabytes" -ge "$2" ] || die "less than $2 MB free for $1"
+}
+
+# builds LINES COMPILER [OPTION]...: whether a program that begins with these
+# lines can be compiled and linked.
+builds() {
+    try_folder=$(mktemp -d) || die "cannot make a temporary folder"
+    try_lines=$1 try_compiler=$2
+    shift 2
+    case $try_compiler in
+    *++) try_source=$try_folder/try.cc ;;
+    *) try_source=$try_folder/try.c ;;
+    esac
+    printf '%s\nint main(void) { return 0; }\n' "$try_lines" >"$try_source"
+    try_status=0
+    "$try_compiler" "$try_source" "$@" -o "$try_folder/try.out" \
+        >/dev/null 2>&1 || try_status=1
+    rm -rf "$try_folder"
+    return $try_status
+}
+
+# has_package NAME: whether what this Debian package is needed for is there.
+# The compilers are asked, so that it may have come in any other way.
+has_package() {
+    case $1 in
+    libc6-dev) builds '#include <stdio.h>' cc ;;
+    zlib1g-dev) builds '#include <zlib.h>' cc -lz ;;
+    libboost-dev) builds '#include <boost/config.hpp>' c++ ;;
+    libboost-graph-dev)
+        builds '#include <boost/graph/adjacency_list.hpp>' c++
+        ;;
+    libsimavr-dev) builds '#include <simavr/sim_avr.h>' cc -lsimavr ;;
+    gpsim-dev)
+        # Not included: gpsim's headers want glib's, and port/gpsim does not.
+        builds '#if !__has_include(<gpsim/processor.h>)
+#error
+#endif' c++ -lgpsim
+        ;;
+    avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
+    libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
+    sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
+    *) die "setup.sh does not know how to tell whether $1 is there" ;;
+    esac
+}
+
+# missing_of ITEM...: sets `missing` to the packages of what is not there.
+missing_of() {
+    missing=
+    # Commands first: what has none is asked with them.
+    for item in "$@"; do
+        [ -z "${item%%:*}" ] || command -v "${item%%:*}" >/dev/null 2>&1 ||
+            missing="$missing ${item##*:}"
+    done
+    for item in "$@"; do
+        [ -n "${item%%:*}" ] || has_package "${item##*:}" ||
+            missing="$missing ${item##*:}"
+    done
+}
+
 # need ITEM...: each is `command`, `command:package` or `:package`, in Debian's
 # names. Installs what is missing, or says what is and stops.
 need() {
-    missing=
-    for item in "$@"; do
-        command=${item%%:*}
-        package=${item##*:}
-        if [ -n "$command" ]; then
-            command -v "$command" >/dev/null 2>&1 && continue
-        else
-            dpkg-query -W -f '${Status}' "$package" 2>/dev/null |
-                grep -q '^install ok installed' && continue
-        fi
-        missing="$missing $package"
-    done
+    missing_of "$@"
     [ -n "$missing" ] || return 0
     how="sudo apt-get install --no-install-recommends$missing"
     if ! command -v apt-get >/dev/null 2>&1; then
@@ -44,6 +99,8 @@ need() {
         die "could not install$missing; is there a network? By hand: $how"
     fi
     rm -f "$install_log"
+    missing_of "$@"
+    [ -z "$missing" ] || die "installed, and still not usable:$missing"
 }
 
 # The Ceedling gem, in the system's or in the user's own gem folder.

@@ -4,61 +4,125 @@
 require_relative 'tables'
 require_relative '../demo/plot'
 
-# Bars of the worst step, a panel for each chip, on logarithmic axes.
+# Dots of the worst step, a panel for each chip, on logarithmic axes: ours are
+# filled, with their bound as a tick; the notes' and the others' are hollow.
 class Picture
-  Bar = Struct.new(:title, :value, :color)
+  Dot = Struct.new(:title, :worst, :bound, :kind)
 
   OURS = Plot::BLUE
   NOTE = Plot::RED
-  PEER = '#AAAAAA'
-  # Chip, build, and whose costs are drawn beside.
-  PANELS = [['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles'],
-            ['atmega328p', '-O2', 'ATmega328P -O2, cycles'], ['cortex-m0', '-Os', 'Cortex-M0 -Os, instructions'],
-            ['cortex-m4', '-Os', 'Cortex-M4 -Os, instructions']].freeze
+  PEER = '#555555'
+  # Columns of panels: chip, build, and its title.
+  COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles']],
+             [['atmega328p', '-O2', 'ATmega328P, -O2, cycles'],
+              ['cortex-m0', '-Os', 'Cortex-M0, -Os, instructions'],
+              ['cortex-m4', '-Os', 'Cortex-M4, -Os, instructions']]].freeze
+  # From where to where the axes of a column go; its names are on their left.
+  PLACES = [[0.245, 0.485], [0.7, 0.94]].freeze
+  ROW = 18 # pixels
+  HEAD = 58 # a panel's axis and the next one's title
+  TOP = 60
+  KEY = 110 # below the first column
 
   def initialize(measured)
     @measured = measured
   end
 
   def draw
-    panels = PANELS.map { |chip, build, title| [title, bars(chip, build)] }
-    plot = Plot.new('cost', 'What a step costs at most: fixpid (blue), the notes\' own firmware (orange) and others (grey)',
-                    width: 1000, height: 22 * panels.sum { |_, list| list.size + 2 } + 90,
-                    rows: panels.map { |_, list| list.size + 1.0 }, gap_y: 0.044,
-                    margins: { left: 0.275, right: 0.955, top: 0.935, bottom: 0.04 })
-    panels.each_with_index { |(title, list), row| panel(plot, row, title, list) }
+    columns = COLUMNS.map { |panels| panels.map { |chip, build, title| [title, dots(chip, build)] } }
+    heights = columns.map { |panels| TOP + panels.sum { |_, list| list.size * ROW + HEAD } }
+    @height = [heights[0] + KEY, *heights].max - HEAD / 3
+    plot = Plot.new('cost', 'What a step costs at most', width: 1000, height: @height)
+    key(plot, heights[0])
+    columns.each_with_index { |panels, column| draw_column(plot, column, panels) }
     plot.draw
   end
 
   private
 
-  def bars(chip, build)
+  def dots(chip, build)
     ours = @measured.select { |subject, _| subject.chip.name == chip && (build.nil? || subject.build == build) }
-    list = ours.map { |subject, figures| Bar.new(own_title(subject, build), figures.most, OURS) }
-    list += others(NOTES, chip, build, NOTE) + others(PEERS, chip, build, PEER)
-    list.sort_by(&:value)
+    list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.most, figures.bound, :ours) }
+    list += others(NOTES, chip, build, :note) + others(PEERS, chip, build, :peer)
+    list.sort_by(&:worst)
   end
 
   def own_title(subject, build)
-    ['fixpid', [subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')].join(' ')
+    [subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')
   end
 
-  def others(list, chip, build, color)
-    list.map { |other| Bar.new(other.title, other.costs["#{chip}#{build}"], color) }.select(&:value)
+  def others(list, chip, build, kind)
+    list.map { |other| Dot.new(other.title, other.costs["#{chip}#{build}"], nil, kind) }.select(&:worst)
   end
 
-  def panel(plot, row, title, list)
-    path = "#{Host.folder}/bars-#{row}.csv"
-    File.write(path, list.each_with_index.map { |bar, i| "#{i},#{bar.value},#{bar.color.sub('#', '0x')}\n" }.join)
-    names = list.each_with_index.map { |bar, i| "\"#{bar.title}\" #{i}" }
-    low, high = list.map(&:value).minmax
-    plot.panel(row, 0,
-               ["'#{path}' using (#{low / 2.0}):1:(#{low / 2.0}):2:($1-0.36):($1+0.36):3 with boxxyerror " \
-                'fillstyle solid noborder linecolor rgb variable notitle',
-                "'#{path}' using 2:1:(sprintf(' %d', $2)) with labels left font ',9' notitle"],
-               ["set title \"{/:Bold #{title}}\" offset 0,-0.8", 'set logscale x', "set xrange [#{low / 2.0}:#{high * 1.35}]",
-                "set yrange [#{list.size - 0.4}:-0.6]", "set ytics (#{names.join(', ')}) noenhanced scale 0",
-                'set xtics (10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000) offset 0,0.4',
-                'unset grid', 'set grid xtics', 'set border 1'])
+  # In the plot's own rows, so that a row is as high in each panel.
+  def draw_column(plot, column, panels)
+    at = TOP
+    panels.each_with_index do |(title, list), i|
+      top = 1.0 - at.fdiv(@height)
+      bottom = top - (list.size * ROW).fdiv(@height)
+      at += list.size * ROW + HEAD
+      plot.panel_at(PLACES[column], [bottom, top], curves("#{column}-#{i}", list), settings(title, list))
+    end
+  end
+
+  STYLES = { ours: "pointtype 7 linecolor '#{OURS}'", note: "pointtype 6 linewidth 1.8 linecolor '#{NOTE}'",
+             peer: "pointtype 6 linewidth 1.4 linecolor '#{PEER}'" }.freeze
+
+  def curves(name, list)
+    rows = list.each_with_index.to_a
+    curves = STYLES.map do |kind, style|
+      points(name, kind, rows.select { |dot, _| dot.kind == kind }, style)
+    end
+    curves.compact + [bounds(name, rows.select { |dot, _| dot.bound })].compact
+  end
+
+  def points(name, kind, rows, style)
+    return if rows.empty?
+
+    path = file("#{name}-#{kind}", rows.map { |dot, at| [dot.worst, at] })
+    "'#{path}' using 1:2 with points pointsize 1.1 #{style} notitle"
+  end
+
+  def bounds(name, rows)
+    return if rows.empty?
+
+    path = file("#{name}-bounds", rows.map { |dot, at| [dot.bound, at] })
+    "'#{path}' using 1:2:(0):(0.42) with vectors nohead linewidth 1.6 linecolor '#{OURS}' notitle, " \
+      "'' using 1:2:(0):(-0.42) with vectors nohead linewidth 1.6 linecolor '#{OURS}' notitle"
+  end
+
+  def file(name, rows)
+    path = "#{Host.folder}/dots-#{name}.csv"
+    File.write(path, rows.map { |row| "#{row.join(',')}\n" }.join)
+    path
+  end
+
+  # The worst is a number at the right end of its row, too.
+  def settings(title, list)
+    low, high = list.flat_map { |dot| [dot.worst, dot.bound].compact }.minmax
+    names = list.each_with_index.map { |dot, i| "\"#{dot.title}\" #{i}" }
+    numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.worst}\" at graph 1.17, first #{i} right font ',9'" }
+    ["set title \"{/:Bold #{title}}\" offset 0,-0.7", 'set logscale x', "set xrange [#{low * 0.8}:#{high * 1.25}]",
+     "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) noenhanced scale 0 font ',9'",
+     "set xtics (#{ticks(low, high)}) offset 0,0.4 font ',9'", "set grid linecolor '#e4e4e4' linetype 1", 'set border 1', *numbers]
+  end
+
+  def ticks(low, high)
+    tens = [1, 2, 5].product([10, 100, 1000, 10_000]).map { |digit, ten| digit * ten }
+    tens.select { |value| value.between?(low * 0.8, high * 1.25) }.sort.join(', ')
+  end
+
+  # Below the first column, `top` pixels from above. gnuplot draws no key of
+  # nothing, so there is a curve out of sight.
+  def key(plot, top)
+    entries = [["pointtype 7 linecolor '#{OURS}'", 'fixpid, the worst step found'],
+               ["pointtype '|' linecolor '#{OURS}'", 'and the bound of its code'],
+               [STYLES[:note], 'the notes\' own firmware'], [STYLES[:peer], 'other libraries']]
+    curves = entries.map { |style, title| "keyentry with points pointsize 1.1 #{style} title \"#{title}\"" }
+    plot.panel_at([PLACES[0][0], 0.55], [1.0 - (top + KEY - 30).fdiv(@height), 1.0 - (top - 10).fdiv(@height)],
+                  ['-1 notitle', *curves],
+                  ['unset border', 'unset tics', 'unset grid', 'set xrange [0:1]', 'set yrange [0:1]',
+                   'set key left top vertical reverse Left samplen 1'])
   end
 end

@@ -54,10 +54,10 @@ def tell_gains(rule, text)
   gains = { 'kp' => kp / 256.0, 'ki_per_s' => ki * 10.0 / (1 << 24),
             'kd_s' => (kd << filter) / 2560.0, 'filter' => filter }
   gains.each { |name, value| Report.number("#{rule.downcase}_#{name}", value) }
-  puts format('      Tyreus-Luyben %<rule>s: kp %<kp>.2f, ki %<ki>.3f /s, ' \
-              'kd %<kd>.2f s, filter %<filter>d',
-              rule: rule, kp: gains['kp'], ki: gains['ki_per_s'],
-              kd: gains['kd_s'], filter: filter)
+  Report.note(format('Tyreus-Luyben %<rule>s: kp %<kp>.2f, ' \
+                     'ki %<ki>.3f /s, kd %<kd>.2f s, filter %<filter>d',
+                     rule: rule, kp: gains['kp'], ki: gains['ki_per_s'],
+                     kd: gains['kd_s'], filter: filter))
   Report.at_least("#{rule}: gains found, kp", gains['kp'], 1.0 / 256.0)
 end
 
@@ -123,7 +123,7 @@ def draw_autotune(runs)
   plot = Plot.new('autotune', 'An oven that finds its own gains, by a relay ' \
                               'experiment from power-on',
                   height: 620, rows: [1.5, 1.0],
-                  margins: { bottom: 0.095 })
+                  margins: { top: 0.925, bottom: 0.095 })
   autotune_temperature(plot, runs)
   autotune_drive(plot, runs)
   plot.draw

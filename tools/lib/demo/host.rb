@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# A recorded run: rows of numbers with named columns.
+# A recorded run: rows of numbers with named columns. Whatever else stands there
+# is a failure, and so is a question about a time without rows.
 class Trace
   attr_reader :path
 
   def initialize(path)
     @path = path
-    File.open(path) do |file|
-      @names = file.gets.chomp.split(',')
-      @rows = file.map { |line| line.split(',').map(&:to_f) }
-    end
+    head, *lines = File.readlines(path, chomp: true)
+    @names = head.to_s.split(',')
+    @rows = lines.each_with_index.map { |line, i| numbers(line, i + 2) }
+    @rows.empty? and raise Host::Failure, "#{path} has no rows"
   end
 
-  # The values of a column while from <= time < to.
+  # The values of a column while from <= time < to; at least one.
   def values(name, from = -Float::INFINITY, to = Float::INFINITY)
     column = @names.index(name) or raise Host::Failure, "no column #{name}"
-    @rows.select { |row| row[0] >= from && row[0] < to }
-         .map { |row| row[column] }
+    rows = @rows.select { |row| row[0] >= from && row[0] < to }
+    rows.empty? and
+      raise Host::Failure, "#{path} has no rows from #{from} to #{to}"
+    rows.map { |row| row[column] }
   end
 
   def times(from = -Float::INFINITY, to = Float::INFINITY)
@@ -26,7 +29,7 @@ class Trace
 
   # Largest magnitude of a column.
   def peak(name, from = -Float::INFINITY, to = Float::INFINITY)
-    values(name, from, to).map(&:abs).max || 0.0
+    values(name, from, to).map(&:abs).max
   end
 
   def mean(name, from, to)
@@ -52,6 +55,17 @@ class Trace
   def reversals(name, from, to)
     signs = values(name, from, to).map { |v| v <=> 0.0 }.reject(&:zero?)
     signs.each_cons(2).count { |a, b| a != b }
+  end
+
+  private
+
+  def numbers(line, number)
+    cells = line.split(',', -1)
+    found = cells.map { |cell| Float(cell, exception: false) }
+    return found if found.all? && cells.size == @names.size
+
+    raise Host::Failure, "#{path}, line #{number}: not #{@names.size} " \
+                         "numbers: #{line}"
   end
 end
 
@@ -116,8 +130,10 @@ end
 
 # How far two runs of the same length are apart, up to a time.
 def largest_difference(one, other, column, to = Float::INFINITY)
-  pairs = one.values(column, 0.0, to).zip(other.values(column, 0.0, to))
-  pairs.map { |a, b| (a - b).abs }.max
+  values = [one, other].map { |run| run.values(column, 0.0, to) }
+  values[0].size == values[1].size or
+    raise Host::Failure, "#{one.path} and #{other.path} differ in length"
+  values.transpose.map { |a, b| (a - b).abs }.max
 end
 
 # A range for gnuplot that holds these columns and leaves room for the key.

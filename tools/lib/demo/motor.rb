@@ -106,7 +106,7 @@ def speed_panel(plot, column, run, without, settings)
             Plot.curve(run, 'setpoint_rad_s', 'setpoint', Plot::BLACK,
                        style: 'dashtype 2', width: 1.2)]
   if column.zero?
-    curves << Plot.curve(without, 'speed_rad_s', 'no limit', Plot::RED)
+    curves << Plot.curve(without, 'speed_rad_s', 'without', Plot::RED)
   end
   range = ['set yrange [0:600]', 'set yrange [350:372]'][column]
   plot.panel(0, column, curves,
@@ -115,11 +115,7 @@ def speed_panel(plot, column, run, without, settings)
 end
 
 def motor_terms_panel(plot, column, run, x_range)
-  curves = [['proportional', 'P', Plot::BLUE], ['integral', 'I', Plot::RED],
-            ['derivative', 'D', Plot::GREEN]].map do |name, title, color|
-    Plot.curve(run, name, title, color, width: 1.2)
-  end
-  plot.panel(1, column, curves,
+  plot.panel(1, column, Plot.terms(run),
              [*x_range, "set format x ''", 'set ytics format "%g"',
               *y_label(column, 'terms, duty counts')])
 end
@@ -129,7 +125,7 @@ def motor_drive_panel(plot, column, run, without, x_range)
                        Plot::PURPLE, width: 1.2)]
   if column.zero?
     curves << Plot.curve(without, "(column('drive_counts')/10.23)",
-                         'no limit', Plot::RED, width: 1.2)
+                         'without', Plot::RED, width: 1.2)
   end
   plot.panel(2, column, curves,
              [*x_range, "set xlabel 'time, s'", 'set yrange [-115:155]',

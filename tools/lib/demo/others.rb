@@ -169,11 +169,11 @@ def check_outputs(scenes)
 end
 
 def draw_others(scenes)
-  plot = Plot.new('others', 'What the others do: fixpid\\\\_pid, and the same law ' \
-                            'without one feature',
-                  width: 1100, height: 680, columns: [1.0, 1.0, 1.0],
-                  rows: [1.0, 1.0], gap_x: 0.06, gap_y: 0.15,
-                  margins: { left: 0.06, right: 0.975, top: 0.86,
+  plot = Plot.new('others', 'What each feature is good for: fixpid\\\\_pid, and ' \
+                            'the same law without it',
+                  width: 1000, height: 680, columns: [1.0, 1.0, 1.0],
+                  rows: [1.0, 1.0], gap_x: 0.085, gap_y: 0.15,
+                  margins: { left: 0.07, right: 0.975, top: 0.86,
                              bottom: 0.085 })
   SCENES.each_with_index do |scene, i|
     scene_panel(plot, i / 3, i % 3, scene, scenes[scene.name])
@@ -181,23 +181,27 @@ def draw_others(scenes)
   plot.draw
 end
 
-def step_curve(run, column, title, color, style = 'linewidth 1.6')
+def step_curve(run, column, color, style = 'linewidth 1.6')
   "'#{run.path}' using 'step':'#{column}' with lines linecolor '#{color}' " \
-    "#{style} title '#{title}'"
+    "#{style} notitle"
 end
 
+DASHED = 'linewidth 1.2 dashtype 2'
+
+# fixpid is drawn over the other and named before it.
 def scene_panel(plot, row, column, scene, run)
-  curves = [step_curve(run, "without#{scene.column}", 'without', Plot::RED),
-            step_curve(run, "fixpid#{scene.column}", 'fixpid', Plot::BLUE)]
+  curves = [step_curve(run, "without#{scene.column}", Plot::RED),
+            step_curve(run, "fixpid#{scene.column}", Plot::BLUE),
+            Plot.entry('fixpid', Plot::BLUE), Plot.entry('without', Plot::RED)]
   if scene.column.empty?
-    curves.unshift(step_curve(run, 'setpoint', 'setpoint', Plot::BLACK,
-                              'linewidth 1.2 dashtype 2'))
+    curves.unshift(step_curve(run, 'setpoint', Plot::BLACK, DASHED),
+                   Plot.entry('setpoint', Plot::BLACK, DASHED))
   end
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{scene.title}}\\n#{scene.what}\"",
               "set xrange [#{scene.x.join(':')}]",
               "set yrange [#{scene.y.join(':')}]", "set xtics #{scene.x_step}",
               "set key #{scene.key} vertical width 0",
-              "set ylabel '#{scene.label}' offset 1,0",
+              "set ylabel '#{scene.label}' offset 0.7,0",
               *(row == 1 ? ["set xlabel 'step'"] : [])])
 end

@@ -64,9 +64,9 @@ end
 
 # The note's three figures, and the inside of the last.
 def draw_oven(p_only, pi, pid)
-  plot = Plot.new('oven', 'Oven, AN937: P only, PI and PID', width: 1100,
+  plot = Plot.new('oven', 'Oven, AN937: P only, PI and PID', width: 1000,
                   columns: [1.0, 1.0, 1.0], rows: [1.6, 1.1, 1.1],
-                  gap_x: 0.05)
+                  gap_x: 0.03)
   temperature_panel(plot, 0, 'P only: an offset stays (Figure 5)',
                     p_only_curves(p_only))
   { 1 => ['PI 48/3/0: no offset (Figure 6)', pi],
@@ -83,6 +83,11 @@ def draw_oven(p_only, pi, pid)
   plot.draw
 end
 
+# One scale for a row of panels: only the first shows its numbers.
+def shared_y(column, text)
+  column.zero? ? y_label(column, text) : ["set format y ''"]
+end
+
 def p_only_curves(p_only)
   colors = [Plot::GREEN, Plot::PURPLE, Plot::BLUE, Plot::RED]
   p_only.zip(colors).map do |(kp, run), color|
@@ -96,18 +101,14 @@ def temperature_panel(plot, column, title, curves)
   plot.panel(0, column, [*curves, setpoint],
              ['set xrange [0:15]', "set title '#{title}'", "set format x ''",
               'set yrange [0:100]', 'set key bottom right maxrows 2',
-              *y_label(column, 'temperature, °C')])
+              *shared_y(column, 'temperature, °C')])
 end
 
 def oven_terms_panel(plot, column, run)
-  curves = [['derivative', 'D', Plot::GREEN], ['proportional', 'P', Plot::BLUE],
-            ['integral', 'I', Plot::RED]].map do |name, title, color|
-    Plot.curve(run, name, title, color, width: 1.2)
-  end
-  plot.panel(1, column, curves,
+  plot.panel(1, column, Plot.terms(run),
              ['set xrange [0:15]', "set format x ''", 'set yrange [-4000:15000]',
-              *(column.zero? ? ["set key title 'kp 64'"] : []),
-              *y_label(column, 'terms, counts')])
+              'set ytics 4000', *(column.zero? ? ["set key title 'kp 64'"] : []),
+              *shared_y(column, 'terms, counts')])
 end
 
 def oven_drive_panel(plot, column, run)
@@ -115,5 +116,5 @@ def oven_drive_panel(plot, column, run)
                        Plot::PURPLE, width: 1.2)]
   plot.panel(2, column, curves,
              ['set xrange [0:15]', "set xlabel 'time, s'", 'set yrange [0:110]',
-              *y_label(column, 'drive, %')])
+              'set ytics 25', *shared_y(column, 'drive, %')])
 end

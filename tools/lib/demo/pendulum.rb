@@ -90,15 +90,12 @@ def angle_panel(plot, column, run, every, x_range)
   range = ['set yrange [-6:9]', 'set yrange [-2:2]'][column]
   plot.panel(0, column, curves,
              [*x_range, *labels, "set format x ''", range,
+              *(column.zero? ? ['set key vertical'] : []),
               *y_label(column, 'angle, degrees')])
 end
 
 def terms_panel(plot, row, column, run, every, ranges)
-  curves = [['derivative', 'D', Plot::GREEN], ['proportional', 'P', Plot::BLUE],
-            ['integral', 'I', Plot::RED]].map do |name, title, color|
-    Plot.curve(run, name, title, color, every: every, width: 1.2)
-  end
-  plot.panel(row, column, curves,
+  plot.panel(row, column, Plot.terms(run, every: every),
              [*ranges, "set format x ''", *y_label(column, 'terms, counts')])
 end
 
@@ -118,10 +115,11 @@ BASE_AXIS = [["set ytics 0.5", "set yrange [-1.6:0.6]"],
              ["set ytics 25", "set yrange [-120:40]"]].freeze
 
 def base_panel(plot, column, run, without, every, x_range)
-  curves = [Plot.curve(without, 'base_m', 'without drift offset', Plot::RED,
-                       every: every),
-            Plot.curve(run, 'base_m', 'base', Plot::BLUE, every: every)]
+  curves = [Plot.curve(without, 'base_m', nil, Plot::RED, every: every),
+            Plot.curve(run, 'base_m', 'base', Plot::BLUE, every: every),
+            Plot.entry('without the drift offset', Plot::RED)]
   plot.panel(3, column, curves,
              [*x_range, "set xlabel 'time, s'", *BASE_AXIS[column],
-              *y_label(column, 'base, m')])
+              'set key bottom left vertical',
+              *y_label(column, 'base at, m')])
 end

@@ -30,11 +30,30 @@ class Plot
 
   # `curves` are gnuplot's plot elements, `settings` its commands.
   def panel(row, column, curves, settings)
-    place = ["set lmargin at screen #{@x[column][0]}",
-             "set rmargin at screen #{@x[column][1]}",
-             "set bmargin at screen #{@y[row][0]}",
-             "set tmargin at screen #{@y[row][1]}"]
+    panel_at(@x[column], @y[row], curves, settings)
+  end
+
+  # From x[0] to x[1] and from y[0] to y[1], shares of the whole from below left.
+  def panel_at(x, y, curves, settings)
+    place = ["set lmargin at screen #{x[0]}", "set rmargin at screen #{x[1]}",
+             "set bmargin at screen #{y[0]}", "set tmargin at screen #{y[1]}"]
     @panels << [*place, *settings, "plot #{curves.join(", \\\n     ")}"]
+  end
+
+  # Three terms over time, in their colors. D is drawn first, because its noise
+  # would hide the others; the key has the usual order.
+  def self.terms(trace, scale: 1.0, **options)
+    terms = [['proportional', 'P', BLUE], ['integral', 'I', RED],
+             ['derivative', 'D', GREEN]]
+    terms.reverse.map do |name, _, color|
+      curve(trace, "(column('#{name}')*#{scale})", nil, color, width: 1.2,
+                                                               **options)
+    end + terms.map { |_, title, color| entry(title, color) }
+  end
+
+  # A line of the key alone.
+  def self.entry(title, color, style = 'linewidth 1.8')
+    "keyentry with lines linecolor '#{color}' #{style} title '#{title}'"
   end
 
   # A column of a trace over time.
@@ -50,7 +69,8 @@ class Plot
 
   def draw
     base = "#{Host.folder}/#{@name}"
-    make("#{base}.png", "pngcairo font '#{FONT.split(',')[0]},10'")
+    make("#{base}.png", "pngcairo font '#{FONT.split(',')[0]},10' " \
+                        "background '#ffffff'")
     make("#{base}.svg", "svg dynamic font '#{FONT},12' background 'white'")
   end
 
@@ -85,7 +105,7 @@ class Plot
      "set grid linecolor '#dddddd' linetype 1 linewidth 0.7",
      "set border 3 linecolor '#444444'",
      'set tics nomirror out scale 0.6',
-     'set key top right horizontal samplen 1.5 noenhanced width 1']
+     'set key top right horizontal reverse Left samplen 1.5 noenhanced width 1']
   end
 
   # Drawn beside its place and moved there when it is complete.

@@ -1,21 +1,38 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What was checked: one table for people, one file for programs.
+# What was checked: a line for each loop, a table of what failed or of all, and
+# a file for programs.
 module Report
   Check = Struct.new(:loop, :what, :relation, :limit, :measured, :unit) do
     def ok?
       measured.public_send(relation, limit)
     end
 
+    # A line of the table.
+    def row
+      [loop, what, "#{relation} #{shown(limit)}", shown(measured),
+       ok? ? 'ok' : 'FAILED']
+    end
+
+    # JSON has no number that is none.
+    def to_json(*options)
+      hash = to_h.transform_keys(&:to_s).merge('ok' => ok?)
+      hash['measured'] = measured.to_s if measured.is_a?(Float) && !measured.finite?
+      hash.to_json(*options)
+    end
+
+    private
+
     def shown(value)
-      text = value.is_a?(Integer) ? value.to_s : format('%.3g', value)
+      text = value.is_a?(Float) ? format('%.3g', value) : value.to_s
       "#{text} #{unit}".strip
     end
   end
 
   @checks = []
   @numbers = {}
+  @notes = []
 
   class << self
     attr_reader :checks, :numbers, :loop
@@ -46,20 +63,40 @@ module Report
       @checks.all?(&:ok?)
     end
 
-    def print
-      puts
-      table([%w[loop checked limit measured] + ['']] + @checks.map do |c|
-        [c.loop, c.what, "#{c.relation} #{c.shown(c.limit)}",
-         c.shown(c.measured), c.ok? ? 'ok' : 'FAILED']
-      end)
+    # The loop could not be run to its end.
+    def failure(why)
+      warn "demo: #{why}"
+      @checks << Check.new(@loop, 'runs to its end', :==, 'yes', 'no', '')
+    end
+
+    # Lines for who wants to know more.
+    def note(*lines)
+      @notes.concat(lines)
+    end
+
+    # How the checks of a loop went, those of its parts too: `chip motor`.
+    def outcome(name)
+      checks = @checks.select { |c| c.loop.split.first == name }
+      failed = checks.count { |c| !c.ok? }
+      failed.zero? ? "#{checks.size} checks held" : "#{failed} of #{checks.size} checks FAILED"
+    end
+
+    def print(verbose)
+      rows = @checks.select { |c| verbose || !c.ok? }.map(&:row)
+      return if rows.empty?
+
+      puts ''
+      table([%w[loop checked limit measured] + ['']] + rows)
+      puts '', @notes if verbose && @notes.any?
+    end
+
+    def summary
       failed = @checks.count { |c| !c.ok? }
-      puts
-      puts "#{@checks.size - failed} held, #{failed} failed; " \
-           'pictures: build/demo/*.png and *.svg'
+      "#{@checks.size - failed} checks held, #{failed} failed"
     end
 
     def write(path)
-      data = { 'checks' => @checks.map { |c| row(c) }, 'numbers' => @numbers }
+      data = { 'checks' => @checks, 'numbers' => @numbers }
       replace(path, "#{JSON.pretty_generate(data)}\n")
     end
 
@@ -70,10 +107,6 @@ module Report
     end
 
     private
-
-    def row(check)
-      check.to_h.transform_keys(&:to_s).merge('ok' => check.ok?)
-    end
 
     def table(rows)
       widths = rows.transpose.map { |column| column.map(&:size).max }

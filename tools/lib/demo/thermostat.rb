@@ -91,55 +91,71 @@ def check_thermostat_integration(run)
 end
 
 def draw_thermostat(run)
-  plot = Plot.new('thermostat', 'A thermostat: from cold, by hand, on less ' \
-                                'power, with the door open',
-                  height: 760, rows: [1.5, 1.1, 1.1])
+  plot = Plot.new('thermostat', 'An oven held at 80 °C: from cold, by hand, ' \
+                                'on less power, with the door open',
+                  height: 720, rows: [1.6, 1.0, 1.0], gap_y: 0.04,
+                  margins: { top: 0.935, bottom: 0.08 })
   thermostat_temperature(plot, run)
-  thermostat_terms(plot, run)
   thermostat_drive(plot, run)
+  thermostat_terms(plot, run)
   plot.draw
 end
 
-# What the person does, as grey stretches; named in the topmost panel.
-def stretches(top, named: false)
-  [MANUAL, LOW_POWER, DOOR].each_with_index.flat_map do |stretch, i|
-    area = "set object #{i + 1} rectangle from #{stretch.from}, graph 0 to " \
-           "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
-           'solid noborder'
-    middle = (stretch.from + stretch.to) / 2.0
-    label = "set label \"#{stretch.title}\" at #{middle}, graph 0.06 center " \
-            "font ',10'"
-    named ? [area, label] : [area]
+# What happens in each stretch of time, said in the topmost panel.
+THERMOSTAT_STORY = [
+  [0.0, 'from cold:', 'no overshoot'],
+  [MANUAL.from, 'by hand,', '10 %'],
+  [MANUAL.to, 'automatic again:', 'no bump'],
+  [LOW_POWER.from, 'power limited', 'to 12.5 %'],
+  [LOW_POWER.to, 'full power:', 'no windup'],
+  [DOOR.from, 'door', 'open'],
+  [DOOR.to, 'door', 'shut'],
+  [THERMOSTAT_END_S]
+].freeze
+
+# What the person does, as grey stretches.
+def stretches(top)
+  [MANUAL, LOW_POWER, DOOR].each_with_index.map do |stretch, i|
+    "set object #{i + 1} rectangle from #{stretch.from}, graph 0 to " \
+      "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
+      'solid noborder'
   end
+end
+
+def story
+  THERMOSTAT_STORY.each_cons(2).map do |(from, *words), (to)|
+    "set label \"#{words.join('\\n')}\" at #{(from + to) / 2.0}, graph 0.13 center"
+  end
+end
+
+# In the white between two stretches.
+def key_between(direction = 'horizontal')
+  ["set key at #{LOW_POWER.from - 0.5}, graph 0.99 #{direction}"]
 end
 
 def thermostat_temperature(plot, run)
   plot.panel(0, 0,
-             [Plot.curve(run, 'setpoint_c', 'setpoint', Plot::BLACK,
-                         style: 'dashtype 2', width: 1.2),
-              Plot.curve(run, 'temperature_c', 'temperature', Plot::BLUE)],
-             [*stretches(0.85, named: true), 'set xrange [0:110]', "set format x ''",
-              'set yrange [10:115]', 'set ytics 20', *y_label(0, 'temperature, °C')])
-end
-
-def thermostat_terms(plot, run)
-  curves = [['proportional', 'P', Plot::BLUE], ['integral', 'I', Plot::RED],
-            ['derivative', 'D', Plot::GREEN]].map do |name, title, color|
-    Plot.curve(run, name, title, color, width: 1.2)
-  end
-  plot.panel(1, 0, curves,
-             [*stretches(0.84), 'set xrange [0:110]', "set format x ''",
-              'set yrange [-750:1150]', 'set ytics 500',
-              *y_label(0, 'terms, duty counts')])
+             [Plot.curve(run, 'temperature_c', 'temperature', Plot::BLUE,
+                         width: 2.2),
+              Plot.curve(run, 'setpoint_c', 'setpoint', Plot::BLACK,
+                         style: 'dashtype 2', width: 1.2)],
+             [*stretches(1), *story, *key_between('vertical'), 'set xrange [0:110]', "set format x ''",
+              'set yrange [0:110]', 'set ytics 20', *y_label(0, 'temperature, °C')])
 end
 
 def thermostat_drive(plot, run)
   limit = "(column('selector') == 3 ? 12.5 : 100)"
-  plot.panel(2, 0,
+  plot.panel(1, 0,
              [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
-                         Plot::PURPLE, width: 1.2),
-              Plot.curve(run, limit, 'limit', Plot::GREY, style: 'dashtype 3',
-                                                          width: 1.2)],
-             [*stretches(0.77), 'set xrange [0:110]', "set xlabel 'time, s'",
-              'set yrange [0:130]', 'set ytics 25', *y_label(0, 'drive, %')])
+                         Plot::PURPLE),
+              Plot.curve(run, limit, 'limit', Plot::BLACK, style: 'dashtype 3',
+                                                           width: 1.2)],
+             [*stretches(1), *key_between, 'set xrange [0:110]', "set format x ''",
+              'set yrange [0:130]', 'set ytics 50', *y_label(0, 'drive, %')])
+end
+
+def thermostat_terms(plot, run)
+  plot.panel(2, 0, Plot.terms(run, scale: 100.0 / 1023.0),
+             [*stretches(1), *key_between, 'set xrange [0:110]', "set xlabel 'time, s'",
+              'set yrange [-75:110]', 'set ytics 50', *y_label(0, 'P, I and D, %')])
 end

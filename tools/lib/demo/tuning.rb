@@ -83,9 +83,9 @@ end
 
 def draw_tuning(runs)
   plot = Plot.new('tuning', 'AN964: the note\'s tuning steps, one by one',
-                  width: 1100, height: 680, columns: [1.0, 1.0, 1.0],
-                  rows: [1.0, 1.0], gap_x: 0.085, gap_y: 0.13,
-                  margins: { left: 0.06, right: 0.94, top: 0.86,
+                  width: 1000, height: 640, columns: [1.0, 1.0, 1.0],
+                  rows: [1.0, 1.0], gap_x: 0.03, gap_y: 0.13,
+                  margins: { left: 0.07, right: 0.93, top: 0.86,
                              bottom: 0.085 })
   STAGES.each_with_index do |stage, i|
     stage_panel(plot, i / 3, i % 3, stage, runs[stage.name])
@@ -93,16 +93,26 @@ def draw_tuning(runs)
   plot.draw
 end
 
+# Angle on the left and base on the right, each in its color and with one scale
+# for all panels.
 def stage_panel(plot, row, column, stage, run)
-  curves = ["#{Plot.curve(run, 'base_m', 'base', Plot::RED, every: 4)} " \
-            'axes x1y2',
-            Plot.curve(run, 'angle_degrees', 'angle', Plot::BLUE, every: 4)]
+  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::BLUE, every: 4),
+            "#{Plot.curve(run, 'base_m', 'base', Plot::RED, every: 4)} " \
+            'axes x1y2']
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{stage.setting}}\\n#{stage.title}\"",
-              'set xrange [0:12]', 'set yrange [-24:24]', 'set ytics 10',
-              'set y2range [-2.4:2.4]', 'set y2tics 1 out scale 0.6',
-              'set border 11',
+              'set xrange [0:12]', 'set yrange [-24:24]',
+              'set y2range [-2.4:2.4]', 'set border 11', 'set key bottom',
               *(row == 1 ? ["set xlabel 'time, s'"] : []),
-              *(column.zero? ? ["set ylabel 'angle, degrees'"] : []),
-              *(column == 2 ? ["set y2label 'base, m'"] : [])])
+              *stage_axes(column)])
+end
+
+def stage_axes(column)
+  blue, red = [Plot::BLUE, Plot::RED].map { |color| "textcolor '#{color}'" }
+  left = column.zero?
+  right = column == 2
+  ["set ytics 10 #{blue} #{"format ''" unless left}",
+   "set y2tics 1 out scale 0.6 #{red} #{"format ''" unless right}",
+   *(left ? ["set ylabel 'angle, degrees' #{blue}"] : []),
+   *(right ? ["set y2label 'base at, m' #{red}"] : [])]
 end

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+# Debian 12 with all that tools/demo and tools/test use, for other systems:
+#
+#   docker build -t fixpid .
+#   docker run --rm --user "$(id -u):$(id -g)" -v "$PWD:/fixpid" fixpid tools/demo
+#
+# Without a command it runs tools/test. What is installed here is what the tools
+# would ask for; `tools/test docs` compares the two.
+FROM debian:12
+RUN apt-get update && \
+    DEBIAN_FRONTEND=noninteractive apt-get install -y \
+        --no-install-recommends \
+        avr-libc bison clang clang-format clang-tidy cmake coreutils cppcheck \
+        dpkg-dev flex g++ gcc gcc-arm-none-eabi gcc-avr gcovr gnuplot-nox \
+        gpsim-dev gputils libboost-dev libboost-graph-dev libc6-dev \
+        libclang-rt-14-dev libsimavr-dev make patch pmccabe qemu-system-arm \
+        ruby sdcc sdcc-libraries shellcheck simavr util-linux zlib1g-dev \
+    && rm -rf /var/lib/apt/lists/*
+RUN gem install --no-document ceedling -v '>= 1.0.1, < 2'
+COPY tools/lib/setup.sh tools/lib/build_sdcc /tmp/fixpid/
+RUN /tmp/fixpid/build_sdcc /opt/fixpid/sdcc && rm -r /tmp/fixpid
+ENV SDCC=/opt/fixpid/sdcc/bin/sdcc
+WORKDIR /fixpid
+CMD ["tools/test"]

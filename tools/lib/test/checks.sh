@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=sh
+# Sourced by tools/test: how a part counts what passed and what failed.
+
+folder=build/test
+log=$folder/log # what the last command printed
+
+# check NAME COMMAND...: one test, quiet when it passes.
+check() {
+    name=$1
+    shift
+    if "$@" >"$log" 2>&1 </dev/null; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED $name"
+        tail -n 40 "$log"
+    fi
+}
+
+# count NAME GOOD BAD COMMAND...: a runner that prints a line for each thing it
+# checked, like GOOD or BAD.
+count() {
+    name=$1 good=$2 bad=$3
+    shift 3
+    status=0
+    "$@" >"$log" 2>&1 </dev/null || status=1
+    passes=$(grep -c "$good" "$log") || true
+    failures=$(grep -c "$bad" "$log") || true
+    [ $status -eq 0 ] || [ "$failures" -ne 0 ] || failures=1
+    [ $status -ne 0 ] || [ "$passes" -ne 0 ] || failures=1
+    passed=$((passed + passes))
+    failed=$((failed + failures))
+    if [ "$failures" -ne 0 ]; then
+        echo "FAILED $name"
+        grep -v "$good" "$log" | tail -n 60
+    fi
+}
+
+# An attribute of the outermost element of a JUnit report.
+junit() {
+    sed -n "s/.*<testsuites .*$1=\"\([0-9]*\)\".*/\1/p" "$2"
+}
+
+# run_ceedling NAME TASK TEXT [MIXIN]: a run with its own build folder, where
+# TEXT is the mixin that makes it different. Each unit test counts.
+run_ceedling() {
+    name=$1 task=$2
+    build_root=build/ceedling-$name
+    mixin=$folder/$name.yml
+    printf ':project:\n  :build_root: %s\n%s\n' "$build_root" "$3" >"$mixin"
+    report=$build_root/artifacts/${task%%:*}/junit_tests_report.xml
+    rm -f "$report"
+    status=0
+    ceedling ${4:+"--mixin=$4"} "--mixin=$mixin" "$task" >"$log" 2>&1 \
+        </dev/null || status=1
+    tests=0 failures=0
+    if [ -f "$report" ]; then
+        tests=$(junit tests "$report")
+        failures=$(junit failures "$report")
+    fi
+    if [ "$tests" -eq 0 ] || { [ $status -ne 0 ] && [ "$failures" -eq 0 ]; }; then
+        failures=$((failures + 1)) # the build, the run or the coverage gate
+        tests=$((tests + 1))
+    fi
+    passed=$((passed + tests - failures))
+    failed=$((failed + failures))
+    if [ "$failures" -ne 0 ]; then
+        echo "FAILED unit tests: $name"
+        why=$(sed -n -e '/FAILED TEST SUMMARY/,/OVERALL/p' \
+            -e '/EXCEPTION/,$p' -e '/BUILD FAILURE/,$p' "$log")
+        printf '%s\n' "${why:-$(tail -n 20 "$log")}" | head -n 60
+    fi
+}
+
+# without_packages COMMAND...: with all programs of PATH but Debian's package
+# tools, as on other systems.
+without_packages() {
+    bare=$folder/bare
+    rm -rf "$bare"
+    mkdir -p "$bare"
+    for programs in $(printf '%s\n' "$PATH" | tr ':' ' '); do
+        for program in "$programs"/*; do
+            case ${program##*/} in
+            apt | apt-* | dpkg | dpkg-* | '*') ;;
+            *) [ -e "$bare/${program##*/}" ] || ln -s "$program" "$bare/" ;;
+            esac
+        done
+    done
+    env "PATH=$PWD/$bare" "$@"
+}

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=sh
+# Sourced by tools/test: part_NAME for each part of test/parts.txt.
+
+# The two forms of the arithmetic in C. A compiler's own macros choose; _PIC14 is
+# XC8's name for a chip that has the narrow one of every controller.
+forms='wide narrow'
+first_form=${forms%% *}
+
+# The mixin text for a mode (pointer or object) and a form.
+mode_and_form() {
+    defines="      - UNITY_SUPPORT_64"
+    [ "$2" = wide ] || defines="$defines
+      - _PIC14"
+    objects=
+    if [ "$1" = object ]; then
+        objects="    'test_fixpid_*':
+$defines
+      - FIXPID_AN937_OBJECT=an937_controller
+      - FIXPID_AN964_OBJECT=an964_controller
+      - FIXPID_AN964_8BIT_OBJECT=an964_8bit_controller
+      - FIXPID_PID_OBJECT=pid_controller
+      - FIXPID_AUTOTUNE_OBJECT=autotune_controller
+    '/test_pendulum\\.c/':
+      - FIXPID_AN964_OBJECT=pendulum
+    'test_pendulum_8bit':
+      - FIXPID_AN964_8BIT_OBJECT=pendulum
+    'test_motor':
+      - FIXPID_AN937_OBJECT=motor
+    'test_oven':
+      - FIXPID_AN937_OBJECT=oven
+    'test_thermostat':
+      - FIXPID_PID_OBJECT=thermostat
+    'test_autotune_example':
+      - FIXPID_PID_OBJECT=oven
+      - FIXPID_AUTOTUNE_OBJECT=tuner
+:files:
+  :test:
+    - -:test/unit/test_fixpid_instances.c"
+    fi
+    printf ':defines:\n  :test:\n    "*":\n%s\n%s\n' "$defines" "$objects"
+}
+
+# run_mode NAME MODE FORM [MIXIN]: all unit tests so.
+run_mode() {
+    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3")" ${4:+"$4"}
+}
+
+part_quick() {
+    need clang clang-format pmccabe
+    need_ceedling
+    for mode in pointer object; do
+        run_mode quick $mode "$first_form"
+    done
+    check_formats
+    check 'warnings of src' ruby tools/lib/lint.rb --quick
+    part_docs
+}
+
+part_unit() {
+    need cc:gcc :libc6-dev gcov:gcc gcovr
+    need_ceedling
+    run_ceedling coverage gcov:all '' # the first form, through pointers
+    for mode in pointer object; do
+        for form in $forms; do
+            [ "$mode-$form" = "pointer-$first_form" ] ||
+                run_mode unit $mode "$form"
+        done
+    done
+}
+
+# limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the test of the limits.
+limits() {
+    for form in $forms; do
+        chip=
+        [ "$form" = wide ] || chip='
+      - _PIC14'
+        run_ceedling "limits-$1-$form" test:test_fixpid_limits ":defines:
+  :test:
+    '*':$chip
+      - FIXPID_AN964_SUM_LIMIT=$2
+      - FIXPID_AN964_TERM_LIMIT=$3
+      - FIXPID_AN964_OUTPUT_LIMIT=$4
+      - FIXPID_AN964_8BIT_SUM_LIMIT=$5
+      - FIXPID_AN964_8BIT_TERM_LIMIT=$6"
+    done
+}
+
+part_limits() {
+    need cc:gcc :libc6-dev
+    need_ceedling
+    limits least 1 1 1 1 1
+    limits seven-turns 29999 127 1022 8190 126
+    limits eight-turns 256 128 999 64 127
+    limits most 30000 255 1023 8191 127
+}
+
+part_autotune() {
+    need ruby cc:gcc :libc6-dev
+    count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
+}
+
+part_avr() {
+    need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
+    need_ceedling
+    mkdir -p build/avr/vectors
+    # The last columns are the firmware's own cycles: no test reads them.
+    for vectors in an937_firmware an964_firmware; do
+        cut -d , -f 1-12 "test/vectors/$vectors.csv" >"build/avr/$vectors.csv"
+    done
+    # Half of the rows of fixpid_pid, beside its tests, is what fits; the part
+    # target replays all on an AVR.
+    head -n 1001 test/vectors/pid_definition.csv >build/avr/pid_definition.csv
+    ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
+        build/avr/pid_definition.csv >build/avr/vectors/vectors_table.c
+    # Both modes and each form; each pair of them runs on the host.
+    run_mode avr pointer "$first_form" test/avr/avr.yml
+    other_forms=${forms#"$first_form"}
+    for form in ${other_forms:-$first_form}; do
+        run_mode avr object "$form" test/avr/avr.yml
+    done
+}
+
+part_sanitize() {
+    need clang :libclang-rt-14-dev
+    need_ceedling
+    for form in $forms; do
+        run_mode sanitize pointer "$form" test/sanitize/sanitize.yml
+    done
+}
+
+check_formats() {
+    sources=$(find include src port sim examples test tools -name '*.[ch]')
+    simulators=$(find sim test tools -name '*.cc' -o -name '*.hh')
+    for file in $sources $simulators; do
+        check "clang-format $file" clang-format --dry-run -Werror "$file"
+    done
+}
+
+part_lint() {
+    need cc:gcc :libc6-dev clang clang-format clang-tidy cppcheck pmccabe \
+        shellcheck ruby
+    check_formats
+    scripts=$(grep -rlE '^(#!/bin/sh|# shellcheck shell=sh)' tools test .ci)
+    for file in $scripts; do
+        check "shellcheck $file" shellcheck -x "$file"
+    done
+    rubies=$(find tools test -name '*.rb')
+    for file in $rubies; do
+        check "ruby -wc $file" ruby -wc "$file"
+    done
+    check 'warnings, tidy and MISRA' ruby tools/lib/lint.rb
+}
+
+part_consumers() {
+    need cmake make ruby
+    count consumers '^ok ' '^FAILED ' test/consumers/run
+}
+
+part_firmware() {
+    need clang
+    need_sdcc
+    check 'tools/firmware' tools/firmware
+    count 'the sources under XC8' '^ok ' '^FAILED ' test/xc8_check/run
+}
+
+part_target() {
+    need qemu-system-arm simavr avr-gcc:gcc-avr
+    need_sdcc
+    build_gpsim
+    count 'test/target/run' '^ok ' '^FAILED ' test/target/run
+    count 'test/autotune/chips' '^ok ' '^FAILED ' test/autotune/chips
+}
+
+part_cost() {
+    need ruby gpasm:gputils
+    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
+    count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/cost/changes.rb
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
+}
+
+part_chip() {
+    need_sdcc
+    build_gpsim
+    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip
+    count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/cosim_check
+}
+
+part_demo() {
+    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/demo/readers.rb
+    check 'without dpkg' without_packages tools/demo thermostat
+    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
+}
+
+part_docs() {
+    need ruby cc:gcc :libc6-dev
+    check 'documentation' ruby tools/lib/check_docs.rb
+    check 'without dpkg' without_packages \
+        sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
+}
+
+part_mutants() {
+    need ruby cc:gcc :libc6-dev
+    need_ceedling
+    check 'mutants' ruby tools/lib/mutants.rb
+}
