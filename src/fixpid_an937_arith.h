@@ -17,7 +17,7 @@
 // An error in offset binary, which compares without a sign: error + 32768.
 #define FIXPID_OFFSET_BINARY(error) ((uint16_t)((uint16_t)(error) ^ 0x8000u))
 
-#if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
+#if defined(__SDCC_pic16)
 #include "pic18/fixpid_an937_pic18.h"
 // An AVR and an 8051 are faster in two's complement, for all that.
 #elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR__) &&                    \

@@ -31,8 +31,9 @@ struct signals {
 
 #if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
 FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
-#define SIGNALS fixpid_pid_signals
-#define LOCAL_SIGNALS FIXPID_DATA struct signals *const signals = &SIGNALS
+#define SIGNALS (*((void)signals, &fixpid_pid_signals)) // it counts as used
+#define LOCAL_SIGNALS                                                          \
+    FIXPID_DATA struct signals *const signals = &fixpid_pid_signals
 #else
 #define SIGNALS (*signals)
 #define LOCAL_SIGNALS                                                          \

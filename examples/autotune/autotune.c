@@ -52,9 +52,6 @@ static void start(void)
     static const struct fixpid_pid_config controller = {
         .output_min = 0,
         .output_max = PORT_DRIVE_FULL,
-        .integral_min = -32767, // it needs no range of its own
-        .integral_max = 32767,
-        .setpoint_weight_q8 = 256,
     };
 
     (void)fixpid_autotune_init(&tuner, &experiment);

@@ -78,15 +78,10 @@ static void control(void)
 int main(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = {.ki_q24 = FIXPID_PID_KI(KI, STEPS_PER_SECOND),
-                  .kp_q8 = FIXPID_PID_KP(KP),
-                  .kd_q8 =
-                      FIXPID_PID_KD(KD, STEPS_PER_SECOND, DERIVATIVE_FILTER),
-                  .derivative_filter = DERIVATIVE_FILTER},
+        .gains =
+            FIXPID_PID_GAINS(KP, KI, KD, STEPS_PER_SECOND, DERIVATIVE_FILTER),
         .output_min = 0,
         .output_max = PORT_DRIVE_FULL,
-        .integral_min = -32767, // it needs no range of its own
-        .integral_max = 32767,
         .setpoint_weight_q8 = SETPOINT_WEIGHT_Q8,
     };
 

@@ -7,7 +7,7 @@
 #define FIXPID_AN964_8BIT_PIC14_H
 #include <stdint.h>
 
-#include "fixpid_bits.h"
+#include "../fixpid_bits.h"
 
 uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k);
 uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k);

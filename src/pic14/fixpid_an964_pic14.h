@@ -7,7 +7,7 @@
 #define FIXPID_AN964_PIC14_H
 #include <stdint.h>
 
-#include "fixpid_bits.h"
+#include "../fixpid_bits.h"
 
 uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x);
 uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k);

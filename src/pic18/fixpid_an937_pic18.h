@@ -1,34 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The numbers of fixpid_an937_arith.h for a PIC18 under SDCC: in
-// sign-magnitude, as fixpid_an937_narrow.h has them, with the products in
-// assembly.
+// The numbers of fixpid_an937_arith.h for a PIC18 under SDCC, in sign-magnitude
+// as fixpid_an937_narrow.h has them, with the products in assembly or in C.
 //
-// Macros instead of functions: SDCC's pic16 port would keep a copy of each, and
-// reach the numbers through a pointer. The assembly finds the numbers by FSR0,
-// with the next one 4 bytes on and the gain of each 12; its operands have fixed
-// addresses, so a function of one controller must not interrupt another's.
+// Macros instead of functions: SDCC's pic16 port keeps a copy of each inline
+// function and reaches the numbers through a pointer; in C a step takes @C@
+// cycles so and 609 with the functions. The operands have fixed addresses, so a
+// function of one controller must not interrupt another's.
 #ifndef FIXPID_AN937_PIC18_H
 #define FIXPID_AN937_PIC18_H
 #include <stdint.h>
 
 #include "fixpid_an937.h"
-
-struct fixpid_an937_operands {
-    int32_t sum;
-    uint16_t low; // product
-};
-extern FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
-
-void fixpid_an937_product(void);   // sum = the number at FSR0 times its gain
-void fixpid_an937_products(void);  // sum = that of the three from FSR0 on
-uint8_t fixpid_an937_divide(void); // sum = limited sum / 16; returns flags
-
-extern __sfr __at(0xFE9) FSR0L;
-extern __sfr __at(0xFEA) FSR0H;
-
-#define fixpid_an937_point_at(number)                                          \
-    (FSR0L = (uint8_t)(uint16_t)(number),                                      \
-     FSR0H = (uint8_t)((uint16_t)(number) >> 8))
 
 #define fixpid_number_set(number, from)                                        \
     do {                                                                       \
@@ -78,14 +60,36 @@ extern __sfr __at(0xFEA) FSR0H;
         (number)->parts.magnitude = sum_;                                      \
     } while (0)
 
-// The gain is where the assembly finds it.
-#define fixpid_number_term(gain, number)                                       \
-    (fixpid_an937_point_at(number), fixpid_an937_product(),                    \
+// The operands of the products, and of the sum that they make.
+struct fixpid_an937_operands {
+    int32_t sum;
+    uint16_t low; // product
+    FIXPID_DATA const union fixpid_an937_number *number;
+};
+extern FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
+
+// sum = number * gain, which lies 12 bytes on
+void fixpid_an937_product(void);
+#define fixpid_number_term(gain, factor)                                       \
+    (fixpid_an937_operands.number = (factor), fixpid_an937_product(),          \
      fixpid_an937_operands.sum)
 
+// sum = that of the three numbers of the object, or of those from `number` on,
+// limited and divided by 16; returns SUM_SATURATED and SUM_NEGATIVE. The name
+// says which, so that the sources link only if they agree.
+#ifdef FIXPID_AN937_OBJECT
+#define fixpid_an937_divided_sum                                               \
+    FIXPID_JOINED(fixpid_an937_divided_sum_of, FIXPID_AN937_OBJECT)
+#define fixpid_an937_point_at(self) ((void)(self))
+#else
+#define fixpid_an937_point_at(self)                                            \
+    (fixpid_an937_operands.number = &(self)->error)
+#endif
+uint8_t fixpid_an937_divided_sum(void);
+
 #define fixpid_an937_output(self, flags)                                       \
-    (fixpid_an937_point_at(&(self)->error), fixpid_an937_products(),           \
-     *(flags) = (uint8_t)(fixpid_an937_divide() | *(flags)),                   \
+    (fixpid_an937_point_at(self),                                              \
+     *(flags) = (uint8_t)(fixpid_an937_divided_sum() | *(flags)),              \
      fixpid_an937_operands.sum)
 
 #endif

@@ -23,7 +23,7 @@ uint8_t fixpid_an964_8bit_div8(uint8_t k) __wparam; // limited to 127
 uint16_t fixpid_an964_8bit_div32(uint8_t k) __wparam;
 
 #define fixpid_7x7_div4(left, right, up, most)                                 \
-    (fixpid_an964_8bit_operands.x = (right),                                    \
+    (fixpid_an964_8bit_operands.x = (right),                                   \
      fixpid_an964_8bit_operands.round_up = (up),                               \
      fixpid_an964_8bit_operands.limit = (most), fixpid_an964_8bit_div4(left))
 #define fixpid_7x7_div8(left, right)                                           \
