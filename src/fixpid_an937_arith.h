@@ -92,7 +92,7 @@ static inline int32_t fixpid_an937_output(
         *flags |= FIXPID_AN937_SUM_NEGATIVE;
         sum = -sum;
     }
-    if (sum > FIXPID_AN937_SUM_MAX) {
+    if ((uint8_t)((uint32_t)sum >> 24) != 0u) {
         *flags |= FIXPID_AN937_SUM_SATURATED;
         sum = FIXPID_AN937_SUM_MAX;
     }

@@ -153,7 +153,7 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
     }
     output = fixpid_7x7_div32(SELF.gains.kp, (uint8_t)sum_of_terms);
     if ((negative & 1u) != 0u) {
-        return (int16_t)fixpid_negated(output);
+        output = fixpid_negated(output);
     }
     return (int16_t)output;
 }

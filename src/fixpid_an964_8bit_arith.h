@@ -19,21 +19,21 @@
 #else
 
 // x * k / 4, rounded down or up, at most `limit`. pre: x, k < 2^7
-static inline uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
-                                      uint8_t limit)
+static inline uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
+                                       uint8_t limit)
 {
     const uint16_t quotient =
         (uint16_t)((uint16_t)(((uint16_t)x * k) + (round_up & 3u)) >> 2);
 
-    return (quotient > limit) ? limit : (uint8_t)quotient;
+    return (quotient > limit) ? limit : quotient;
 }
 
 // floor(x * k / 8), at most 127. pre: x, k < 2^7
-static inline uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
+static inline uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 {
     const uint16_t quotient = (uint16_t)((uint16_t)((uint16_t)x * k) >> 3);
 
-    return (quotient > 127u) ? 127u : (uint8_t)quotient;
+    return (quotient > 127u) ? 127u : quotient;
 }
 
 // floor(x * k / 32). pre: x, k < 2^7; post: at most 504

@@ -51,12 +51,13 @@ FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
 
 FIXPID_INLINE uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 {
-    uint8_t low = 0;
+    uint8_t low = x >> 1; // the first bit
     uint16_t word;
     uint16_t sum;
 
-    fixpid_add_byte_if(&low, x, k & 1u);
-    low >>= 1;
+    if ((k & 1u) == 0u) {
+        low = 0;
+    }
     fixpid_add_byte_if(&low, x, k & 2u);
     low >>= 1;
     fixpid_add_byte_if(&low, x, k & 4u);
@@ -77,12 +78,13 @@ FIXPID_INLINE uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 
 FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
 {
-    uint8_t low = 0;
+    uint8_t low = x >> 1; // the first bit
     uint16_t word;
     uint16_t sum;
 
-    fixpid_add_byte_if(&low, x, k & 1u);
-    low >>= 1;
+    if ((k & 1u) == 0u) {
+        low = 0;
+    }
     fixpid_add_byte_if(&low, x, k & 2u);
     low >>= 1;
     fixpid_add_byte_if(&low, x, k & 4u);

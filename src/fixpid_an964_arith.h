@@ -15,7 +15,9 @@
 #include "pic14/fixpid_an964_pic14.h"
 #elif defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_an964_pic18.h"
-#elif FIXPID_MULTIPLIER_BITS < 16
+// (An AVR with a multiplier has the narrow one a sixth faster, and a quarter
+// larger.)
+#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR_HAVE_MUL__)
 #include "fixpid_an964_narrow.h"
 #else
 
@@ -26,13 +28,13 @@ static inline uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
 }
 
 // x * k / 32, rounded down or up, at most `limit`. pre: x < 2^10
-static inline uint8_t fixpid_10x8_div32(uint8_t k, uint16_t x, uint8_t round_up,
-                                        uint8_t limit)
+static inline uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
+                                         uint8_t round_up, uint8_t limit)
 {
     const uint16_t quotient =
         (uint16_t)((((uint32_t)x * k) + (round_up & 31u)) >> 5);
 
-    return (quotient > limit) ? limit : (uint8_t)quotient;
+    return (quotient > limit) ? limit : quotient;
 }
 
 // floor(x * k / 1024). pre: x < 2^14, k < 2^10; post: below 2^14

@@ -43,8 +43,8 @@ FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t x, uint8_t k)
 #define fixpid_eighth_bit(sum, x, k) (sum)
 #endif
 
-FIXPID_INLINE uint8_t fixpid_10x8_div32(uint8_t k, uint16_t x, uint8_t round_up,
-                                        uint8_t limit)
+FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
+                                         uint8_t round_up, uint8_t limit)
 {
     uint16_t sum = round_up & 31u;
 
@@ -62,7 +62,7 @@ FIXPID_INLINE uint8_t fixpid_10x8_div32(uint8_t k, uint16_t x, uint8_t round_up,
     x = (uint16_t)(x + x);
     fixpid_add_word_if(&sum, x, k & 64u);
     sum = fixpid_eighth_bit(sum, x, k);
-    return (sum > limit) ? limit : (uint8_t)sum;
+    return (sum > limit) ? limit : sum;
 }
 
 // Before each move the sum is below 2 * 2^14.

@@ -77,25 +77,6 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     return true;
 }
 
-bool fixpid_pid_accept_integral_limits(FIXPID_DATA struct fixpid_pid *self,
-                                       int16_t integral_min,
-                                       int16_t integral_max)
-{
-    if (integral_min < -INT16_MAX) {
-        return false;
-    }
-    if (integral_min > integral_max) {
-        return false;
-    }
-    SELF.integral_min = integral_min;
-    SELF.integral_max = integral_max;
-    if ((integral_min | integral_max) == 0) { // no range of its own
-        SELF.integral_min = -INT16_MAX;
-        SELF.integral_max = INT16_MAX;
-    }
-    return true;
-}
-
 // b is 1 where nothing is said of it.
 static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
                           uint16_t weight_q8)
@@ -128,8 +109,8 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
     if (SELF.output_min >= SELF.output_max) {
         return false;
     }
-    if (!fixpid_pid_accept_integral_limits(self, config->integral_min,
-                                           config->integral_max)) {
+    if (!accept_integral_limits(self, config->integral_min,
+                                config->integral_max)) {
         return false;
     }
     return accept_gains(self, &config->gains);
@@ -138,8 +119,6 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
 // No gains, and no room for an integral or an output.
 static void refuse(FIXPID_DATA struct fixpid_pid *self)
 {
-    SELF.options = 0;
-    SELF.setpoint_weight = 0;
     SELF.kp = 0;
     SELF.ki = 0;
     SELF.kd = 0;
@@ -244,7 +223,12 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
         // Both are within 2^30 - 2^24.
         derivative +=
             SELF.derivative - shift_right_by(SELF.derivative, SELF.options);
-        derivative = clamp32(derivative, -DERIVATIVE_MAX, DERIVATIVE_MAX);
+        if (derivative > DERIVATIVE_MAX) {
+            derivative = DERIVATIVE_MAX;
+        }
+        if (derivative < -DERIVATIVE_MAX) {
+            derivative = -DERIVATIVE_MAX;
+        }
     }
     SELF.derivative = derivative;
 }
@@ -253,8 +237,15 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
 static void set_candidate(FIXPID_DATA struct signals *signals,
                           int32_t integral_q8)
 {
-    SIGNALS.integral =
-        shift_left(clamp32(integral_q8, -COUNTS_MAX_Q8, COUNTS_MAX_Q8), 8);
+    int32_t limited = integral_q8;
+
+    if (limited > COUNTS_MAX_Q8) {
+        limited = COUNTS_MAX_Q8;
+    }
+    if (limited < -COUNTS_MAX_Q8) {
+        limited = -COUNTS_MAX_Q8;
+    }
+    SIGNALS.integral = shift_left(limited, 8);
 }
 
 // The candidate I + ki * error. The limits of the integral are -32767 and 32767
@@ -291,59 +282,51 @@ static void take_over(FIXPID_DATA struct fixpid_pid *self,
     SIGNALS.error = 0;
 }
 
-// Keeps the candidate within the integral's limits; INTEGRAL_AT_LIMIT if it lay
-// beyond them. The limit itself has neither a remainder nor a fraction.
-static uint8_t limit_candidate(FIXPID_DATA struct fixpid_pid *self,
-                               FIXPID_DATA struct signals *signals)
-{
-    const int16_t counts = (int16_t)shift_right_floor(SIGNALS.integral, 16);
-    int32_t limit;
-
-    if (counts >= SELF.integral_max) {
-        limit = shift_left(SELF.integral_max, 16);
-    } else if (counts < SELF.integral_min) {
-        limit = shift_left(SELF.integral_min, 16);
-    } else {
-        return 0;
-    }
-    if (SIGNALS.integral == limit) {
-        if (SIGNALS.fraction == 0u) {
-            return 0;
-        }
-    }
-    SIGNALS.integral = limit;
-    SIGNALS.fraction = 0;
-    return FIXPID_PID_INTEGRAL_AT_LIMIT;
-}
-
 // The candidate within the integral's limits, then the sum within the output's.
 // Anti-windup: the candidate is forgotten where it pushes a limited output
 // further.
 static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
                                   FIXPID_DATA struct signals *signals)
 {
-    const uint8_t limited = limit_candidate(self, signals);
-    // within 2^31 - 2^15 + 128
-    int32_t output =
-        SIGNALS.p_d_ff + shift_right_floor(SIGNALS.integral, 8) + 128;
+    const int16_t counts = (int16_t)shift_right_floor(SIGNALS.integral, 16);
+    uint8_t flags = 0;
+    int32_t output;
 
+    if (counts >= SELF.integral_max) {
+        if (!is_just(SELF.integral_max, counts, SIGNALS.integral,
+                     SIGNALS.fraction)) {
+            flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
+        }
+        SIGNALS.integral = shift_left(SELF.integral_max, 16);
+        SIGNALS.fraction = 0;
+    } else if (counts < SELF.integral_min) {
+        flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
+        SIGNALS.integral = shift_left(SELF.integral_min, 16);
+        SIGNALS.fraction = 0;
+    } else {
+        // inside
+    }
+    // within 2^31 - 2^15 + 128
+    output = SIGNALS.p_d_ff + shift_right_floor(SIGNALS.integral, 8) + 128;
     output = shift_right_floor(output, 8);
-    SELF.status = limited;
     if (output > SELF.output_max) {
         output = SELF.output_max;
-        SELF.status |= FIXPID_PID_AT_MAX;
+        flags |= FIXPID_PID_AT_MAX;
         if (SIGNALS.error > 0) {
+            SELF.status = flags;
             return (int16_t)output;
         }
     } else if (output < SELF.output_min) {
         output = SELF.output_min;
-        SELF.status |= FIXPID_PID_AT_MIN;
+        flags |= FIXPID_PID_AT_MIN;
         if (SIGNALS.error < 0) {
+            SELF.status = flags;
             return (int16_t)output;
         }
     } else {
-        // within
+        // inside
     }
+    SELF.status = flags;
     SELF.integral = SIGNALS.integral;
     SELF.integral_fraction = SIGNALS.fraction;
     return (int16_t)output;

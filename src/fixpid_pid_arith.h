@@ -3,14 +3,23 @@
 #ifndef FIXPID_PID_ARITH_H
 #define FIXPID_PID_ARITH_H
 #include <limits.h>
+#include <stdbool.h>
 #include <stdint.h>
+
+// Inline also where a compiler saves flash: a shift by a constant would become
+// one by a variable.
+#if defined(__GNUC__)
+#define FIXPID_ALWAYS_INLINE static inline __attribute__((always_inline))
+#else
+#define FIXPID_ALWAYS_INLINE static inline
+#endif
 
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
 #else
 
 // `value` within low..high. pre: low <= high
-static inline int32_t clamp32(int32_t value, int32_t low, int32_t high)
+FIXPID_ALWAYS_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
 {
     if (value > high) {
         return high;
@@ -21,12 +30,12 @@ static inline int32_t clamp32(int32_t value, int32_t low, int32_t high)
 // floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
 // these compilers document it.
 #if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
-static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_ALWAYS_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     return x >> n;
 }
 #else
-static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_ALWAYS_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     const int32_t power = (int32_t)(UINT32_C(1) << n);
 
@@ -39,12 +48,12 @@ static inline int32_t shift_right_floor(int32_t x, uint8_t n)
 // of a floor is that of both.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
-static inline int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_ALWAYS_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     return shift_right_floor(x, options & 7u);
 }
 #else
-static inline int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_ALWAYS_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     int32_t quotient = x;
 
@@ -63,14 +72,35 @@ static inline int32_t shift_right_by(int32_t x, uint8_t options)
 
 // x * 2^n. pre: it fits. SDCC would call its multiplication.
 #if defined(__SDCC)
-static inline int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_ALWAYS_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return (int32_t)((uint32_t)x << n);
 }
 #else
-static inline int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_ALWAYS_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return x * (int32_t)(UINT32_C(1) << n);
+}
+#endif
+
+// Whether an integral, Q16.16 and eight bits more, of which `counts` is the
+// upper half, is just `limit` counts. Deviation 20.9: INT_MAX is a macro of
+// <limits.h>.
+#if INT_MAX > 32767
+FIXPID_ALWAYS_INLINE bool is_just(int16_t limit, int16_t counts,
+                                  int32_t integral, uint8_t fraction)
+{
+    (void)counts;
+    return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
+}
+#else
+FIXPID_ALWAYS_INLINE bool is_just(int16_t limit, int16_t counts,
+                                  int32_t integral, uint8_t fraction)
+{
+    if (counts != limit) {
+        return false;
+    }
+    return ((uint16_t)integral | fraction) == 0u;
 }
 #endif
 
@@ -85,12 +115,24 @@ static inline int16_t complement(int16_t x)
 #include "avr/fixpid_pid_avr.h"
 #else
 
-// a - b, saturated. Where int has 16 bits it asks for the room first.
-// Deviation 20.9: INT_MAX is a macro of <limits.h>.
-#if INT_MAX > 32767
+// a - b, saturated: as its core does it best. An ARM with saturating
+// instructions has one for a clamp; others compare once; where int has 16 bits,
+// the room comes before the difference.
+#if defined(__ARM_FEATURE_SAT)
 static inline int16_t sub16_sat(int16_t a, int16_t b)
 {
     return (int16_t)clamp32((int32_t)a - b, INT16_MIN, INT16_MAX);
+}
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
+#elif INT_MAX > 32767
+static inline int16_t sub16_sat(int16_t a, int16_t b)
+{
+    const int32_t difference = (int32_t)a - b;
+
+    if (difference != (int16_t)difference) {
+        return (int16_t)(INT16_MAX ^ shift_right_floor(difference, 30));
+    }
+    return (int16_t)difference;
 }
 #else
 static inline int16_t sub16_sat(int16_t a, int16_t b)

@@ -87,7 +87,7 @@ bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
     if (REFUSED) {
         return false;
     }
-    if (!fixpid_pid_accept_integral_limits(self, integral_min, integral_max)) {
+    if (!accept_integral_limits(self, integral_min, integral_max)) {
         return false;
     }
     if ((SELF.status & HELD) == 0u) {

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 // What the sources of fixpid_pid share: how they reach the controller, and its
 // private bits.
+#include "fixpid_pid.h"
+
+#undef OBJECT
+#ifdef FIXPID_PID_OBJECT
+#define OBJECT FIXPID_PID_OBJECT
+#endif
+#include "fixpid_self.h"
+
 #ifndef FIXPID_PID_PRIVATE_H
 #define FIXPID_PID_PRIVATE_H
-#include "fixpid_pid.h"
 #include "fixpid_pid_arith.h"
 
 // A refused controller has no room between its output limits.
@@ -16,16 +23,27 @@
 // What 16 bits of counts can hold, in 1/256.
 #define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)
 
-// The check of init and of fixpid_pid_set_integral_limits; false for an illegal
-// range, and nothing changed.
-bool fixpid_pid_accept_integral_limits(FIXPID_DATA struct fixpid_pid *self,
-                                       int16_t integral_min,
-                                       int16_t integral_max);
+// Of init and fixpid_pid_set_integral_limits: each source has its own copy, and
+// calls it once. False, and nothing changed, for an illegal range.
+static bool accept_integral_limits(FIXPID_DATA struct fixpid_pid *self,
+                                   int16_t integral_min, int16_t integral_max)
+{
+    int16_t low = integral_min;
+    int16_t high = integral_max;
+
+    if ((low | high) == 0) { // no range of its own
+        low = -INT16_MAX;
+        high = INT16_MAX;
+    }
+    if (low == INT16_MIN) {
+        return false;
+    }
+    if (low > high) {
+        return false;
+    }
+    SELF.integral_min = low;
+    SELF.integral_max = high;
+    return true;
+}
 
 #endif
-
-#undef OBJECT
-#ifdef FIXPID_PID_OBJECT
-#define OBJECT FIXPID_PID_OBJECT
-#endif
-#include "fixpid_self.h"

@@ -3,7 +3,7 @@
 // as fixpid_an937_narrow.h has them, with the products in assembly or in C.
 //
 // Macros instead of functions: SDCC's pic16 port keeps a copy of each inline
-// function and reaches the numbers through a pointer; in C a step takes @C@
+// function and reaches the numbers through a pointer; in C a step takes 408
 // cycles so and 609 with the functions. The operands have fixed addresses, so a
 // function of one controller must not interrupt another's.
 #ifndef FIXPID_AN937_PIC18_H

@@ -14,47 +14,44 @@
     (((value) > (high)) ? (high) : (((value) < (low)) ? (low) : (value)))
 #define shift_right_floor(x, n) ((x) >> (n))
 #define shift_left(x, n) ((int32_t)((uint32_t)(x) << (n)))
+#define is_just(limit, counts, integral, fraction)                             \
+    (((uint16_t)((limit) ^ (counts)) | (uint16_t)(integral) | (fraction)) == 0u)
 #define complement(x) ((int16_t)(-1 - (x)))
 
+union fixpid_pid_operand { // a cast would copy it
+    int16_t value;
+    uint16_t gain;
+    uint8_t shift;
+};
 struct fixpid_pid_operands {
-    int16_t left; // and result
-    int16_t right;
+    union fixpid_pid_operand left; // and result
+    union fixpid_pid_operand right;
     int32_t wide; // left, and result
     int32_t wide_right;
 };
 extern FIXPID_DATA struct fixpid_pid_operands FIXPID_PID_OPERANDS_PLACE
     fixpid_pid_operands;
 
-void fixpid_pid_sub16_sat(void); // left -= right
-void fixpid_pid_add32_sat(void); // wide += wide_right
-void fixpid_pid_mul16(void);     // wide = left * right
+void fixpid_pid_sub16_sat(void);   // left -= right
+void fixpid_pid_add32_sat(void);   // wide += wide_right
+void fixpid_pid_mul16(void);       // wide = left * right
+void fixpid_pid_shift_right(void); // wide >>= right & 7
 
+// None of these may stand among another one's arguments.
 #define sub16_sat(a, b)                                                        \
-    (fixpid_pid_operands.left = (a), fixpid_pid_operands.right = (b),          \
-     fixpid_pid_sub16_sat(), fixpid_pid_operands.left)
+    (fixpid_pid_operands.left.value = (a),                                     \
+     fixpid_pid_operands.right.value = (b), fixpid_pid_sub16_sat(),            \
+     fixpid_pid_operands.left.value)
 #define add32_sat(a, b)                                                        \
     (fixpid_pid_operands.wide = (a), fixpid_pid_operands.wide_right = (b),     \
      fixpid_pid_add32_sat(), fixpid_pid_operands.wide)
-#define mul16(gain, x)                                                         \
-    (fixpid_pid_operands.left = (int16_t)(gain),                               \
-     fixpid_pid_operands.right = (x), fixpid_pid_mul16(),                      \
+#define mul16(factor, x)                                                       \
+    (fixpid_pid_operands.left.gain = (factor),                                 \
+     fixpid_pid_operands.right.value = (x), fixpid_pid_mul16(),                \
      fixpid_pid_operands.wide)
-
-// In steps, as SDCC makes a loop of a shift by a variable.
-static inline int32_t shift_right_by(int32_t x, uint8_t options)
-{
-    int32_t quotient = x;
-
-    if ((options & 4u) != 0u) {
-        quotient = shift_right_floor(quotient, 4);
-    }
-    if ((options & 2u) != 0u) {
-        quotient = shift_right_floor(quotient, 2);
-    }
-    if ((options & 1u) != 0u) {
-        quotient = shift_right_floor(quotient, 1);
-    }
-    return quotient;
-}
+#define shift_right_by(x, options)                                             \
+    (fixpid_pid_operands.wide = (x),                                           \
+     fixpid_pid_operands.right.shift = (options), fixpid_pid_shift_right(),    \
+     fixpid_pid_operands.wide)
 
 #endif
