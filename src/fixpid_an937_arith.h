@@ -25,20 +25,20 @@
 #include "fixpid_an937_narrow.h"
 #else
 
-static inline void fixpid_number_set(
+FIXPID_INLINE void fixpid_number_set(
     FIXPID_DATA union fixpid_an937_number *number, int16_t value)
 {
     number->value = value;
 }
 
-static inline int32_t fixpid_number_value(
-    FIXPID_DATA const union fixpid_an937_number *number)
+FIXPID_INLINE int32_t
+fixpid_number_value(FIXPID_DATA const union fixpid_an937_number *number)
 {
     return number->value;
 }
 
 // number = left - right: within +-65535
-static inline void fixpid_number_difference(
+FIXPID_INLINE void fixpid_number_difference(
     FIXPID_DATA union fixpid_an937_number *number, uint16_t left,
     uint16_t right)
 {
@@ -47,7 +47,7 @@ static inline void fixpid_number_difference(
 
 // number = clamp(number + addend, -limit, limit); sets the flag if the sum lay
 // beyond. The number may lie beyond it, too: the sum is within +-131070.
-static inline void fixpid_number_add(
+FIXPID_INLINE void fixpid_number_add(
     FIXPID_DATA union fixpid_an937_number *number,
     FIXPID_DATA const union fixpid_an937_number *addend, uint16_t limit,
     uint8_t *flags)
@@ -66,7 +66,7 @@ static inline void fixpid_number_add(
 }
 
 // post: |gain * number| <= 255 * 65535 < 2^24
-static inline int32_t fixpid_number_term(
+FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
     return (int32_t)gain * number->value;
@@ -80,8 +80,8 @@ static inline int32_t fixpid_number_term(
 
 // Equation 4: the sum of the three terms, limited to a 24-bit magnitude and
 // divided by 16 toward zero. Sets SUM_SATURATED and SUM_NEGATIVE in `flags`.
-static inline int32_t fixpid_an937_output(
-    FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
+FIXPID_INLINE int32_t
+fixpid_an937_output(FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
 {
     // |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
     int32_t sum = fixpid_number_term(self->kp_q4, &self->error) +

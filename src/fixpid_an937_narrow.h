@@ -9,7 +9,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_bits.h"
 
-static inline void fixpid_number_set(
+FIXPID_INLINE void fixpid_number_set(
     FIXPID_DATA union fixpid_an937_number *number, int16_t value)
 {
     uint16_t magnitude = (uint16_t)value;
@@ -22,15 +22,15 @@ static inline void fixpid_number_set(
     number->parts.magnitude = magnitude;
 }
 
-static inline int32_t fixpid_number_value(
-    FIXPID_DATA const union fixpid_an937_number *number)
+FIXPID_INLINE int32_t
+fixpid_number_value(FIXPID_DATA const union fixpid_an937_number *number)
 {
     const int32_t magnitude = (int32_t)number->parts.magnitude;
 
     return (number->parts.negative != 0u) ? -magnitude : magnitude;
 }
 
-static inline void fixpid_number_difference(
+FIXPID_INLINE void fixpid_number_difference(
     FIXPID_DATA union fixpid_an937_number *number, uint16_t left,
     uint16_t right)
 {
@@ -44,7 +44,7 @@ static inline void fixpid_number_difference(
 
 // Unlike signs subtract the smaller magnitude from the larger, whose sign
 // stays.
-static inline void fixpid_number_add(
+FIXPID_INLINE void fixpid_number_add(
     FIXPID_DATA union fixpid_an937_number *number,
     FIXPID_DATA const union fixpid_an937_number *addend, uint16_t limit,
     uint8_t *flags)
@@ -73,12 +73,12 @@ static inline void fixpid_number_add(
 
 // post: at most 65025
 #if defined(__SDCC_pic16) // its compiler multiplies 8 x 8 only without a cast
-static inline uint16_t fixpid_8x8(uint8_t a, uint8_t b)
+FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 {
     return a * b;
 }
 #else
-static inline uint16_t fixpid_8x8(uint8_t a, uint8_t b)
+FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 {
     return (uint16_t)((uint32_t)a * b);
 }
@@ -86,7 +86,7 @@ static inline uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 
 // Two 8 x 8 products: the upper one and what the lower one carries into it are
 // at most 65025 + 254.
-static inline int32_t fixpid_number_term(
+FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
     const uint8_t low_byte = (uint8_t)(number->parts.magnitude & 0xFFu);

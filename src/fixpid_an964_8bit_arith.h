@@ -19,7 +19,7 @@
 #else
 
 // x * k / 4, rounded down or up, at most `limit`. pre: x, k < 2^7
-static inline uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
+FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
                                        uint8_t limit)
 {
     const uint16_t quotient =
@@ -29,7 +29,7 @@ static inline uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
 }
 
 // floor(x * k / 8), at most 127. pre: x, k < 2^7
-static inline uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
+FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 {
     const uint16_t quotient = (uint16_t)((uint16_t)((uint16_t)x * k) >> 3);
 
@@ -37,7 +37,7 @@ static inline uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 }
 
 // floor(x * k / 32). pre: x, k < 2^7; post: at most 504
-static inline uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
+FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
 {
     return (uint16_t)((uint16_t)((uint16_t)x * k) >> 5);
 }

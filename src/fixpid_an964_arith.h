@@ -22,13 +22,13 @@
 #else
 
 // floor(x * k / 16). pre: x < 2^10, k < 2^7; post: at most 8120
-static inline uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
+FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
 {
     return (uint16_t)(((uint32_t)x * k) >> 4);
 }
 
 // x * k / 32, rounded down or up, at most `limit`. pre: x < 2^10
-static inline uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
+FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
                                          uint8_t round_up, uint8_t limit)
 {
     const uint16_t quotient =
@@ -38,7 +38,7 @@ static inline uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
 }
 
 // floor(x * k / 1024). pre: x < 2^14, k < 2^10; post: below 2^14
-static inline uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k)
+FIXPID_INLINE uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k)
 {
     return (uint16_t)(((uint32_t)x * k) >> 10);
 }

@@ -5,15 +5,7 @@
 #define FIXPID_BITS_H
 #include <stdint.h>
 
-// A function that is written apart and compiled into its one caller. SDCC keeps
-// a copy of a static one that nobody calls; its pic14 port does without, and
-// its Padauk ports fail on the locals of a static one.
-#if defined(__SDCC_pic14) || defined(__SDCC_pdk13) || defined(__SDCC_pdk14) || \
-    defined(__SDCC_pdk15)
-#define FIXPID_INLINE inline
-#else
-#define FIXPID_INLINE static inline
-#endif
+#include "fixpid.h"
 
 // The widest multiplier of the chip: bits of an operand, as far as its compiler
 // tells. By it each controller chooses between its two forms of arithmetic,

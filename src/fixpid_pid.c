@@ -285,6 +285,7 @@ static void take_over(FIXPID_DATA struct fixpid_pid *self,
 // The candidate within the integral's limits, then the sum within the output's.
 // Anti-windup: the candidate is forgotten where it pushes a limited output
 // further.
+// Deviation 40 lines: on a PIC18 a function more takes 50 cycles more.
 static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
                                   FIXPID_DATA struct signals *signals)
 {

@@ -6,20 +6,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// Inline also where a compiler saves flash: a shift by a constant would become
-// one by a variable.
-#if defined(__GNUC__)
-#define FIXPID_ALWAYS_INLINE static inline __attribute__((always_inline))
-#else
-#define FIXPID_ALWAYS_INLINE static inline
-#endif
+#include "fixpid.h"
 
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
 #else
 
 // `value` within low..high. pre: low <= high
-FIXPID_ALWAYS_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
+FIXPID_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
 {
     if (value > high) {
         return high;
@@ -30,12 +24,12 @@ FIXPID_ALWAYS_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
 // floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
 // these compilers document it.
 #if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
-FIXPID_ALWAYS_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     return x >> n;
 }
 #else
-FIXPID_ALWAYS_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     const int32_t power = (int32_t)(UINT32_C(1) << n);
 
@@ -48,12 +42,12 @@ FIXPID_ALWAYS_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 // of a floor is that of both.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
-FIXPID_ALWAYS_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     return shift_right_floor(x, options & 7u);
 }
 #else
-FIXPID_ALWAYS_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     int32_t quotient = x;
 
@@ -72,12 +66,12 @@ FIXPID_ALWAYS_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 
 // x * 2^n. pre: it fits. SDCC would call its multiplication.
 #if defined(__SDCC)
-FIXPID_ALWAYS_INLINE int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return (int32_t)((uint32_t)x << n);
 }
 #else
-FIXPID_ALWAYS_INLINE int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return x * (int32_t)(UINT32_C(1) << n);
 }
@@ -87,15 +81,15 @@ FIXPID_ALWAYS_INLINE int32_t shift_left(int32_t x, uint8_t n)
 // upper half, is just `limit` counts. Deviation 20.9: INT_MAX is a macro of
 // <limits.h>.
 #if INT_MAX > 32767
-FIXPID_ALWAYS_INLINE bool is_just(int16_t limit, int16_t counts,
-                                  int32_t integral, uint8_t fraction)
+FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
+                           uint8_t fraction)
 {
     (void)counts;
     return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
 }
 #else
-FIXPID_ALWAYS_INLINE bool is_just(int16_t limit, int16_t counts,
-                                  int32_t integral, uint8_t fraction)
+FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
+                           uint8_t fraction)
 {
     if (counts != limit) {
         return false;
@@ -106,7 +100,7 @@ FIXPID_ALWAYS_INLINE bool is_just(int16_t limit, int16_t counts,
 
 // -1 - x: the mirror image that every int16_t has. The difference of two mirror
 // images is the difference turned round.
-static inline int16_t complement(int16_t x)
+FIXPID_INLINE int16_t complement(int16_t x)
 {
     return (int16_t)(-1 - x);
 }
@@ -119,13 +113,13 @@ static inline int16_t complement(int16_t x)
 // instructions has one for a clamp; others compare once; where int has 16 bits,
 // the room comes before the difference.
 #if defined(__ARM_FEATURE_SAT)
-static inline int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     return (int16_t)clamp32((int32_t)a - b, INT16_MIN, INT16_MAX);
 }
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #elif INT_MAX > 32767
-static inline int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     const int32_t difference = (int32_t)a - b;
 
@@ -135,7 +129,7 @@ static inline int16_t sub16_sat(int16_t a, int16_t b)
     return (int16_t)difference;
 }
 #else
-static inline int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     if (b < 0) {
         return (a > (INT16_MAX + b)) ? INT16_MAX : (int16_t)(a - b);
@@ -156,7 +150,7 @@ static inline int16_t sub16_sat(int16_t a, int16_t b)
 
 // a + b, saturated
 #if defined(FIXPID_HAS_ADD_OVERFLOW)
-static inline int32_t add32_sat(int32_t a, int32_t b)
+FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum;
 
@@ -166,7 +160,7 @@ static inline int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 #else
-static inline int32_t add32_sat(int32_t a, int32_t b)
+FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     if (b < 0) {
         return (a < (INT32_MIN - b)) ? INT32_MIN : (a + b);
@@ -181,7 +175,7 @@ static inline int32_t add32_sat(int32_t a, int32_t b)
 // x is 2^16 too much.
 #if defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                  \
     defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__MSP430__)
-static inline int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     const uint8_t gain_low = (uint8_t)(gain & 0xFFu);
     const uint8_t gain_high = (uint8_t)(gain >> 8);
@@ -198,7 +192,7 @@ static inline int32_t mul16(uint16_t gain, int16_t x)
     return (x < 0) ? (product - (int32_t)((uint32_t)gain << 16)) : product;
 }
 #else
-static inline int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     return (int32_t)gain * x;
 }

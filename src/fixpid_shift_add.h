@@ -11,14 +11,14 @@
 #else
 
 // sum += x if `bit` is not 0. pre: it fits
-static inline void fixpid_add_byte_if(uint8_t *sum, uint8_t x, uint8_t bit)
+FIXPID_INLINE void fixpid_add_byte_if(uint8_t *sum, uint8_t x, uint8_t bit)
 {
     if (bit != 0u) {
         *sum = (uint8_t)(*sum + x);
     }
 }
 
-static inline void fixpid_add_word_if(uint16_t *sum, uint16_t x, uint8_t bit)
+FIXPID_INLINE void fixpid_add_word_if(uint16_t *sum, uint16_t x, uint8_t bit)
 {
     if (bit != 0u) {
         *sum = (uint16_t)(*sum + x);

@@ -9,7 +9,7 @@
 
 // Without overflow 4 cycles. With one, N and C are the wrong sign: the result
 // is all bits C but for the highest, which is not N.
-FIXPID_ALWAYS_INLINE int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     int16_t difference = a;
 
@@ -29,7 +29,7 @@ FIXPID_ALWAYS_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 
 // With an overflow, C is the right sign: the result is all bits not C but for
 // the highest.
-FIXPID_ALWAYS_INLINE int32_t add32_sat(int32_t a, int32_t b)
+FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum = a;
 
@@ -52,7 +52,7 @@ FIXPID_ALWAYS_INLINE int32_t add32_sat(int32_t a, int32_t b)
 
 // Four products, those with the upper byte of x signed, 19 cycles. gcc keeps r1
 // at 0 and does not mind r0.
-FIXPID_ALWAYS_INLINE int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     int32_t product;
     uint8_t zero;
