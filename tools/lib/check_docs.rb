@@ -8,6 +8,7 @@ require 'fileutils'
 require 'open3'
 require_relative 'docs/code_blocks'
 require_relative 'docs/facts'
+require_relative 'docs/forms'
 require_relative 'docs/packages'
 
 Encoding.default_external = 'UTF-8'
@@ -160,7 +161,7 @@ def renewed(path, text)
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/arithmetic.md'
-    part(text, 'bounds', bounds_table)
+    part(part(text, 'bounds', bounds_table), 'forms', Forms.table)
   else
     text
   end
