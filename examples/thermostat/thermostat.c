@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // This is a thermostat on the general-purpose controller. It heats a small oven
-// from cold, and a person may switch the oven off, drive it by hand or run it on
-// little power while it is hot, without a jump of the heater.
+// from cold, and a person may switch the oven off, drive it by hand or run it
+// on little power while it is hot, without a jump of the heater.
 #include "fixpid_pid.h"
 #include "port.h"
 
