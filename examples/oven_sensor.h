@@ -4,7 +4,8 @@
 #define OVEN_SENSOR_H
 #include "port.h"
 
-// Four conversions, added, average their noise: 1/16 of a degree, 0..4092.
+// Adding four conversions averages their noise. The sum, 0..4092, is in 1/16 of
+// a degree.
 static int16_t temperature(void)
 {
     uint16_t sum = 0;
@@ -14,7 +15,7 @@ static int16_t temperature(void)
     return (int16_t)sum;
 }
 
-// In the same counts.
+// The set temperature is in the same counts.
 static int16_t set_temperature(void)
 {
     return (int16_t)(port_read(PORT_SETPOINT) << 2);

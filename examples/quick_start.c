@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "fixpid_an937.h"
-#include <stdio.h> // Deviation 21.6: a program for a PC
+#include <stdio.h>
+
+#include "fixpid_pid.h"
 
 int main(void)
 {
-    const struct fixpid_an937_config config = {
-        FIXPID_AN937_GAIN(2.0), FIXPID_AN937_GAIN(0.5), 0, // kp, ki, kd
-        4000, 1}; // anti-windup limit, ticks per derivative sample
-    struct fixpid_an937 tank;
-    int32_t level = 0; // of a leaking tank; it settles at the valve's opening
-    (void)fixpid_an937_init(&tank, &config);
-    for (int second = 0; second <= 30; second++) {
-        fixpid_an937_tick(&tank);
-        const int32_t valve = fixpid_an937_step(&tank, (int16_t)(1000 - level));
-        level += (valve - level) / 8;
-        (void)printf("%2d s: level %4ld\n", second, (long)level);
+    const struct fixpid_pid_config config = {
+        .gains = FIXPID_PID_GAINS(1.0, 0.3, 0, 1, 0), // one step a second
+        .output_min = 0,
+        .output_max = 255}; // full power
+    struct fixpid_pid heater;
+    int32_t heat = 0; // of the simulated boiler
+    (void)fixpid_pid_init(&heater, &config);
+    for (int second = 0; second <= 10; second++) {
+        const int16_t tenths = (int16_t)(200 + (heat / 2)); // of a degree
+        const int16_t power = fixpid_pid_step(&heater, 600, tenths);
+        heat += power - (heat / 8);
+        (void)printf("%2d s: %d.%d C, power %3d\n", second, tenths / 10,
+                     tenths % 10, power);
     }
     return 0;
 }

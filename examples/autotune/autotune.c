@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// An oven that finds its own gains: a relay experiment around the setpoint from
-// power-on, then a controller with what it found.
+// This oven finds its own gains: from power-on a relay experiment runs around
+// the setpoint, and then a controller with what it found.
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
 #include "port.h"
 
 #include "../oven_sensor.h"
 
-// The rule that makes gains of the experiment, an enum fixpid_autotune_rule.
+// The rule that makes gains of the experiment is an enum fixpid_autotune_rule.
 #ifndef AUTOTUNE_RULE
 #define AUTOTUNE_RULE FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID
 #endif
@@ -19,9 +19,9 @@
 #define RELAY_HIGH ((PORT_DRIVE_FULL * 3) / 10)
 #define SEED (RELAY_HIGH / 2)
 
-// In counts of temperature, of which a degree has 16.
+// These are in counts of temperature, of which a degree has 16.
 #define COLDEST 16
-#define HOTTEST 4000 // 250 C: the sensor's end is 256
+#define HOTTEST 4000 // 250 C; the sensor ends at 256
 #define HYSTERESIS 8u
 #define TIMEOUT_STEPS 600u // a minute for half a cycle
 #define CYCLES 4u
@@ -31,12 +31,14 @@ FIXPID_DATA struct fixpid_pid oven;
 // Deviation 8.4: and its one experiment.
 FIXPID_DATA struct fixpid_autotune tuner;
 
-// What the experiment found, for a debugger to read; a product would keep it in
-// its EEPROM and not tune again. All 0 before, and after a failure.
+// This is what the experiment found, for a debugger to read; a product would
+// keep it in its EEPROM and not tune again. It is all 0 before the experiment
+// ends, and after a failure.
 // Deviation 8.4: found by its name.
 struct fixpid_pid_gains tuned_gains;
 
-// A controller without gains: its output is 0, and stays so after a failure.
+// The controller has no gains at first: its output is 0, and stays so if the
+// experiment fails.
 static void start(void)
 {
     static const struct fixpid_autotune_config experiment = {
@@ -58,8 +60,9 @@ static void start(void)
     (void)fixpid_pid_init(&oven, &controller);
 }
 
-// The controller goes on from the middle of the relay. The result divides: for
-// a small chip this is the longest pass of all, and may take more than a tick.
+// The controller goes on from the middle of the relay. The result is computed
+// with divisions: on a small chip this is the longest pass of all, and may take
+// more than a tick.
 static void take_result(void)
 {
     if (fixpid_autotune_result(&tuner, AUTOTUNE_RULE, &tuned_gains)) {

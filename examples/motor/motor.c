@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// AN937's motor: a speed held by a tachometer, with the note's gains and the
-// note's change of the integral gain once the motor runs.
+// This is AN937's motor. The controller holds its speed, which a tachometer
+// measures, with the note's gains and the note's change of the integral gain
+// once the motor runs.
 #include "fixpid_an937.h"
 #include "port.h"
 
-// Anti-windup limit of the accumulated error, 1..65535. The note's value is
-// 4000; 65535 is as good as none.
+// The anti-windup limit of the accumulated error is 1..65535. The note's value
+// is 4000; 65535 is as good as none.
 #ifndef MOTOR_ACCUMULATED_ERROR_LIMIT
 #define MOTOR_ACCUMULATED_ERROR_LIMIT 4000
 #endif

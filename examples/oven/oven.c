@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// AN937 holding the temperature of a small oven: P on every millisecond, I and
-// D on a slower tick that the application makes by counting the port's.
+// AN937's controller holds the temperature of a small oven. P follows every
+// millisecond, I and D follow a slower tick that the application makes by
+// counting the port's.
 #include "fixpid_an937.h"
 #include "port.h"
 
 #include "../oven_sensor.h"
 
-// The gains x 16, each 0..255.
+// These are the gains x 16, each 0..255.
 #ifndef OVEN_KP_Q4
 #define OVEN_KP_Q4 136
 #endif
@@ -42,14 +43,15 @@
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an937 oven;
 
-// Four times the difference in counts: 1023 counts are the note's 4000.
+// The error is four times the difference in counts of the converter, so that
+// its 1023 counts are the note's 4000.
 static int16_t temperature_error(void)
 {
     const int16_t setpoint = set_temperature();
     return (int16_t)(setpoint - temperature());
 }
 
-// A heater cannot cool: 0..PORT_DRIVE_FULL.
+// A heater cannot cool, so its duty is 0..PORT_DRIVE_FULL.
 static int16_t heater_duty(int32_t output)
 {
     if (output <= 0) {
@@ -61,7 +63,7 @@ static int16_t heater_duty(int32_t output)
     return (int16_t)(output / OUTPUT_PER_DUTY);
 }
 
-// At most one control tick: 255 ms are less than its period.
+// There is at most one control tick, as 255 ms are less than its period.
 static void count_milliseconds(uint8_t ticks)
 {
     static uint16_t waited_ms = 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The drift offset of AN964's demonstrations, and the angles that they share.
+// This is the drift offset of AN964's demonstrations, with the angles that they
+// share.
 //
 // A drive that keeps its sign drives the base away: the offset shifts the
-// upright angle until it comes back.
+// upright angle until the base comes back.
 #ifndef DRIFT_H
 #define DRIFT_H
 #include <stdint.h>
 
-// How far the drift offset may go, in eighths of a 10-bit count: 0..127, 0
-// switches it off. The note's value is 55.
+// This is how far the drift offset may go, in eighths of a 10-bit count. It is
+// 0..127, and 0 switches the offset off. The note's value is 55.
 #ifndef PENDULUM_DRIFT_LIMIT
 #define PENDULUM_DRIFT_LIMIT 55
 #endif
@@ -22,8 +23,8 @@
 
 static int8_t drift_offset;
 
-// The offset / 8 toward zero, and NO_DRIFT: without a sign it is divided by a
-// shift, as a PIC16 has no division.
+// Returns the offset / 8, rounded toward zero, plus NO_DRIFT: a number without
+// a sign, which is divided by a shift, as a PIC16 has no division.
 static uint8_t drift_counts(void)
 {
     uint8_t eighths = (uint8_t)((uint8_t)drift_offset + 128u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AN964's demonstration: an inverted pendulum kept upright by moving its base,
-// with the gains on three potentiometers.
+// This is AN964's demonstration: it keeps an inverted pendulum upright by
+// moving the pendulum's base, and reads the gains from three potentiometers.
 #include "fixpid_an964.h"
 #include "port.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// AN964's demonstration in the form of the note's assembly program: the same
-// pendulum and potentiometers, with products of 8 x 8 bits.
+// This is AN964's demonstration in the form of the note's assembly program: the
+// pendulum and the potentiometers are the same, and the products are of 8 x 8
+// bits.
 #include "fixpid_an964_8bit.h"
 #include "port.h"
 
@@ -19,7 +20,7 @@ static void stop(void)
     drift_offset = 0;
 }
 
-// The offset joins in 10-bit counts, before the two low bits are dropped.
+// The offset is added in 10-bit counts, before the two low bits are dropped.
 // Subtracting 128 is the note's "add 128 and ignore the carry".
 static int8_t error_byte(int16_t conversion)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A thermostat on the general-purpose controller: a small oven, heated from
-// cold, that a person may switch off, drive by hand or run on little power
-// while it is hot, without a jump of the heater.
+// This is a thermostat on the general-purpose controller. It heats a small oven
+// from cold, and a person may switch the oven off, drive it by hand or run it
+// on little power while it is hot, without a jump of the heater.
 #include "fixpid_pid.h"
 #include "port.h"
 
@@ -10,7 +10,8 @@
 #define CONTROL_PERIOD_TICKS 100u
 #define STEPS_PER_SECOND 10.0
 
-// Duty counts per count of temperature, of which a degree has 16.
+// The gains are in duty counts per count of temperature, of which a degree has
+// 16.
 #define KP 1.3
 #define KI 0.35 // per second
 #define KD 0.8  // seconds
@@ -20,8 +21,8 @@
 #define KEEP_WARM_DUTY (PORT_DRIVE_FULL / 10)
 #define LOW_POWER_DUTY (PORT_DRIVE_FULL / 8)
 
-// A rotary switch on a ladder of resistors: a quarter of the converter's range
-// for each position, and off when its wire is broken.
+// The selector is a rotary switch on a ladder of resistors. Each position has a
+// quarter of the converter's range, and a broken wire reads as off.
 #define SELECTOR_OFF 0u
 #define SELECTOR_AUTOMATIC 1u
 #define SELECTOR_MANUAL 2u
@@ -33,8 +34,8 @@ FIXPID_DATA struct fixpid_pid thermostat;
 
 static uint8_t position = SELECTOR_OFF;
 
-// From off it starts anew, at full power if it is cold. From manual it takes
-// over where the heater is. Limits may change at any time.
+// From off the controller starts anew, at full power if the oven is cold. From
+// manual it takes over where the heater is. Limits may change at any time.
 static void enter(uint8_t next)
 {
     int16_t most = PORT_DRIVE_FULL;

@@ -40,13 +40,7 @@ static const struct fixpid_autotune_config experiment = {0, 255,  0, 0, 1023,
 static struct fixpid_pid_gains tuned;
 
 static const struct fixpid_pid_config valve = {
-    {FIXPID_PID_KI(0.5, 10), FIXPID_PID_KP(2), FIXPID_PID_KD(0.1, 10, 1), 1},
-    0,
-    255,
-    -32767,
-    32767,
-    256,
-    0};
+    FIXPID_PID_GAINS(2, 0.5, 0.1, 10, 1), 0, 255, -32767, 32767, 256, 0};
 
 #define CALLS 56
 

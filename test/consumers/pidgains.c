@@ -3,7 +3,7 @@
 #include "fixpid_pid.h"
 
 extern const struct fixpid_pid_gains gains;
-const struct fixpid_pid_gains gains = {GAIN, 0, 0, 0};
+const struct fixpid_pid_gains gains = {0, GAIN, 0, 0};
 
 // Does not compile where the constant is not the expected one.
 #ifdef EXPECTED

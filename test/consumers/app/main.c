@@ -29,11 +29,8 @@ static bool an937_works(void)
 static bool pid_works(void)
 {
     const struct fixpid_pid_config config = {
-        .gains = {.ki_q24 = FIXPID_PID_TI(2.0, 10.0, 10),
-                  .kp_q8 = FIXPID_PID_KP(2.0)},
+        .gains = FIXPID_PID_GAINS(2.0, 2.0 / 10.0, 0, 10, 0),
         .output_max = 255,
-        .integral_max = 255,
-        .setpoint_weight_q8 = 256,
     };
     struct fixpid_pid pid;
 

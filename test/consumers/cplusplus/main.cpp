@@ -24,7 +24,7 @@ static_assert(FIXPID_PID_KD(0.1, 100, 2) == 640, "2.5 x 256");
 static_assert(FIXPID_PID_TD(1.5, 3, 100, 4) == 7200, "28.125 x 256");
 
 static const fixpid_pid_config valve = {
-    {FIXPID_PID_KI(0, 1), FIXPID_PID_KP(2), 0, 0}, 0, 255, 0, 0, 256, 0};
+    FIXPID_PID_GAINS(2, 0, 0, 1, 0), 0, 255, 0, 0, 0, 0};
 
 int main()
 {

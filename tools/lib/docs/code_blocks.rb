@@ -5,13 +5,20 @@
 # A block with a main is a program, linked with the whole library. Any other one
 # is compiled with all public headers, as a file or as the body of a function.
 # What it takes for granted stands before it: <!-- given: DECLARATIONS -->
+#
+# A block must compile as C++11, too, for a PC and for an Arduino, unless this
+# stands before it: <!-- C only: REASON -->
 require 'fileutils'
 require 'open3'
 
 class CodeBlocks
   FOLDER = 'build/test/docs'.freeze
   FLAGS = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -Iinclude].freeze
-  BLOCK = /(?:^<!-- given: (?<given>.*?) -->\n)?^```c\n(?<code>.*?)^```\n(?:\n*(?:prints\n+)?^```text\n(?<printed>.*?)^```\n)?/m.freeze
+  CPLUSPLUS = { 'g++' => [], 'avr-g++' => %w[-mmcu=atmega328p] }.freeze
+  # The structures' fields may be named in C++, too: an extension before C++20.
+  CPLUSPLUS_FLAGS = %w[-x c++ -std=gnu++11 -Wall -Wextra -Wno-missing-field-initializers -Wno-unused -Werror
+                       -Iinclude -c].freeze
+  BLOCK = /(?:^<!-- given: (?<given>.*?) -->\n)?(?:^<!-- (?<c_only>C only): .*? -->\n)?^```c\n(?<code>.*?)^```\n(?:\n*(?:prints\n+)?^```text\n(?<printed>.*?)^```\n)?/m.freeze
   # In an indented block nothing would look at it.
   HIDDEN_CODE = /^ {4,}[^|\n]*[;{]$/.freeze
 
@@ -28,7 +35,7 @@ class CodeBlocks
       match = Regexp.last_match
       @number += 1
       program = match[:code].match?(/^int main\(/)
-      printed = program ? run(match[:code], failures) : fragment(match, failures)
+      printed = program ? run(match, failures) : fragment(match, failures)
       next whole unless program && match[:printed]
 
       @outputs += 1
@@ -52,24 +59,46 @@ class CodeBlocks
     status.success? ? nil : output
   end
 
-  def run(code, failures)
+  # What C++ compilers say of it.
+  def cplusplus(code)
+    File.write("#{name}.cc", code)
+    complaints = CPLUSPLUS.map do |compiler, options|
+      output, status = Open3.capture2e(compiler, *CPLUSPLUS_FLAGS, *options, "#{name}.cc", '-o', "#{name}.cc.o")
+      status.success? ? nil : "#{compiler}:\n#{output}"
+    end
+    complaints.compact.empty? ? nil : complaints.compact.join
+  end
+
+  def run(match, failures)
+    code = match[:code]
     complaint = compile(code, '-Isrc', *Dir['src/**/*.c'], '-o', name)
     if complaint
       failures << "#{@path}, code block #{@number}:\n#{complaint}"
       return nil
     end
+    as_cplusplus = match[:c_only] ? nil : cplusplus(code)
+    failures << "#{@path}, code block #{@number}, as C++:\n#{as_cplusplus}" if as_cplusplus
     output, status = Open3.capture2e(name)
     failures << "#{@path}, code block #{@number}: exit status #{status.exitstatus}" unless status.success?
     output
   end
 
+  # As a file or as the body of a function, whichever compiles; nil, as it
+  # prints nothing.
   def fragment(match, failures)
     head = Dir['include/*.h'].map { |file| "#include \"#{File.basename(file)}\"\n" }.join
     head += "#{match[:given]}\n"
-    as_file = compile(head + match[:code], '-Wno-unused', '-c', '-o', "#{name}.o") or return
-    as_body = compile("#{head}void fragment(void);\nvoid fragment(void)\n{\n#{match[:code]}}\n",
-                      '-Wno-unused', '-c', '-o', "#{name}.o") or return
-    failures << "#{@path}, code block #{@number}, as a file:\n#{as_file}as a function's body:\n#{as_body}"
+    forms = { 'a file' => head + match[:code],
+              "a function's body" => "#{head}void fragment(void);\nvoid fragment(void)\n{\n#{match[:code]}}\n" }
+    compilers = { 'C' => ->(code) { compile(code, '-Wno-unused', '-c', '-o', "#{name}.o") } }
+    compilers['C++'] = ->(code) { cplusplus(code) } unless match[:c_only]
+    compilers.each do |language, compiler|
+      complaints = forms.transform_values { |code| compiler.call(code) }
+      next if complaints.value?(nil)
+
+      failures << "#{@path}, code block #{@number}, #{language}\n" +
+                  complaints.map { |form, complaint| "as #{form}:\n#{complaint}" }.join
+    end
     nil
   end
 end

@@ -193,7 +193,7 @@ part_demo() {
 }
 
 part_docs() {
-    need ruby cc:gcc :libc6-dev
+    need ruby cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
     check 'documentation' ruby tools/lib/check_docs.rb
     check 'without dpkg' without_packages \
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
