@@ -32,9 +32,9 @@
 
 FIXPID_C_BEGIN
 
-// A gain from its real value, folded at compile time: FIXPID_AN937_GAIN(6.0)
-// is 96. Rounds to the nearest 1/16; a constant outside 0..15.9375 (after
-// rounding) does not compile. No floating-point code is generated.
+// Makes a gain of its real value at compile time: FIXPID_AN937_GAIN(6.0) is 96.
+// It rounds to the nearest 1/16; a constant outside 0..15.9375 (after rounding)
+// does not compile. No floating-point code is generated.
 #define FIXPID_AN937_GAIN(gain)                                                \
     ((uint8_t)FIXPID_CHECKED(((gain)*16.0) + 0.5,                              \
                              ((gain) >= 0.0) && (((gain)*16.0) < 255.5)))
@@ -53,9 +53,9 @@ struct fixpid_an937_config {
     uint8_t derivative_period_ticks;
 };
 
-// Private, like everything down to FIXPID_AN937_SUM_SATURATED: open only so
-// that the application can allocate it. A signed number of 17 bits, in two's
-// complement or in sign-magnitude, as suits the chip.
+// This is private, like everything down to FIXPID_AN937_SUM_SATURATED, and open
+// only so that the application can allocate it. It is a signed number of 17
+// bits, in two's complement or in sign-magnitude, as suits the chip.
 union fixpid_an937_number {
     int32_t value;
     struct {

@@ -10,8 +10,8 @@
 #include "fixpid_an937.h"
 #include "fixpid_bits.h"
 
-// What a step stores in step_flags besides the public bits: the sum was below 0
-// before the division.
+// A step stores this bit in step_flags, besides the public ones, if the sum was
+// below 0 before the division.
 #define FIXPID_AN937_SUM_NEGATIVE 0x80u
 
 // An error in offset binary, which compares without a sign: error + 32768.
@@ -45,8 +45,9 @@ FIXPID_INLINE void fixpid_number_difference(
     number->value = (int32_t)left - (int32_t)right;
 }
 
-// number = clamp(number + addend, -limit, limit); sets the flag if the sum lay
-// beyond. The number may lie beyond it, too: the sum is within +-131070.
+// number = clamp(number + addend, -limit, limit). Sets the flag if the sum lay
+// beyond the limit. So may the number before, after a new limit: the sum is
+// within +-131070.
 FIXPID_INLINE void fixpid_number_add(
     FIXPID_DATA union fixpid_an937_number *number,
     FIXPID_DATA const union fixpid_an937_number *addend, uint16_t limit,

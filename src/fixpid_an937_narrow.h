@@ -42,8 +42,8 @@ FIXPID_INLINE void fixpid_number_difference(
     }
 }
 
-// Unlike signs subtract the smaller magnitude from the larger, whose sign
-// stays.
+// With unlike signs the smaller magnitude is subtracted from the larger, whose
+// sign stays.
 FIXPID_INLINE void fixpid_number_add(
     FIXPID_DATA union fixpid_an937_number *number,
     FIXPID_DATA const union fixpid_an937_number *addend, uint16_t limit,
@@ -84,8 +84,8 @@ FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 }
 #endif
 
-// Two 8 x 8 products: the upper one and what the lower one carries into it are
-// at most 65025 + 254.
+// The term is made of two 8 x 8 products. The upper one and what the lower one
+// carries into it are at most 65025 + 254.
 FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {

@@ -10,7 +10,8 @@
 #include "fixpid_self.h"
 
 // Values with a sign are two's complement patterns in unsigned words, as
-// fixpid_bits.h says: a PIC16 would spend most of the step on signed compares.
+// fixpid_bits.h says, because a PIC16 would spend most of the step on signed
+// comparisons.
 #define AN964_ERROR_MAX ((uint16_t)1023)
 #define AN964_ERROR_MIN ((uint16_t)(UINT32_C(0x10000) - AN964_ERROR_MAX))
 #define AN964_ABOVE_10_BITS 0xFC00u // bits that 0..1023 do not have

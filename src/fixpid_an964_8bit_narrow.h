@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_8bit_arith.h by shift and add, for chips without
-// a multiplier: a byte moves right once per bit of k, which divides; from the
-// bit that has no more divisions on, x moves left instead.
+// a multiplier. A byte moves right once per bit of k, which divides it; where
+// all divisions are done, x moves left instead.
 #ifndef FIXPID_AN964_8BIT_NARROW_H
 #define FIXPID_AN964_8BIT_NARROW_H
 #include <stdint.h>
@@ -9,7 +9,7 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_shift_add.h"
 
-// The sixth and the seventh bit of k, which is at most
+// Adds the sixth and the seventh bit of k, which is at most
 // FIXPID_AN964_8BIT_TERM_LIMIT.
 #if FIXPID_AN964_8BIT_TERM_LIMIT > 31
 FIXPID_INLINE uint16_t fixpid_last_bits(uint16_t sum, uint16_t x, uint8_t k)

@@ -8,8 +8,8 @@
 
 #include "fixpid_bits.h"
 
-// `round_up` is 0, or 0xFF where the quotient is to be rounded up: the floor of
-// a negative quotient is its magnitude rounded up.
+// `round_up` is 0 or 0xFF. With 0xFF the quotient is rounded up, because the
+// floor of a negative quotient is its magnitude rounded up.
 
 #if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic14/fixpid_an964_pic14.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_arith.h by shift and add, for chips without a
-// multiplier that is wide enough: the sum moves right once per bit of k, which
-// divides; from the bit that has no more divisions on, x moves left instead.
-// Unrolled, because a loop takes a third more.
+// multiplier that is wide enough. The sum moves right once per bit of k, which
+// divides it; where all divisions are done, x moves left instead. They are
+// unrolled, because a loop takes a third more.
 #ifndef FIXPID_AN964_NARROW_H
 #define FIXPID_AN964_NARROW_H
 #include <stdint.h>
@@ -31,7 +31,7 @@ FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
     return sum;
 }
 
-// The eighth bit of k, which is at most FIXPID_AN964_TERM_LIMIT.
+// Adds the eighth bit of k, which is at most FIXPID_AN964_TERM_LIMIT.
 #if FIXPID_AN964_TERM_LIMIT > 127
 FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t x, uint8_t k)
 {

@@ -7,9 +7,10 @@
 
 #include "fixpid.h"
 
-// The widest multiplier of the chip: bits of an operand, as far as its compiler
-// tells. By it each controller chooses between its two forms of arithmetic,
-// wide and narrow; the exceptions were measured.
+// The width of the chip's multiplier, in bits of an operand, as far as its
+// compiler tells. Each controller has its arithmetic in two forms: wide, with
+// words of the result's size, and narrow, from bytes. The width chooses between
+// them, except where the other one was measured to be faster.
 #if defined(__SDCC_pic14) || defined(_PIC14) || defined(_PIC14E) ||            \
     defined(__SDCC_pdk13) || defined(__SDCC_pdk14) || defined(__SDCC_pdk15) || \
     defined(__SDCC_z80) || defined(__SDCC_z180) || defined(__SDCC_sm83) ||     \
@@ -31,8 +32,9 @@
 #include "pic18/fixpid_bits_pic18.h"
 #else
 
-// The magnitude of a negative pattern: 1..32768. Two spellings of it, because
-// SDCC negates in place what other compilers' sanitizers report as a wrap.
+// Returns the magnitude of a negative pattern: 1..32768. There are two
+// spellings, because SDCC negates the first one in place, and other compilers'
+// sanitizers report it as a wrap.
 #if defined(__SDCC)
 FIXPID_INLINE uint16_t fixpid_negated(uint16_t bits)
 {

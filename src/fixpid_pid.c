@@ -7,7 +7,7 @@
 #define FILTER 0x07u
 #define KI_FINE 0x08u   // ki has 24 fractional bits; neither bit: 16
 #define KI_COARSE 0x10u // ki has 8
-// The setpoint's weight is below 1: 0 where the caller set the bit.
+// The setpoint's weight is below 1. Where the caller set the bit, it is 0.
 #define WEIGHTED FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT
 #define PUBLIC_OPTIONS                                                         \
     (FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR |                     \
@@ -77,7 +77,7 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     return true;
 }
 
-// b is 1 where nothing is said of it.
+// A weight that the configuration leaves out is 0, and b is 1.
 static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
                           uint16_t weight_q8)
 {
@@ -116,7 +116,8 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
     return accept_gains(self, &config->gains);
 }
 
-// No gains, and no room for an integral or an output.
+// A refused controller has no gains, and its integral and its output can only
+// be 0.
 static void refuse(FIXPID_DATA struct fixpid_pid *self)
 {
     SELF.kp = 0;
@@ -167,7 +168,7 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
     return accept_gains(self, gains);
 }
 
-// The proportional term's own error: of b * setpoint, rounded half up.
+// The proportional term's error is that of b * setpoint, rounded half up.
 static void weighted_error(FIXPID_DATA struct fixpid_pid *self,
                            FIXPID_DATA struct signals *signals,
                            int16_t setpoint)
@@ -182,9 +183,9 @@ static void weighted_error(FIXPID_DATA struct fixpid_pid *self,
     SELF.proportional_error = sub16_sat(weighted, SIGNALS.derivative_input);
 }
 
-// The errors in reverse, with a setpoint weight, or with the derivative on the
-// error. Reverse takes the mirror images of all inputs, which turns their
-// differences round.
+// Computes the errors in reverse, with a setpoint weight, or with the
+// derivative on the error. Reverse takes the mirror images of all inputs, which
+// turns their differences round.
 static void special_errors(FIXPID_DATA struct fixpid_pid *self,
                            FIXPID_DATA struct signals *signals,
                            int16_t setpoint, int16_t measurement)
@@ -233,7 +234,8 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     SELF.derivative = derivative;
 }
 
-// The candidate, saturated: what does not fit lies beyond every limit, too.
+// Sets the candidate, saturated: a value that does not fit lies beyond every
+// limit, too.
 static void set_candidate(FIXPID_DATA struct signals *signals,
                           int32_t integral_q8)
 {
@@ -248,8 +250,8 @@ static void set_candidate(FIXPID_DATA struct signals *signals,
     SIGNALS.integral = shift_left(limited, 8);
 }
 
-// The candidate I + ki * error. The limits of the integral are -32767 and 32767
-// at most, so a sum that saturates lies beyond them.
+// Sets the candidate to I + ki * error. The limits of the integral are -32767
+// and 32767 at most, so a sum that saturates lies beyond them.
 static void integrate(FIXPID_DATA struct fixpid_pid *self,
                       FIXPID_DATA struct signals *signals)
 {
@@ -270,8 +272,8 @@ static void integrate(FIXPID_DATA struct fixpid_pid *self,
     SIGNALS.integral = add32_sat(SELF.integral, change);
 }
 
-// The candidate that makes the sum equal to the output held. It is kept, as if
-// there were no error.
+// Sets the candidate that makes the sum equal to the output held. The step
+// keeps it, as if there were no error.
 static void take_over(FIXPID_DATA struct fixpid_pid *self,
                       FIXPID_DATA struct signals *signals)
 {
@@ -282,9 +284,9 @@ static void take_over(FIXPID_DATA struct fixpid_pid *self,
     SIGNALS.error = 0;
 }
 
-// The candidate within the integral's limits, then the sum within the output's.
-// Anti-windup: the candidate is forgotten where it pushes a limited output
-// further.
+// Keeps the candidate within the integral's limits and then the sum within the
+// output's. Anti-windup: a candidate that pushes a limited output further is
+// forgotten.
 // Deviation 40 lines: on a PIC18 a function more takes 50 cycles more.
 static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
                                   FIXPID_DATA struct signals *signals)

@@ -37,9 +37,9 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 }
 #endif
 
-// floor(x / 2^n) with n the low three bits of `options`. Where int has 16 bits
-// in steps, as compilers make a loop of a shift by a variable there. The floor
-// of a floor is that of both.
+// floor(x / 2^n) with n the low three bits of `options`. Where int has 16 bits,
+// it shifts in steps, because compilers make a loop of a shift by a variable
+// there. The floor of a floor is the floor of both divisions.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
 FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
@@ -109,9 +109,9 @@ FIXPID_INLINE int16_t complement(int16_t x)
 #include "avr/fixpid_pid_avr.h"
 #else
 
-// a - b, saturated: as its core does it best. An ARM with saturating
+// a - b, saturated, as each core does it best. An ARM with saturating
 // instructions has one for a clamp; others compare once; where int has 16 bits,
-// the room comes before the difference.
+// the check for overflow comes before the subtraction.
 #if defined(__ARM_FEATURE_SAT)
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {

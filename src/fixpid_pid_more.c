@@ -20,7 +20,8 @@ static void limit_integral(FIXPID_DATA struct fixpid_pid *self)
     }
 }
 
-// What does not fit lies beyond every limit, too.
+// Sets the integral, saturated: a value that does not fit lies beyond every
+// limit, too.
 static void set_integral(FIXPID_DATA struct fixpid_pid *self, int32_t value_q8)
 {
     SELF.integral =

@@ -13,18 +13,19 @@
 #define FIXPID_PID_PRIVATE_H
 #include "fixpid_pid_arith.h"
 
-// A refused controller has no room between its output limits.
+// The output limits of a refused controller are equal.
 #define REFUSED (SELF.output_min == SELF.output_max)
 
 // Bits of `status` under which `integral` holds the output to return instead of
 // an integral.
 #define HELD (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL)
 
-// What 16 bits of counts can hold, in 1/256.
+// The largest number of counts that 16 bits can hold, in 1/256.
 #define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)
 
-// Of init and fixpid_pid_set_integral_limits: each source has its own copy, and
-// calls it once. False, and nothing changed, for an illegal range.
+// Checks and takes a range of the integral, for init and for
+// fixpid_pid_set_integral_limits. Each source has its own copy and calls it
+// once. Returns false for an illegal range, and has then changed nothing.
 static bool accept_integral_limits(FIXPID_DATA struct fixpid_pid *self,
                                    int16_t integral_min, int16_t integral_max)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a source reaches its controller: by the name that it defined as OBJECT
-// (object mode), else through the caller's pointer. Without an include guard:
-// several sources may be compiled as one file.
+// A source reaches its controller by the name that it defined as OBJECT (object
+// mode), else through the caller's pointer. This header has no include guard,
+// because several sources may be compiled as one file.
 #undef SELF
 #undef VALID
 #ifdef OBJECT

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The step of a multiplication by shift and add: a summand, if a bit says so.
+// One step of a multiplication by shift and add: it adds x if a bit is set.
 #ifndef FIXPID_SHIFT_ADD_H
 #define FIXPID_SHIFT_ADD_H
 #include <stdint.h>

@@ -7,8 +7,8 @@
 #define FIXPID_PID_AVR_H
 #include <stdint.h>
 
-// Without overflow 4 cycles. With one, N and C are the wrong sign: the result
-// is all bits C but for the highest, which is not N.
+// It takes 4 cycles without an overflow. With one, N and C are the wrong sign:
+// each bit of the result is C but for the highest, which is not N.
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     int16_t difference = a;
@@ -27,8 +27,8 @@ FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
     return difference;
 }
 
-// With an overflow, C is the right sign: the result is all bits not C but for
-// the highest.
+// With an overflow, C is the right sign: each bit of the result is not C, but
+// for the highest, which is C.
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum = a;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964_8bit.h"
 
-// Nothing where another chip or no assembly is meant.
+// This file is empty for other chips and without assembly.
 #if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an964_8bit_pic14.h"
 
@@ -38,7 +38,8 @@ uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t x, uint8_t k) __naked
     __asm__("rrf STK02,f\n\trrf STK03,w\n\treturn");
 }
 
-// Likewise with 0x78, and nothing is added first.
+// x in W, k in STK00; a quotient above 127 has a bit in 0x78 of the upper byte.
+// Nothing is added first.
 uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k) __naked
 {
     (void)x;

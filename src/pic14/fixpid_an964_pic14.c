@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964.h"
 
-// Nothing where another chip or no assembly is meant.
+// This file is empty for other chips and without assembly.
 #if defined(__SDCC_pic14) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an964_pic14.h"
 
-// The sum moves right once per bit of the second operand. In STK03 and STK04;
+// The sum, in STK03 and STK04, moves right once per bit of the second operand.
 // W holds the first operand. Whatever RRF drops is 0 where both bytes move, and
 // so is the carry before the next addition.
 // Deviation 20.10: byte and bit become part of the assembly.

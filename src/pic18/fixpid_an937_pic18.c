@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an937.h"
 
-// Nothing where another chip is meant.
+// This file is empty for other chips.
 #if defined(__SDCC_pic16)
 #include <stddef.h>
 
@@ -31,7 +31,7 @@ CHECK_OFFSET(kd_q4, 20);
 
 // clang-format off
 
-// FSR0 at the first number.
+// Points FSR0 at the first number.
 #ifdef FIXPID_AN937_OBJECT
 #define ERROR FIXPID_JOINED(, FIXPID_AN937_OBJECT)
 #define POINT_AT_ERROR_LOW lfsr 0, ERROR
@@ -182,7 +182,7 @@ void fixpid_an937_product(void) __naked
         (FIXPID_DATA const struct fixpid_an937 *)NUMBER;
 #endif
 
-// A product where it is put together: shifts and casts would copy it twice.
+// A product is put together here, because shifts and casts would copy it twice.
 static FIXPID_DATA union {
     int32_t all;
     struct {

@@ -74,9 +74,10 @@ void fixpid_an937_product(void);
     (fixpid_an937_operands.number = (factor), fixpid_an937_product(),          \
      fixpid_an937_operands.sum)
 
-// sum = that of the three numbers of the object, or of those from `number` on,
-// limited and divided by 16; returns SUM_SATURATED and SUM_NEGATIVE. The name
-// says which, so that the sources link only if they agree.
+// sum = the three terms of the object, or of the controller whose first number
+// `number` points at, limited and divided by 16. Returns SUM_SATURATED and
+// SUM_NEGATIVE. The function's name has the object's, so that the sources link
+// only if they agree.
 #ifdef FIXPID_AN937_OBJECT
 #define fixpid_an937_divided_sum                                               \
     FIXPID_JOINED(fixpid_an937_divided_sum_of, FIXPID_AN937_OBJECT)

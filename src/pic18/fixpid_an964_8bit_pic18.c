@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964_8bit.h"
 
-// Nothing where another chip or no assembly is meant.
+// This file is empty for other chips and without assembly.
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an964_8bit_pic18.h"
 
@@ -11,14 +11,14 @@
 
 FIXPID_DATA struct fixpid_an964_8bit_operands fixpid_an964_8bit_operands;
 
-// Where the members lie.
+// The addresses of the operands' members.
 #define X _fixpid_an964_8bit_operands
 #define ROUND_UP _fixpid_an964_8bit_operands + 1
 #define LIMIT _fixpid_an964_8bit_operands + 2
 
 // clang-format off
 
-// x * k has 14 bits, with what rounds it up, too.
+// x * k has 14 bits, and so has its sum with what rounds it up.
 uint8_t fixpid_an964_8bit_div4(uint8_t k) __wparam __naked
 {
     (void)k;

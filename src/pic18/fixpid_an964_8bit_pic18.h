@@ -17,7 +17,7 @@ struct fixpid_an964_8bit_operands {
 };
 extern FIXPID_DATA struct fixpid_an964_8bit_operands fixpid_an964_8bit_operands;
 
-// Of x and k, which is in W, as are bytes of the result.
+// Each computes a quotient of x * k. k is in W, and so is a result of one byte.
 uint8_t fixpid_an964_8bit_div4(uint8_t k) __wparam; // rounded and limited
 uint8_t fixpid_an964_8bit_div8(uint8_t k) __wparam; // limited to 127
 uint16_t fixpid_an964_8bit_div32(uint8_t k) __wparam;

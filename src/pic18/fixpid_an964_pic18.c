@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an964.h"
 
-// Nothing where another chip or no assembly is meant.
+// This file is empty for other chips and without assembly.
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an964_pic18.h"
 
@@ -11,7 +11,7 @@
 
 FIXPID_DATA struct fixpid_an964_operands fixpid_an964_operands;
 
-// Where the members lie.
+// The addresses of the operands' members.
 #define X _fixpid_an964_operands
 #define K _fixpid_an964_operands + 2
 #define QUOTIENT _fixpid_an964_operands + 4
@@ -88,8 +88,8 @@ fixpid_an964_limited:
     __endasm;
 }
 
-// Of x * k, 24 bits, the upper 14; the lowest byte of the products counts for
-// nothing.
+// The quotient is the upper 14 bits of x * k, which has 24. The lowest byte of
+// the products does not change them.
 void fixpid_an964_divide_1024(void) __naked
 {
     __asm
