@@ -106,11 +106,21 @@ struct fixpid_an937 {
 // in a PIC18's access RAM a step is a little faster. The application then says
 // `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`, and each file is
 // compiled with -DFIXPID_AN937_PLACE='__at(0x20)'.
-#ifndef FIXPID_AN937_PLACE
+//
+// Sources that disagree about the object or whether it has a place do not link:
+// they call `init` by different names.
+#ifdef FIXPID_AN937_PLACE
+#define FIXPID_AN937_NAMED FIXPID_JOINED(FIXPID_AN937_OBJECT, placed)
+#else
+#define FIXPID_AN937_NAMED FIXPID_AN937_OBJECT
 #define FIXPID_AN937_PLACE
 #endif
 #ifdef FIXPID_AN937_OBJECT
 extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
+#define fixpid_an937_init                                                      \
+    FIXPID_MARKED(FIXPID_JOINED(fixpid_an937_init, FIXPID_AN937_NAMED))
+#else
+#define fixpid_an937_init FIXPID_MARKED(fixpid_an937_init)
 #endif
 
 // Starts from rest: no accumulated error, no pending tick, and the first tick

@@ -18,6 +18,9 @@
     (((uint16_t)((limit) ^ (counts)) | (uint16_t)(integral) | (fraction)) == 0u)
 #define complement(x) ((int16_t)(-1 - (x)))
 
+#ifdef FIXPID_PID_OPERANDS_PLACED // sources that disagree do not link
+#define fixpid_pid_operands fixpid_pid_operands_placed
+#endif
 union fixpid_pid_operand { // a cast would copy it
     int16_t value;
     uint16_t gain;

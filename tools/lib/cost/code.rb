@@ -21,8 +21,10 @@ class Code
     @decoded[address] ||= decode(address)
   end
 
+  # An init has the name of its object behind its own.
   def entry(function)
-    @functions[function] or raise Failure, "no function #{function}"
+    @functions[function] || @functions.find { |name, _| name.start_with?("#{function}_") }&.last or
+      raise Failure, "no function #{function}"
   end
 
   # The function that an address belongs to.
