@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// A program that is compiled with other definitions than the library: it defines
+// the objects `one` and `two`, and uses the first.
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+#include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
+#include "fixpid_pid.h"
+
+#define CAT_(a, b) a##b
+#define CAT(a, b) CAT_(a, b)
+#define CONTROLLER CAT(fixpid_, NOUN)
+
+FIXPID_DATA struct CONTROLLER one;
+FIXPID_DATA struct CONTROLLER two;
+
+static const struct CAT(CONTROLLER, CONFIGURED) config;
+
+int main(void)
+{
+    return CAT(CONTROLLER, _init)(&one, &config) ? 0 : 1;
+}
