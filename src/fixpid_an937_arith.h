@@ -53,14 +53,15 @@ FIXPID_INLINE void fixpid_number_add(
     FIXPID_DATA const union fixpid_an937_number *addend, uint16_t limit,
     uint8_t *flags)
 {
+    const int32_t most = (int32_t)limit;
     int32_t sum = number->value + addend->value;
 
-    if (sum > (int32_t)limit) {
-        sum = (int32_t)limit;
+    if (sum > most) {
+        sum = most;
         *flags = FIXPID_AN937_ACCUMULATED_ERROR_LIMITED;
     }
-    if (sum < -(int32_t)limit) {
-        sum = -(int32_t)limit;
+    if (sum < -most) {
+        sum = -most;
         *flags = FIXPID_AN937_ACCUMULATED_ERROR_LIMITED;
     }
     number->value = sum;

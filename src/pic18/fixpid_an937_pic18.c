@@ -37,8 +37,8 @@ CHECK_OFFSET(kd_q4, 20);
 #define POINT_AT_ERROR_LOW lfsr 0, ERROR
 #define POINT_AT_ERROR_HIGH
 #else
-#define POINT_AT_ERROR_LOW movff _fixpid_an937_operands + 6, FSR0L
-#define POINT_AT_ERROR_HIGH movff _fixpid_an937_operands + 7, FSR0H
+#define POINT_AT_ERROR_LOW movff _fixpid_an937_operands + 4, FSR0L
+#define POINT_AT_ERROR_HIGH movff _fixpid_an937_operands + 5, FSR0H
 #endif
 
 // sum = 0, then three times sum += gain * number. A number is its magnitude, low
@@ -153,8 +153,8 @@ void fixpid_an937_product(void) __naked
 {
     __asm
     banksel _fixpid_an937_operands
-    movff   _fixpid_an937_operands + 6, FSR0L
-    movff   _fixpid_an937_operands + 7, FSR0H
+    movff   _fixpid_an937_operands + 4, FSR0L
+    movff   _fixpid_an937_operands + 5, FSR0H
     clrf    _fixpid_an937_operands, b
     clrf    _fixpid_an937_operands + 1, b
     clrf    _fixpid_an937_operands + 2, b
@@ -169,7 +169,7 @@ void fixpid_an937_product(void) __naked
 
 #define SUM fixpid_an937_operands.sum
 #define SUM_MAX INT32_C(0xFFFFFF) // 24 bits
-#define NUMBER fixpid_an937_operands.number
+#define NUMBER fixpid_an937_operands.at.number
 
 // (SDCC does not follow a pointer that is a member without a copy of it.)
 #ifdef FIXPID_AN937_OBJECT

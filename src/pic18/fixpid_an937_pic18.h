@@ -63,15 +63,17 @@
 // The operands of the products, and of the sum that they make.
 struct fixpid_an937_operands {
     int32_t sum;
-    uint16_t low; // product
-    FIXPID_DATA const union fixpid_an937_number *number;
+    union {
+        FIXPID_DATA const union fixpid_an937_number *number; // until it is read
+        uint16_t low;                                        // product
+    } at;
 };
 extern FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
 
 // sum = number * gain, which lies 12 bytes on
 void fixpid_an937_product(void);
 #define fixpid_number_term(gain, factor)                                       \
-    (fixpid_an937_operands.number = (factor), fixpid_an937_product(),          \
+    (fixpid_an937_operands.at.number = (factor), fixpid_an937_product(),       \
      fixpid_an937_operands.sum)
 
 // sum = the three terms of the object, or of the controller whose first number
@@ -84,7 +86,7 @@ void fixpid_an937_product(void);
 #define fixpid_an937_point_at(self) ((void)(self))
 #else
 #define fixpid_an937_point_at(self)                                            \
-    (fixpid_an937_operands.number = &(self)->error)
+    (fixpid_an937_operands.at.number = &(self)->error)
 #endif
 uint8_t fixpid_an937_divided_sum(void);
 
