@@ -78,8 +78,9 @@ FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 #endif
 
 // Whether an integral, Q16.16 and eight bits more, of which `counts` is the
-// upper half, is just `limit` counts. Deviation 20.9: INT_MAX is a macro of
-// <limits.h>.
+// upper half, is just `limit` counts.
+//
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
 FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
                            uint8_t fraction)
