@@ -7,7 +7,8 @@
 forms='wide narrow'
 first_form=${forms%% *}
 
-# The mixin text for a mode (pointer or object) and a form.
+# The mixin text for a mode (pointer or object) and a form, in Ceedling's context
+# test or gcov.
 mode_and_form() {
     defines="      - UNITY_SUPPORT_64"
     [ "$2" = wide ] || defines="$defines
@@ -36,14 +37,17 @@ $defines
       - FIXPID_AUTOTUNE_OBJECT=tuner
 :files:
   :test:
-    - -:test/unit/test_fixpid_instances.c"
+    - -:test/unit/test_fixpid_instances.c
+    - -:test/unit/test_fixpid_bits.c # the mode changes no arithmetic
+    - -:test/unit/test_fixpid_*_arith*.c"
     fi
-    printf ':defines:\n  :test:\n    "*":\n%s\n%s\n' "$defines" "$objects"
+    printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
 }
 
 # run_mode NAME MODE FORM [MIXIN]: all unit tests so.
 run_mode() {
-    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3")" ${4:+"$4"}
+    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
+        ${4:+"$4"}
 }
 
 part_quick() {
@@ -60,22 +64,25 @@ part_quick() {
 part_unit() {
     need cc:gcc :libc6-dev gcov:gcc gcovr
     need_ceedling
-    run_ceedling coverage gcov:all '' # the first form, through pointers
-    for mode in pointer object; do
-        for form in $forms; do
-            [ "$mode-$form" = "pointer-$first_form" ] ||
-                run_mode unit $mode "$form"
-        done
+    for form in $forms; do
+        run_ceedling "coverage-$form" gcov:all \
+            "$(mode_and_form pointer "$form" gcov)
+:gcov:
+  :gcovr:
+    :exclude_directories: \"build/(?!ceedling-coverage-$form(\$|/))\""
+        run_mode unit object "$form"
     done
 }
 
-# limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the test of the limits.
+# limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the tests of the limits, and of
+# the products, whose bits depend on them.
 limits() {
     for form in $forms; do
         chip=
         [ "$form" = wide ] || chip='
       - _PIC14'
-        run_ceedling "limits-$1-$form" test:test_fixpid_limits ":defines:
+        run_ceedling "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
+            ":defines:
   :test:
     '*':$chip
       - FIXPID_AN964_SUM_LIMIT=$2
