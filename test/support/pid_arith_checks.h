@@ -12,7 +12,7 @@
 #ifndef TEST_STRIDE
 #define TEST_STRIDE 1 // 1 takes every value of 16 bits
 #endif
-#define RANDOM_CASES (UINT32_C(100000) / TEST_STRIDE)
+#define RANDOM_CASES ((UINT32_C(100000) / TEST_STRIDE) + 1000u)
 
 static const int32_t nasty32[] = {
     0,
