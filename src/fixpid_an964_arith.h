@@ -15,7 +15,8 @@
 #include "pic14/fixpid_an964_pic14.h"
 #elif defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_an964_pic18.h"
-#elif FIXPID_MULTIPLIER_BITS < 16
+// SDCC's pic16 port loses a byte of the narrow form's results.
+#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__SDCC_pic16)
 #include "fixpid_an964_narrow.h"
 #else
 

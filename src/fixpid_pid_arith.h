@@ -5,12 +5,19 @@
 #include <limits.h>
 #include <stdint.h>
 
+// SDCC's pic16 port loses bytes of results where it inlines these functions.
+#if defined(__SDCC_pic16)
+#define FIXPID_PID_INLINE static
+#else
+#define FIXPID_PID_INLINE static inline
+#endif
+
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
 #else
 
 // `value` within low..high. pre: low <= high
-static inline int32_t clamp32(int32_t value, int32_t low, int32_t high)
+FIXPID_PID_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
 {
     if (value > high) {
         return high;
@@ -21,12 +28,12 @@ static inline int32_t clamp32(int32_t value, int32_t low, int32_t high)
 // floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
 // these compilers document it.
 #if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
-static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_PID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     return x >> n;
 }
 #else
-static inline int32_t shift_right_floor(int32_t x, uint8_t n)
+FIXPID_PID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
     const int32_t power = (int32_t)(UINT32_C(1) << n);
 
@@ -39,12 +46,12 @@ static inline int32_t shift_right_floor(int32_t x, uint8_t n)
 // of a floor is that of both.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
-static inline int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_PID_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     return shift_right_floor(x, options & 7u);
 }
 #else
-static inline int32_t shift_right_by(int32_t x, uint8_t options)
+FIXPID_PID_INLINE int32_t shift_right_by(int32_t x, uint8_t options)
 {
     int32_t quotient = x;
 
@@ -63,12 +70,12 @@ static inline int32_t shift_right_by(int32_t x, uint8_t options)
 
 // x * 2^n. pre: it fits. SDCC would call its multiplication.
 #if defined(__SDCC)
-static inline int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_PID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return (int32_t)((uint32_t)x << n);
 }
 #else
-static inline int32_t shift_left(int32_t x, uint8_t n)
+FIXPID_PID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     return x * (int32_t)(UINT32_C(1) << n);
 }
@@ -76,7 +83,7 @@ static inline int32_t shift_left(int32_t x, uint8_t n)
 
 // -1 - x: the mirror image that every int16_t has. The difference of two mirror
 // images is the difference turned round.
-static inline int16_t complement(int16_t x)
+FIXPID_PID_INLINE int16_t complement(int16_t x)
 {
     return (int16_t)(-1 - x);
 }
@@ -88,12 +95,12 @@ static inline int16_t complement(int16_t x)
 // a - b, saturated. Where int has 16 bits it asks for the room first.
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if INT_MAX > 32767
-static inline int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_PID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     return (int16_t)clamp32((int32_t)a - b, INT16_MIN, INT16_MAX);
 }
 #else
-static inline int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_PID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     if (b < 0) {
         return (a > (INT16_MAX + b)) ? INT16_MAX : (int16_t)(a - b);
@@ -114,7 +121,7 @@ static inline int16_t sub16_sat(int16_t a, int16_t b)
 
 // a + b, saturated
 #if defined(FIXPID_HAS_ADD_OVERFLOW)
-static inline int32_t add32_sat(int32_t a, int32_t b)
+FIXPID_PID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum;
 
@@ -124,7 +131,7 @@ static inline int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 #else
-static inline int32_t add32_sat(int32_t a, int32_t b)
+FIXPID_PID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     if (b < 0) {
         return (a < (INT32_MIN - b)) ? INT32_MIN : (a + b);
@@ -139,7 +146,7 @@ static inline int32_t add32_sat(int32_t a, int32_t b)
 // x is 2^16 too much.
 #if defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                  \
     defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__MSP430__)
-static inline int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_PID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     const uint8_t gain_low = (uint8_t)(gain & 0xFFu);
     const uint8_t gain_high = (uint8_t)(gain >> 8);
@@ -156,7 +163,7 @@ static inline int32_t mul16(uint16_t gain, int16_t x)
     return (x < 0) ? (product - (int32_t)((uint32_t)gain << 16)) : product;
 }
 #else
-static inline int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_PID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     return (int32_t)gain * x;
 }
