@@ -627,11 +627,23 @@ static void measured(uint16_t span, uint16_t swing, uint16_t high_steps,
         experiment(high_steps, low_steps, (int16_t)(swing - 2u), -2));
 }
 
+// What was on the stack is no gain.
+static void dirty_the_stack(void)
+{
+    volatile uint8_t bytes[256];
+    static unsigned at; // not on the stack
+
+    for (at = 0; at < sizeof bytes; at++) {
+        bytes[at] = 0xA5;
+    }
+}
+
 static void gains_are(uint8_t rule, uint16_t kp, uint32_t ki, uint16_t kd,
                       uint8_t filter)
 {
     struct fixpid_pid_gains gains = {1, 2, 3, 255}; // all are set
 
+    dirty_the_stack();
     TEST_ASSERT_TRUE(
         fixpid_autotune_result(&autotune_controller, rule, &gains));
     TEST_ASSERT_EQUAL_UINT16(kp, gains.kp_q8);
