@@ -18,7 +18,7 @@ FIXPID_INLINE uint16_t fixpid_last_bits(uint16_t sum, uint16_t x, uint8_t k)
     fixpid_add_word_if(&sum, x, k & 32u);
     x = (uint16_t)(x + x);
     fixpid_add_word_if(&sum, x, k & 64u);
-    return (uint8_t)sum;
+    return sum;
 }
 #else
 #define fixpid_last_bits(sum, x, k) (sum)

@@ -565,8 +565,8 @@ static void pid_row(const int32_t columns[], union question *question,
     answer->pid.proportional = columns[16];
     answer->pid.integral = columns[17];
     answer->pid.derivative = columns[18];
-    answer->pid.flags =
-        (uint8_t)((answer->pid.flags & ~VECTORS_PID_FLAGS) | columns[19]);
+    answer->pid.flags = (uint8_t)((answer->pid.flags & ~VECTORS_PID_FLAGS) |
+                                  (uint8_t)columns[19]);
 }
 
 // The size of an object whose last member is a byte.

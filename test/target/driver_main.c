@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loop of a driver on a chip: it answers whenever the harness has asked.
 // Build with -DREPLY=an964_reply or another driver's function.
+#include "arith.h"
 #include "compiler.h"
 #include "configuration.h"
 #include "exchange.h"

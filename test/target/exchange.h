@@ -146,13 +146,6 @@ void an964_reply(void);
 void an964_8bit_reply(void);
 void pid_reply(void);
 
-// The driver of AN937's leaves: see driver_sums.c.
-extern uint8_t sums_gain;
-extern uint16_t sums_stride;
-extern uint32_t sums_digest;
-extern uint32_t sums_digest_of_digests;
-void sums_reply(void);
-
 // fixpid_an937_tick, which an interrupt may call on a PIC18.
 void an937_tick(void);
 

@@ -336,6 +336,8 @@ static void assert_refused(void)
 {
     for (int i = 0; i < 90; i++) {
         TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_step(&an964_controller, 1023));
+        TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_integral(&an964_controller));
+        TEST_ASSERT_EQUAL_INT16(0, fixpid_an964_derivative(&an964_controller));
     }
     TEST_ASSERT_FALSE(fixpid_an964_set_gains(&an964_controller, 600, 40, 100));
     fixpid_an964_reset(&an964_controller);

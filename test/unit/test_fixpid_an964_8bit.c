@@ -281,6 +281,10 @@ static void assert_refused(void)
     for (int i = 0; i < 90; i++) {
         TEST_ASSERT_EQUAL_INT16(
             0, fixpid_an964_8bit_step(&an964_8bit_controller, 127));
+        TEST_ASSERT_EQUAL_INT16(
+            0, fixpid_an964_8bit_integral(&an964_8bit_controller));
+        TEST_ASSERT_EQUAL_INT16(
+            0, fixpid_an964_8bit_derivative(&an964_8bit_controller));
     }
     TEST_ASSERT_FALSE(
         fixpid_an964_8bit_set_gains(&an964_8bit_controller, 75, 5, 12));

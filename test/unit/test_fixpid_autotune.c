@@ -627,11 +627,23 @@ static void measured(uint16_t span, uint16_t swing, uint16_t high_steps,
         experiment(high_steps, low_steps, (int16_t)(swing - 2u), -2));
 }
 
+// What was on the stack is no gain.
+static void dirty_the_stack(void)
+{
+    volatile uint8_t bytes[256];
+    static unsigned at; // not on the stack
+
+    for (at = 0; at < sizeof bytes; at++) {
+        bytes[at] = 0xA5;
+    }
+}
+
 static void gains_are(uint8_t rule, uint16_t kp, uint32_t ki, uint16_t kd,
                       uint8_t filter)
 {
-    struct fixpid_pid_gains gains = {0, 0, 0, 0};
+    struct fixpid_pid_gains gains = {1, 2, 3, 255}; // all are set
 
+    dirty_the_stack();
     TEST_ASSERT_TRUE(
         fixpid_autotune_result(&autotune_controller, rule, &gains));
     TEST_ASSERT_EQUAL_UINT16(kp, gains.kp_q8);
@@ -688,6 +700,18 @@ void test_result_averages_all_cycles(void)
     // 75632 * 116 / 650 = 13497, the rest 262: 13497 * 16 + 6 = 215958
     // 650 * 41 / 256 = 104, 295 * 104 / 16 = 1917
     gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 215958, 1917, 0);
+}
+
+// Of 80 steps, then twice of 40.
+void test_result_averages_only_the_last_cycles_which_are_alike(void)
+{
+    config.cycles = 2;
+    begin(-50);
+    cycle(40, 40, 50, -50);
+    cycle(20, 20, 50, -50);
+    cycle(20, 20, 50, -50);
+    is_over(FIXPID_AUTOTUNE_DONE);
+    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
 }
 
 // Wherever in the cycle the extremes are, and not those of the cycle before.

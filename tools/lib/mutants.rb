@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Breaks the sources in src/ in every small way and names the unit test that notices each
-# break: build/test/mutants.txt. A break that no test notices must stand in
-# test/mutants/equivalent.txt with the reason why it changes nothing. The headers
-# of arithmetic are not broken: their leaves are walked over their domains.
+# Breaks the sources in src/ in every small way and names the unit test that
+# notices each break: build/test/mutants.txt. A break that no test notices must
+# stand in test/mutants/equivalent.txt with the reason why it changes nothing.
+# What the compiler refuses, what crashes and what does not end counts as neither.
+# The chips' own folders of src/ are not broken here: their files compile to
+# nothing on this machine, and test/target breaks them (`planted`).
 require 'fileutils'
 require 'open3'
 require 'timeout'
@@ -10,20 +12,56 @@ require 'timeout'
 ROOT = 'build/mutants'.freeze
 REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/mutants/equivalent.txt'.freeze
-# fixpid_an964_8bit of fixpid_an964_8bit_access: what has a header.
+UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
+WORKERS = 2
+SECONDS_MOST = 5 # no test takes one
+NARROW = %w[-D_PIC14].freeze
+EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
+
+OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
+              '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '/' => %w[*], '<<' => %w[>>], '>>' => %w[<<],
+              '&' => %w[|], '|' => %w[&], '^' => %w[|], '|=' => %w[=], '&=' => %w[|=], '^=' => %w[=], '--' => %w[++],
+              '>>=' => %w[<<=], '<<=' => %w[>>=], '+=' => %w[-=], '-=' => %w[+=], '~' => [''],
+              'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
+              'kd_q4' => %w[kp_q4], 'left' => %w[right], 'right' => %w[left], 'low' => %w[high], 'high' => %w[low],
+              'true' => %w[false], 'false' => %w[true] }.freeze
+TOKEN = %r{//[^\n]*|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d\w*|\n|.}m.freeze
+FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Iinclude -Itest/support].freeze
+
+# fixpid_an964_8bit of fixpid_an964_8bit_more: what has a header.
 def noun(name)
   File.exist?("include/#{name}.h") ? name : noun(name[/.*(?=_)/])
 end
 
-# A chip's own files compile to nothing here.
-TESTS = Dir['src/*.c'].grep_v(/_pic1\d\.c/).sort.to_h { |file| [file, "test_#{noun(File.basename(file, '.c'))}"] }.freeze
-OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
-              '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '<<' => %w[>>], '>>' => %w[<<],
-              '&' => %w[|], '|' => %w[&], '|=' => %w[=], '--' => %w[++], '>>=' => %w[<<=], '+=' => %w[-=],
-              'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
-              'kd_q4' => %w[kp_q4], 'true' => %w[false], 'false' => %w[true] }.freeze
-TOKEN = %r{//[^\n]*|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||\|=|\+=|--|[A-Za-z_]\w*|\d\w*|\n|.}m.freeze
-FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_RANDOM_STEPS=3000 -DTEST_STRIDE=31 -DFIXPID_PRODUCT=3 -Iinclude -Itest/support].freeze
+# A test, what is compiled anew for it, and how.
+Run = Struct.new(:test, :sources, :options) do
+  def objects
+    fresh = sources.map { |source| "#{File.basename(source, '.c')}.o" }
+    Dir["#{ROOT}/ceedling/test/out/#{test}/*.o"].reject { |object| fresh.include?(File.basename(object)) }
+  end
+end
+
+def run_of(test, options = [])
+  Run.new(test, ["test/unit/#{test}.c"], options)
+end
+
+# The runs in which a file is compiled, by its name in src/.
+def runs_of(file)
+  name = File.basename(file, '.*')
+  return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
+
+  case name
+  when 'fixpid_self' then []
+  when 'fixpid_bits', 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
+  when 'fixpid_pid_private' then [Run.new('test_fixpid_pid', %w[src/fixpid_pid.c src/fixpid_pid_more.c], [])]
+  when 'fixpid_pid_arith'
+    [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
+  when /_narrow$/ then [run_of("test_#{noun(name)}_arith", NARROW + EVERY_BIT), run_of("test_#{noun(name)}_arith", NARROW)]
+  else [run_of("test_#{name}")]
+  end
+end
+
+RUNS = Dir['src/*.[ch]'].sort.to_h { |file| [file, runs_of(file)] }.reject { |_, runs| runs.empty? }.freeze
 
 Mutant = Struct.new(:file, :line, :from, :to, :source)
 
@@ -34,36 +72,48 @@ def number_replacements(token)
   [value + 1, value - 1].reject(&:negative?).map { |other| "#{other}#{match[2]}" }
 end
 
-# Lines that are not arithmetic: preprocessor outside of macros, assertions,
-# parameter lists, the frame of a macro.
-def skipped?(file, line)
-  line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef)|FIXPID_ASSERT|struct fixpid_|define VALID|define SELF|\} while \(0\)/ ||
-    (file.end_with?('.h') && line =~ /define FIXPID_(?:\w*PRODUCT\w*|\w+_H|INLINE|SCALED_\w+)\b(?!\()/)
+# For each line whether it is not arithmetic: preprocessor outside of macros with
+# its continuations, assertions, parameter lists.
+def skipped_lines(lines)
+  continued = false
+  lines.map do |line|
+    skipped = continued || line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef|undef)|FIXPID_MULTIPLIER_BITS/
+    continued = skipped && line.end_with?("\\\n")
+    skipped || line =~ /FIXPID_ASSERT|struct fixpid_|define VALID|define SELF/
+  end
+end
+
+# `*pointer` and `&object`, which only the compiler would notice.
+def unary?(text, position, token)
+  %w[* &].include?(token) && text[0...position] =~ /(?:[(,=?:&|{;+-]|return)\s*\z/
 end
 
 def mutants_of(file)
   text = File.read(file)
-  lines = text.lines
+  skipped = skipped_lines(text.lines)
   mutants = []
   position = 0
+  line = 0
   text.scan(TOKEN) do |token|
-    line = text[0...position].count("\n")
-    unless skipped?(file, lines[line]) || token.start_with?('//')
+    unless skipped[line] || token.start_with?('//') || unary?(text, position, token)
       (OPERATORS.fetch(token, []) + number_replacements(token)).each do |other|
         changed = text[0...position] + other + text[(position + token.size)..]
         mutants << Mutant.new(file, line + 1, token, other, changed)
       end
     end
     position += token.size
+    line += token.count("\n")
   end
-  mutants + dropped_assignments(file, text)
+  mutants + dropped(file, text)
 end
 
-def dropped_assignments(file, text)
-  return [] if file.end_with?('.h')
+ASSIGNMENT = /[A-Za-z_*.\[\]0-9>-]+ [|&^+-]?= [^;{}\\]+;/.freeze
+CALL = /(?!(?:if|for|while|switch|return|sizeof|FIXPID_ASSERT)\b)\w+\([^;{}\\]*\);/.freeze
 
+# Statements that are left out.
+def dropped(file, text)
   mutants = []
-  text.scan(/^( +)([A-Za-z_.\[\]0-9]+ \|?= [^;]+;)/) do
+  text.scan(/^( +)(#{ASSIGNMENT}|#{CALL})$/) do
     match = Regexp.last_match
     changed = text[0...match.begin(2)] + ';' + text[match.end(2)..]
     mutants << Mutant.new(file, text[0...match.begin(2)].count("\n") + 1, match[2].gsub(/\s+/, ' '), '', changed)
@@ -76,35 +126,60 @@ def build_objects
     abort 'the unit tests do not pass before anything is broken'
 end
 
-# [what a test program does, the name of its first failing test]
+# What a test program does: the name of its first failing test, a symbol for
+# another end, or nil.
 def run_test(program)
   output = +''
   Open3.popen2e(program) do |_, out, thread|
-    Timeout.timeout(20) { output << out.read }
+    Timeout.timeout(SECONDS_MOST) { output << out.read }
   rescue Timeout::Error
     Process.kill(:KILL, thread.pid)
-    return 'a time-out'
+    return :endless
   end
   return output[/^[^:\n]+:\d+:(\w+):FAIL/, 1] if output =~ /:FAIL/
 
-  output =~ /^OK$/ ? nil : 'a crash'
+  output =~ /^OK$/ ? nil : :crashed
+end
+
+# A tree of all sources, of which one is broken: src/ files include each other
+# by their place.
+def in_tree(source, tree)
+  source.start_with?('src/') ? "#{tree}/#{source}" : source
+end
+
+def notice_in(run, tree)
+  program = "#{tree}/program"
+  sources = run.sources.map { |source| in_tree(source, tree) }
+  system('gcc', *FLAGS, *run.options, "-I#{tree}/src", "-I#{UNITY}", *sources, *run.objects, '-o', program,
+         out: File::NULL, err: File::NULL) or return :refused
+
+  run_test(program)
 end
 
 def notice(mutant, worker)
-  test = TESTS.fetch(mutant.file)
-  folder = "#{ROOT}/#{worker}/#{test}" # a broken header is for its own test only
-  FileUtils.mkdir_p(folder)
-  source = "#{folder}/#{File.basename(mutant.file)}"
-  File.write(source, mutant.source)
-  objects = Dir["#{ROOT}/ceedling/test/out/#{test}/*.o"]
-  header = mutant.file.end_with?('.h')
-  replaced = header ? "#{test}.o" : File.basename(mutant.file, '.c') + '.o'
-  objects.reject! { |object| File.basename(object) == replaced }
-  compiled = header ? "test/unit/#{test}.c" : source
-  system('gcc', *FLAGS, "-I#{folder}", '-Isrc', "-I#{ROOT}/ceedling/vendor/unity/src", compiled, *objects,
-         '-o', "#{folder}/program", out: File::NULL, err: File::NULL) or return 'the compiler'
+  tree = "#{ROOT}/#{worker}"
+  whole = File.read(mutant.file)
+  File.write("#{tree}/#{mutant.file}", mutant.source)
+  RUNS.fetch(mutant.file).each do |run|
+    caught = notice_in(run, tree)
+    return caught if caught
+  end
+  same_for_the_compiler?(mutant, tree, whole) ? :not_compiled : nil
+ensure
+  File.write("#{tree}/#{mutant.file}", whole)
+end
 
-  run_test("#{folder}/program")
+# Whether it is in what no run compiles: it makes no difference after the
+# preprocessor.
+def same_for_the_compiler?(mutant, tree, whole)
+  before, after = [whole, mutant.source].map do |text|
+    File.write("#{tree}/#{mutant.file}", text)
+    RUNS.fetch(mutant.file).map do |run|
+      sources = run.sources.map { |source| in_tree(source, tree) }
+      Open3.capture2('gcc', *FLAGS, *run.options, "-I#{tree}/src", "-I#{UNITY}", '-E', '-P', *sources).first
+    end
+  end
+  before == after
 end
 
 def describe(mutant)
@@ -117,42 +192,54 @@ def key(mutant)
   "#{mutant.file}: #{text}: `#{mutant.from}` -> `#{mutant.to}`"
 end
 
+# [mutant, what noticed it] of all, in order.
+def results_of(mutants)
+  queue = Queue.new
+  mutants.each { |mutant| queue << mutant }
+  results = {}
+  lock = Mutex.new
+  workers = (0...WORKERS).map do |worker|
+    Thread.new do
+      until queue.empty?
+        mutant = queue.pop(true)
+        caught = notice(mutant, worker)
+        lock.synchronize { results[mutant] = caught }
+      end
+    rescue ThreadError
+      nil # the queue ran empty between the two calls
+    end
+  end
+  workers.each(&:join)
+  mutants.map { |mutant| [mutant, results[mutant]] }
+end
+
 FileUtils.mkdir_p('build/test')
 File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
-           ":defines:\n  :test:\n    '*':\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n      - FIXPID_PRODUCT=3\n")
-FileUtils.rm_rf(["#{ROOT}/0", "#{ROOT}/1"])
+           ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
 build_objects
-TESTS.each_key do |file|
-  caught = notice(Mutant.new(file, 0, '', '', File.read(file)), 0)
-  abort "#{file} fails its test unbroken: #{caught}" if caught
+WORKERS.times do |worker|
+  FileUtils.rm_rf("#{ROOT}/#{worker}")
+  FileUtils.mkdir_p("#{ROOT}/#{worker}")
+  FileUtils.cp_r('src', "#{ROOT}/#{worker}")
+end
+RUNS.values.flatten.uniq.each do |run|
+  caught = notice_in(run, "#{ROOT}/0")
+  abort "#{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
 end
 known = File.exist?(EQUIVALENT) ? File.readlines(EQUIVALENT, chomp: true).grep(/^src/) : []
-mutants = TESTS.keys.flat_map { |file| mutants_of(file) }
-queue = Queue.new
-mutants.each { |mutant| queue << mutant }
-results = {}
-lock = Mutex.new
-workers = (0..1).map do |worker|
-  Thread.new do
-    until queue.empty?
-      mutant = queue.pop(true)
-      caught = notice(mutant, worker)
-      lock.synchronize { results[mutant] = caught }
-    end
-  rescue ThreadError
-    nil # the queue ran empty between the two calls
-  end
-end
-workers.each(&:join)
-
-survivors = mutants.reject { |mutant| results[mutant] }
+only = ARGV # files
+results = results_of(RUNS.keys.select { |file| only.empty? || only.include?(file) }.flat_map { |file| mutants_of(file) })
+named, others = results.partition { |_, caught| caught.is_a?(String) }
+apart = others.group_by { |_, caught| caught }.transform_values { |pairs| pairs.map(&:first) }
+survivors = apart.fetch(nil, [])
 File.open(REPORT, 'w') do |report|
-  mutants.each { |mutant| report.puts "#{describe(mutant)}: #{results[mutant] || 'nobody'}" }
+  results.each { |mutant, caught| report.puts "#{describe(mutant)}: #{caught || 'nobody'}" }
 end
-unexplained = survivors.map { |mutant| key(mutant) } - known
-stale = known - survivors.map { |mutant| key(mutant) }
-puts "#{mutants.size} mutants, #{mutants.size - survivors.size} noticed, " \
-     "#{survivors.size - unexplained.size} change nothing; see #{REPORT}"
+unexplained = survivors.map { |mutant| key(mutant) }.uniq - known
+stale = only.empty? ? known - survivors.map { |mutant| key(mutant) } : []
+puts "#{results.size} mutants: #{named.size} noticed by a test, #{survivors.size} by none; see #{REPORT}"
+puts "apart: #{apart.fetch(:refused, []).size} refused by the compiler, #{apart.fetch(:crashed, []).size} crashed, " \
+     "#{apart.fetch(:endless, []).size} endless, #{apart.fetch(:not_compiled, []).size} not compiled on this machine"
 puts 'Nobody notices:', unexplained unless unexplained.empty?
 puts "No longer true in #{EQUIVALENT}:", stale unless stale.empty?
 exit(unexplained.empty? && stale.empty? ? 0 : 1)

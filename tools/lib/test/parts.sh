@@ -2,16 +2,19 @@
 # shellcheck shell=sh
 # Sourced by tools/test: part_NAME for each part of test/parts.txt.
 
-# The two forms of the arithmetic in C. A compiler's own macros choose; _PIC14 is
-# XC8's name for a chip that has the narrow one of every controller.
+# The two forms of the arithmetic. A compiler's own macros choose; _PIC14 is
+# XC8's name for a chip that has the narrow one of every controller. That one is
+# without assembly, too, which an AVR has.
 forms='wide narrow'
 first_form=${forms%% *}
 
-# The mixin text for a mode (pointer or object) and a form.
+# The mixin text for a mode (pointer or object) and a form, in Ceedling's context
+# test or gcov.
 mode_and_form() {
     defines="      - UNITY_SUPPORT_64"
     [ "$2" = wide ] || defines="$defines
-      - _PIC14"
+      - _PIC14
+      - FIXPID_NO_ASSEMBLY"
     objects=
     if [ "$1" = object ]; then
         objects="    'test_fixpid_*':
@@ -36,14 +39,17 @@ $defines
       - FIXPID_AUTOTUNE_OBJECT=tuner
 :files:
   :test:
-    - -:test/unit/test_fixpid_instances.c"
+    - -:test/unit/test_fixpid_instances.c
+    - -:test/unit/test_fixpid_bits.c # the mode changes no arithmetic
+    - -:test/unit/test_fixpid_*_arith*.c"
     fi
-    printf ':defines:\n  :test:\n    "*":\n%s\n%s\n' "$defines" "$objects"
+    printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
 }
 
 # run_mode NAME MODE FORM [MIXIN]: all unit tests so.
 run_mode() {
-    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3")" ${4:+"$4"}
+    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
+        ${4:+"$4"}
 }
 
 part_quick() {
@@ -60,22 +66,25 @@ part_quick() {
 part_unit() {
     need cc:gcc :libc6-dev gcov:gcc gcovr
     need_ceedling
-    run_ceedling coverage gcov:all '' # the first form, through pointers
-    for mode in pointer object; do
-        for form in $forms; do
-            [ "$mode-$form" = "pointer-$first_form" ] ||
-                run_mode unit $mode "$form"
-        done
+    for form in $forms; do
+        run_ceedling "coverage-$form" gcov:all \
+            "$(mode_and_form pointer "$form" gcov)
+:gcov:
+  :gcovr:
+    :exclude_directories: \"build/(?!ceedling-coverage-$form(\$|/))\""
+        run_mode unit object "$form"
     done
 }
 
-# limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the test of the limits.
+# limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the tests of the limits, and of
+# the products, whose bits depend on them.
 limits() {
     for form in $forms; do
         chip=
         [ "$form" = wide ] || chip='
       - _PIC14'
-        run_ceedling "limits-$1-$form" test:test_fixpid_limits ":defines:
+        run_ceedling "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
+            ":defines:
   :test:
     '*':$chip
       - FIXPID_AN964_SUM_LIMIT=$2
@@ -113,12 +122,10 @@ part_avr() {
     head -n 1001 test/vectors/pid_definition.csv >build/avr/pid_definition.csv
     ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
         build/avr/pid_definition.csv >build/avr/vectors/vectors_table.c
-    # Both modes and each form; each pair of them runs on the host.
-    run_mode avr pointer "$first_form" test/avr/avr.yml
-    other_forms=${forms#"$first_form"}
-    for form in ${other_forms:-$first_form}; do
-        run_mode avr object "$form" test/avr/avr.yml
-    done
+    # Its own form in both modes; the narrow one, in plain C, in one.
+    run_mode avr pointer wide test/avr/avr.yml
+    run_mode avr object wide test/avr/avr.yml
+    run_mode avr pointer narrow test/avr/avr.yml
 }
 
 part_sanitize() {

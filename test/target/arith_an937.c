@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "arith.h"
+#include "fixpid_an937.h"
+#include "fixpid_an937_arith.h"
+
+#define TESTED an937_controller
+
+FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE an937_controller;
+
+static uint8_t flags;
+
+// The products and their sum, with its division.
+static void add_sum(void)
+{
+    flags = 0;
+    arith_add((uint32_t)fixpid_an937_output(&TESTED, &flags));
+    arith_add(flags);
+    arith_add(
+        (uint32_t)fixpid_number_term(TESTED.ki_q4, &TESTED.accumulated_error));
+}
+
+// Three products of one sign, and with the middle one of the other.
+static void add_sums(uint16_t left, uint16_t right)
+{
+    fixpid_number_difference(&TESTED.error, left, right);
+    fixpid_number_difference(&TESTED.accumulated_error, left, right);
+    fixpid_number_difference(&TESTED.delta, left, right);
+    add_sum();
+    fixpid_number_difference(&TESTED.accumulated_error, right, left);
+    add_sum();
+}
+
+// A number that is set, and two sums.
+static void add_numbers(uint16_t magnitude, uint16_t limit)
+{
+    flags = 0;
+    fixpid_number_set(&TESTED.error, (int16_t)magnitude);
+    arith_add((uint32_t)fixpid_number_value(&TESTED.error));
+    fixpid_number_add(&TESTED.error, &TESTED.delta, magnitude, &flags);
+    arith_add((uint32_t)fixpid_number_value(&TESTED.error));
+    arith_add(flags);
+    flags = 0;
+    fixpid_number_add(&TESTED.accumulated_error, &TESTED.delta, limit, &flags);
+    arith_add((uint32_t)fixpid_number_value(&TESTED.accumulated_error));
+    arith_add(flags);
+}
+
+// With 257, each byte is both bytes of a magnitude: each of the two products is
+// seen with all its operands.
+void an937_arith(void)
+{
+    const uint16_t stride = (arith_row < 256u) ? 257u : 1u;
+    uint16_t magnitude = 0;
+
+    arith_begin();
+    TESTED.kp_q4 = (uint8_t)arith_row;
+    TESTED.ki_q4 = (uint8_t)arith_row;
+    TESTED.kd_q4 = (uint8_t)arith_row;
+    do {
+        add_sums(magnitude, 0);
+        add_sums(0, magnitude);
+        add_numbers(magnitude, 65535u);
+        magnitude = (uint16_t)(magnitude + stride);
+    } while (magnitude >= stride);
+}

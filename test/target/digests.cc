@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// A controller's arithmetic on a chip against the host's, row by row:
+//
+//   digests FIRMWARE.cod CONTROLLER [STRIDE]
+//
+// with a firmware of the controller's arith_CONTROLLER.c; every STRIDEth row,
+// and the last. Prints one line. Exit status: 0 no digest differs, 1 some do, 2
+// the run could not be made.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "chip.hh"
+
+extern "C" {
+#include "arith.h"
+}
+
+namespace
+{
+
+constexpr uint64_t cycles_of_a_row = 1000000000; // far more than any takes
+constexpr unsigned reported_most = 5;            // the rest is only counted
+
+struct Arithmetic {
+    std::string controller;
+    void (*digest)();
+    unsigned rows;
+    std::vector<unsigned> also; // rows beyond, which take longer
+};
+
+const std::vector<Arithmetic> all = {
+    {"an937", an937_arith, 256, {256 + 85, 256 + 255}},
+    {"an964", an964_arith, 1024, {}},
+    {"an964_8bit", an964_8bit_arith, 128, {}},
+    {"pid", pid_arith, 256, {}},
+};
+
+const Arithmetic &of(const std::string &controller)
+{
+    for (const Arithmetic &one : all) {
+        if (one.controller == controller) {
+            return one;
+        }
+    }
+    throw ChipError("no controller '" + controller + "'");
+}
+
+// The chip's turn starts when the harness has set its row, and ends with the
+// digest.
+class Digests
+{
+  public:
+    explicit Digests(const std::string &cod);
+    uint32_t of_row(unsigned row);
+
+  private:
+    Chip chip;
+    bool started = false; // main has
+};
+
+Digests::Digests(const std::string &cod) : chip(cod)
+{
+    if (chip.is_pic18()) {
+        chip.lenient_until("main");
+        chip.set_oscillator(40e6);
+    }
+    chip.on_execute(chip.code("main"), [this] { started = true; });
+    chip.on_write(chip.data("turn"), [this](unsigned value) {
+        if (started && value == 0) {
+            chip.stop("the harness's turn");
+        }
+    });
+    chip.run(cycles_of_a_row);
+}
+
+uint32_t Digests::of_row(unsigned row)
+{
+    chip.poke_u16(chip.data("arith_row"), static_cast<uint16_t>(row));
+    chip.poke(chip.data("turn"), 1);
+    chip.run(cycles_of_a_row);
+    if (chip.stopped() != Stop::requested) {
+        throw ChipError("no answer: " + chip.reason());
+    }
+    return chip.peek_u32(chip.data("arith_digest"));
+}
+
+bool run(const std::string &cod, const Arithmetic &tested, unsigned stride)
+{
+    Digests digests(cod);
+    std::vector<unsigned> rows = tested.also;
+    unsigned different = 0;
+
+    for (unsigned row = 0; row < tested.rows; row += stride) {
+        rows.push_back(row);
+    }
+    rows.push_back(tested.rows - 1);
+    for (const unsigned row : rows) {
+        arith_row = static_cast<uint16_t>(row);
+        tested.digest();
+        if (digests.of_row(row) != arith_digest) {
+            different++;
+            if (different <= reported_most) {
+                std::printf("row %u: another digest\n", row);
+            }
+        }
+    }
+    std::printf("%s digests %zu different %u\n", tested.controller.c_str(),
+                rows.size(), different);
+    return different == 0;
+}
+
+} // namespace
+
+int main(int argc, char *argv[])
+{
+    try {
+        if (argc < 3 || argc > 4) {
+            throw ChipError("usage: digests FIRMWARE.cod CONTROLLER [STRIDE]");
+        }
+        const int stride = argc > 3 ? std::atoi(argv[3]) : 1;
+        if (stride < 1) {
+            throw ChipError("no such stride");
+        }
+        return run(argv[1], of(argv[2]), static_cast<unsigned>(stride))
+                   ? EXIT_SUCCESS
+                   : EXIT_FAILURE;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "digests: %s\n", error.what());
+        return 2;
+    }
+}

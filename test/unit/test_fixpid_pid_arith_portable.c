@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The arithmetic of fixpid_pid as a compiler gets it that nobody knows, with an
+// int of 16 bits. (That the products and shifts do not rely on a longer one is
+// what the same tests on an AVR are for.)
+#include "unity.h"
+
+#include "another_compiler.h"
+
+#include "pid_arith_checks.h"
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+void test_portable_sub16_sat_every_value_and_nasty_ones(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, sub16_sat_all_wrong());
+}
+
+void test_portable_add32_sat_nasty_and_random_values(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, add32_sat_all_wrong());
+}
+
+void test_portable_mul16_every_value_and_nasty_ones(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, mul16_all_wrong());
+}
+
+void test_portable_shift_right_nasty_and_random_values_goes_down(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, floors_all_wrong());
+}
+
+void test_portable_shift_left_wherever_it_fits(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, shift_left_all_wrong());
+}
+
+void test_portable_clamp32_nasty_values_and_limits_crossed(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, clamp32_all_wrong());
+}
+
+void test_portable_complement_every_value(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, complement_all_wrong());
+}
