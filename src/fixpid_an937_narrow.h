@@ -93,6 +93,7 @@ FIXPID_INLINE int32_t fixpid_number_term(
     const uint8_t high_byte = (uint8_t)(number->parts.magnitude >> 8);
     const uint16_t low = fixpid_8x8(gain, low_byte);
     const uint16_t high = (uint16_t)(fixpid_8x8(gain, high_byte) + (low >> 8));
+    // Deviation 10.8: at most 24 bits, never negative.
     const int32_t product = (int32_t)(((uint32_t)high << 8) | (low & 0xFFu));
 
     return (number->parts.negative != 0u) ? -product : product;

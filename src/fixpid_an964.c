@@ -115,7 +115,7 @@ FIXPID_INLINE uint16_t derivative_term(FIXPID_DATA struct fixpid_an964 *self,
 
     if ((change & FIXPID_SIGN_BIT) != 0u) {
         change = fixpid_negated(change);
-        negative = 0xFF;
+        negative = 0xFFu;
     }
     if (change > AN964_TERM_LIMIT) {
         change = AN964_TERM_LIMIT;

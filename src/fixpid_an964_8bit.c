@@ -110,7 +110,7 @@ derivative_byte(FIXPID_DATA struct fixpid_an964_8bit *self, uint8_t e)
         change = (uint8_t)(now - change);
     } else {
         change = (uint8_t)(change - now);
-        negative = 0xFF;
+        negative = 0xFFu;
     }
     if (change > BYTE_TERM_LIMIT) {
         change = BYTE_TERM_LIMIT;

@@ -46,7 +46,7 @@ FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t x, uint8_t k)
 FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
                                          uint8_t round_up, uint8_t limit)
 {
-    uint16_t sum = round_up & 31u;
+    uint16_t sum = (uint8_t)(round_up & 31u);
 
     fixpid_add_word_if(&sum, x, k & 1u);
     sum >>= 1;

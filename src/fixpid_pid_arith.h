@@ -26,7 +26,7 @@ FIXPID_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
 #if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
 FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 {
-    return x >> n;
+    return x >> n; // Deviation 10.1: as above
 }
 #else
 FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
@@ -107,7 +107,7 @@ FIXPID_INLINE int16_t complement(int16_t x)
 }
 
 #if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
-#include "avr/fixpid_pid_avr.h"
+#include "avr/fixpid_pid_avr.h" // Deviation 20.1: it builds on the above
 #else
 
 // a - b, saturated, as each core does it best. An ARM with saturating
@@ -186,6 +186,7 @@ FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
     const uint16_t high = (uint16_t)((uint32_t)gain_high * x_high);
     const uint16_t left = (uint16_t)((uint32_t)gain_high * x_low);
     const uint16_t right = (uint16_t)((uint32_t)gain_low * x_high);
+    // Deviation 10.8: below 2^31, never negative.
     const int32_t outer = (int32_t)(((uint32_t)high << 16) | low);
     const int32_t inner = (int32_t)(((uint32_t)left + right) << 8);
     const int32_t product = outer + inner; // below 2^31

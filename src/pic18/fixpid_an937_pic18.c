@@ -10,6 +10,7 @@
 FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
 
 // The layout that the products rely on: each member is where they look.
+// Deviation 20.10: the compiler's message shall name the member.
 #define CHECK_OFFSET(member, offset)                                           \
     typedef char fixpid_##member##_is_elsewhere                                \
         [(offsetof(struct fixpid_an937, member) == (offset)) ? 1 : -1]
@@ -192,18 +193,19 @@ static FIXPID_DATA union {
     } bytes;
 } product;
 
-// sum += gain * factor (its parts), from two 8 x 8 products; the upper one and what the lower
-// one carries into it are at most 65025 + 254. SDCC finds its multiplier only
-// without a cast, and copies the operands of what is not a macro.
+// sum += gain * factor (its parts), from two 8 x 8 products; the upper one and
+// what the lower one carries into it are at most 65025 + 254. SDCC finds its
+// multiplier only without a cast, and copies the operands of what is not a
+// macro.
 #define ADD_PRODUCT(sum, gain, factor)                                         \
     do {                                                                       \
-        const uint8_t low_byte = (uint8_t)((factor).magnitude & 0xFFu);  \
-        const uint16_t low = (gain) * low_byte;                                \
-        const uint8_t high_byte = (uint8_t)((factor).magnitude >> 8);    \
-        const uint16_t high = (gain) * high_byte;                              \
+        const uint8_t low_byte = (uint8_t)((factor).magnitude & 0xFFu);        \
+        const uint16_t low = (gain)*low_byte;                                  \
+        const uint8_t high_byte = (uint8_t)((factor).magnitude >> 8);          \
+        const uint16_t high = (gain)*high_byte;                                \
         product.bytes.middle = (uint16_t)(high + (uint8_t)(low >> 8));         \
         product.bytes.lowest = (uint8_t)low;                                   \
-        if ((factor).negative != 0u) {                                   \
+        if ((factor).negative != 0u) {                                         \
             (sum) -= product.all;                                              \
         } else {                                                               \
             (sum) += product.all;                                              \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program that is compiled with other definitions than the library: it defines
-// the objects `one` and `two`, and uses the first.
+// A program that is compiled with other definitions than the library: it
+// defines the objects `one` and `two`, and uses the first.
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"

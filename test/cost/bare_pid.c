@@ -8,13 +8,7 @@ FIXPID_DATA struct fixpid_pid FIXPID_PID_PLACE pid_controller;
 void main(void)
 {
     static const struct fixpid_pid_config config = {
-        FIXPID_PID_GAINS(2, 0.5, 2, 10, 0),
-        0,
-        1023,
-        0,
-        1023,
-        256,
-        0};
+        FIXPID_PID_GAINS(2, 0.5, 2, 10, 0), 0, 1023, 0, 1023, 256, 0};
 
     (void)fixpid_pid_init(&pid_controller, &config);
     for (;;) {
