@@ -27,6 +27,7 @@
 #else
 #define AN964_BELOW_SUM_MIN(sum) true
 #endif
+
 bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
                        const struct fixpid_an964_gains *gains)
 {
