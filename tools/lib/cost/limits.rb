@@ -52,7 +52,7 @@ module Limits
   # Of docs/chips.md, where test/target/run keeps them.
   FIRMWARE = {
     ['pendulum, PIC16F684', 'interrupt'] => [40, 'cycles'],
-    ['pendulum, PIC16F684', 'flash'] => [1050, 'words'],
+    ['pendulum, PIC16F684', 'flash'] => [1060, 'words'],
     ['pendulum, PIC16F684', 'RAM, bytes'] => [72, 'bytes'],
     ['pendulum, PIC16F684', 'stack used'] => [4, 'levels'],
     ['motor, PIC18F4520', 'interrupt'] => [18, 'cycles']
