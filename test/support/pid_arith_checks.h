@@ -3,6 +3,7 @@
 // macros chose. Each function returns how many results were wrong.
 #ifndef PID_ARITH_CHECKS_H
 #define PID_ARITH_CHECKS_H
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_pid_arith.h"
@@ -206,6 +207,32 @@ static inline uint32_t complement_all_wrong(void)
 
     for (int32_t x = INT16_MIN; x <= INT16_MAX; x++) {
         wrong += (complement((int16_t)x) != -1 - x) ? 1u : 0u;
+    }
+    return wrong;
+}
+
+// A limit with each neighbour of its integral, and with each bit of a fraction.
+static inline uint32_t is_just_all_wrong(void)
+{
+    static const int16_t limits[] = {0, 1, -1, 255, -256, 32767, -32767};
+    uint32_t wrong = 0;
+
+    for (unsigned i = 0; i < sizeof limits / sizeof limits[0]; i++) {
+        for (unsigned j = 0; j < NASTY32_COUNT; j++) {
+            const int64_t integral = (int64_t)limits[i] * 65536 + nasty32[j];
+            if (integral != reference_clamp(integral, INT32_MIN, INT32_MAX)) {
+                continue;
+            }
+            const int16_t counts =
+                (int16_t)((integral - (integral & 0xFFFF)) / 65536);
+            for (unsigned fraction = 0; fraction < 256u; fraction++) {
+                const bool expected = nasty32[j] == 0 && fraction == 0;
+                wrong += (is_just(limits[i], counts, (int32_t)integral,
+                                  (uint8_t)fraction) != expected)
+                             ? 1u
+                             : 0u;
+            }
+        }
     }
     return wrong;
 }

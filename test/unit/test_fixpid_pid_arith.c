@@ -45,3 +45,8 @@ void test_complement_every_value(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, complement_all_wrong());
 }
+
+void test_is_just_the_limit_its_neighbours_and_fractions(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, is_just_all_wrong());
+}

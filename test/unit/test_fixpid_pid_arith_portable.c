@@ -50,3 +50,8 @@ void test_portable_complement_every_value(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, complement_all_wrong());
 }
+
+void test_portable_is_just_the_limit_its_neighbours_and_fractions(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, is_just_all_wrong());
+}
