@@ -146,8 +146,8 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
         sum_of_terms = fixpid_negated(sum_of_terms);
         negative = 1;
     }
-    if ((sum_of_terms & BYTE_ABOVE_TERMS_MAX) !=
-        0u) { // at most 128 + 127 + 127
+    // |sum_of_terms| <= 128 + 127 + 127
+    if ((sum_of_terms & BYTE_ABOVE_TERMS_MAX) != 0u) {
         sum_of_terms = BYTE_TERMS_MAX;
         SELF.output_limited = FIXPID_AN964_8BIT_OUTPUT_LIMITED;
     }
