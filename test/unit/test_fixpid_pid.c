@@ -758,14 +758,19 @@ void test_step_proportional_on_measurement_has_no_setpoint(void)
     TEST_ASSERT_EQUAL_INT32(INT32_C(3277) * (100 - 20), integral());
 }
 
-// The integral ends at 32767, which P on the measurement needs for itself.
-void test_step_integral_at_its_limit_is_flagged_once_it_is_beyond(void)
+// The error is added to the integral, which stays within 10 counts.
+static void start_as_a_sum_within_10(void)
 {
     config.gains.ki_q24 = UINT32_C(1) << 24;
     config.integral_min = -10;
     config.integral_max = 10;
-    config.output_min = -255;
     TEST_ASSERT_TRUE(init());
+}
+
+void test_step_integral_at_its_limit_is_flagged_once_it_is_beyond(void)
+{
+    config.output_min = -255;
+    start_as_a_sum_within_10();
     step(10, 0);
     TEST_ASSERT_EQUAL_HEX8(0, flags()); // at the limit, not beyond it
     step(0, 0);
@@ -785,11 +790,8 @@ void test_step_integral_at_its_limit_is_flagged_once_it_is_beyond(void)
 // A 2^24th of a count beyond the limit is beyond it.
 void test_step_integral_beyond_its_limit_by_a_fraction_is_flagged(void)
 {
-    config.gains.ki_q24 = UINT32_C(1) << 24;
-    config.integral_min = -10;
-    config.integral_max = 10;
     config.output_min = -255;
-    TEST_ASSERT_TRUE(init());
+    start_as_a_sum_within_10();
     step(10, 0);
     config.gains.ki_q24 = 1;
     TEST_ASSERT_TRUE(set_gains());
@@ -800,10 +802,7 @@ void test_step_integral_beyond_its_limit_by_a_fraction_is_flagged(void)
 
 void test_step_integral_at_its_limit_is_flagged_though_the_output_is(void)
 {
-    config.gains.ki_q24 = UINT32_C(1) << 24;
-    config.integral_min = -10;
-    config.integral_max = 10;
-    TEST_ASSERT_TRUE(init());
+    start_as_a_sum_within_10();
     step(300, 0);
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX | FIXPID_PID_INTEGRAL_AT_LIMIT,
                            flags());
