@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // This oven finds its own gains: from power-on a relay experiment runs around
 // the setpoint, and then a controller with what it found.
-#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "fixpid_relay.h"
 #include "port.h"
 
 #include "../oven_sensor.h"
 
-// The rule that makes gains of the experiment is an enum fixpid_autotune_rule.
+// The rule that makes gains of the experiment is an enum fixpid_relay_rule.
 #ifndef AUTOTUNE_RULE
-#define AUTOTUNE_RULE FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID
+#define AUTOTUNE_RULE FIXPID_RELAY_TYREUS_LUYBEN_PID
 #endif
 
 #define CONTROL_PERIOD_TICKS 100u
@@ -29,7 +29,7 @@
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_pid oven;
 // Deviation 8.4: and its one experiment.
-FIXPID_DATA struct fixpid_autotune tuner;
+FIXPID_DATA struct fixpid_relay tuner;
 
 // This is what the experiment found, for a debugger to read; a product would
 // keep it in its EEPROM and not tune again. It is all 0 before the experiment
@@ -41,7 +41,7 @@ struct fixpid_pid_gains tuned_gains;
 // experiment fails.
 static void start(void)
 {
-    static const struct fixpid_autotune_config experiment = {
+    static const struct fixpid_relay_config experiment = {
         .output_low = 0,
         .output_high = RELAY_HIGH,
         .output_rest = 0,
@@ -56,7 +56,7 @@ static void start(void)
         .output_max = PORT_DRIVE_FULL,
     };
 
-    (void)fixpid_autotune_init(&tuner, &experiment);
+    (void)fixpid_relay_init(&tuner, &experiment);
     (void)fixpid_pid_init(&oven, &controller);
 }
 
@@ -65,15 +65,15 @@ static void start(void)
 // more than a tick.
 static void take_result(void)
 {
-    if (fixpid_autotune_result(&tuner, AUTOTUNE_RULE, &tuned_gains)) {
+    if (fixpid_relay_result(&tuner, AUTOTUNE_RULE, &tuned_gains)) {
         (void)fixpid_pid_set_gains(&oven, &tuned_gains);
         fixpid_pid_seed(&oven, SEED);
     }
 }
 
-static bool experiment_is(enum fixpid_autotune_status status)
+static bool experiment_is(enum fixpid_relay_status status)
 {
-    return fixpid_autotune_status(&tuner) == (uint8_t)status;
+    return fixpid_relay_status(&tuner) == (uint8_t)status;
 }
 
 static void control(void)
@@ -81,9 +81,9 @@ static void control(void)
     const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
 
-    if (experiment_is(FIXPID_AUTOTUNE_RUNNING)) {
-        port_drive(fixpid_autotune_step(&tuner, setpoint, measurement));
-        if (experiment_is(FIXPID_AUTOTUNE_DONE)) {
+    if (experiment_is(FIXPID_RELAY_RUNNING)) {
+        port_drive(fixpid_relay_step(&tuner, setpoint, measurement));
+        if (experiment_is(FIXPID_RELAY_DONE)) {
             take_result();
         }
     } else {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// fixpid_autotune on five plants, the loops with what it found, and four
+// fixpid_relay on five plants, the loops with what it found, and four
 // experiments that must fail.
 #include <math.h>
 #include <stdio.h>
 
-#include "fixpid_autotune.h"
+#include "fixpid_relay.h"
 #include "loops.h"
 
 #define STEPS_MAX 60000
@@ -12,12 +12,12 @@
 struct tuned {
     uint8_t status;
     int steps;
-    struct fixpid_autotune tuner;
+    struct fixpid_relay tuner;
 };
 
-static struct fixpid_autotune_config config_for(const struct trial *trial)
+static struct fixpid_relay_config config_for(const struct trial *trial)
 {
-    return (struct fixpid_autotune_config){
+    return (struct fixpid_relay_config){
         .output_low = trial->relay_low,
         .output_high = trial->relay_high,
         .measurement_min = -32000,
@@ -29,21 +29,20 @@ static struct fixpid_autotune_config config_for(const struct trial *trial)
 }
 
 static struct tuned experiment(const struct trial *trial,
-                               const struct fixpid_autotune_config *config,
+                               const struct fixpid_relay_config *config,
                                struct motion *motion)
 {
     struct tuned tuned = {.steps = 0};
 
-    (void)fixpid_autotune_init(&tuned.tuner, config);
+    (void)fixpid_relay_init(&tuned.tuner, config);
     motion_start(motion, &trial->plant);
     do {
         motion_move(motion,
-                    fixpid_autotune_step(&tuned.tuner, (int16_t)trial->tune_at,
-                                         motion_read(motion)));
+                    fixpid_relay_step(&tuned.tuner, (int16_t)trial->tune_at,
+                                      motion_read(motion)));
         tuned.steps++;
-        tuned.status = fixpid_autotune_status(&tuned.tuner);
-    } while (tuned.status == FIXPID_AUTOTUNE_RUNNING &&
-             tuned.steps < STEPS_MAX);
+        tuned.status = fixpid_relay_status(&tuned.tuner);
+    } while (tuned.status == FIXPID_RELAY_RUNNING && tuned.steps < STEPS_MAX);
     return tuned;
 }
 
@@ -89,17 +88,17 @@ void print_autotune(void)
                  "iae\n");
     for (int i = 0; i < TRIALS; i++) {
         const struct trial *const trial = &trials[i];
-        const struct fixpid_autotune_config how = config_for(trial);
+        const struct fixpid_relay_config how = config_for(trial);
         struct motion motion;
         const struct tuned tuned = experiment(trial, &how, &motion);
-        for (uint8_t rule = FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI;
-             rule <= FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID; rule++) {
+        for (uint8_t rule = FIXPID_RELAY_TYREUS_LUYBEN_PI;
+             rule <= FIXPID_RELAY_TYREUS_LUYBEN_PID; rule++) {
             const struct law_gains none = {0.0, 0.0, 0.0, 0};
             struct fixpid_pid_config config =
                 loop_config(&none, 1.0, trial->output_min, trial->output_max);
             (void)printf("%s;%d;%d;%s;", trial->plant.name, (int)tuned.status,
                          tuned.steps, rules[rule]);
-            (void)fixpid_autotune_result(&tuned.tuner, rule, &config.gains);
+            (void)fixpid_relay_result(&tuned.tuner, rule, &config.gains);
             print_loop(trial, &config, &motion);
         }
     }
@@ -107,13 +106,13 @@ void print_autotune(void)
 
 static void print_failure(const char *what, uint8_t expected,
                           const struct trial *trial,
-                          const struct fixpid_autotune_config *config)
+                          const struct fixpid_relay_config *config)
 {
     struct motion motion;
     struct fixpid_pid_gains gains;
     const struct tuned tuned = experiment(trial, config, &motion);
-    const bool refused = !fixpid_autotune_result(
-        &tuned.tuner, FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, &gains);
+    const bool refused = !fixpid_relay_result(
+        &tuned.tuner, FIXPID_RELAY_TYREUS_LUYBEN_PI, &gains);
 
     (void)printf("%s;%d;%d;%d;%d\n", what, (int)expected, (int)tuned.status,
                  tuned.steps, refused ? 1 : 0);
@@ -122,7 +121,7 @@ static void print_failure(const char *what, uint8_t expected,
 void print_failures(void)
 {
     struct trial trial = trials[0];
-    struct fixpid_autotune_config config = config_for(&trial);
+    struct fixpid_relay_config config = config_for(&trial);
 
     (void)printf("what;expected;status;steps;refused\n");
     config.measurement_min = -5;
@@ -130,23 +129,23 @@ void print_failures(void)
     config.timeout_steps = 600;
     trial.plant.sensor_max = 2000.0;
     trial.tune_at = 1100.0;
-    print_failure("setpoint out of reach", FIXPID_AUTOTUNE_NO_OSCILLATION,
-                  &trial, &config);
+    print_failure("setpoint out of reach", FIXPID_RELAY_NO_OSCILLATION, &trial,
+                  &config);
 
     trial.tune_at = 500.0;
     config.measurement_max = 515;
     print_failure("sensor's end 15 counts above the setpoint",
-                  FIXPID_AUTOTUNE_SATURATED, &trial, &config);
+                  FIXPID_RELAY_SATURATED, &trial, &config);
 
     config.measurement_max = 2000;
     config.hysteresis = 40;
     trial.plant.delay_steps = 1;
-    print_failure("hysteresis of 40 and no dead time",
-                  FIXPID_AUTOTUNE_TOO_SMALL, &trial, &config);
+    print_failure("hysteresis of 40 and no dead time", FIXPID_RELAY_TOO_SMALL,
+                  &trial, &config);
 
     config.hysteresis = 4;
     config.measurement_min = -2000;
     trial.plant.noise_counts = 400;
-    print_failure("noise of 400 counts", FIXPID_AUTOTUNE_TOO_FAST, &trial,
+    print_failure("noise of 400 counts", FIXPID_RELAY_TOO_FAST, &trial,
                   &config);
 }

@@ -12,21 +12,21 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
-#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "fixpid_relay.h"
 
 struct fixpid_an937 an937;
 struct fixpid_an964 an964;
 struct fixpid_an964_8bit an964_8bit;
 struct fixpid_pid pid;
-struct fixpid_autotune autotune;
+struct fixpid_relay autotune;
 
 #ifdef FIXPID_AN937_OBJECT
 static struct fixpid_an937 second_an937;
 static struct fixpid_an964 second_an964;
 static struct fixpid_an964_8bit second_an964_8bit;
 static struct fixpid_pid second_pid;
-static struct fixpid_autotune second_autotune;
+static struct fixpid_relay second_autotune;
 #define WRONG(controller) (&second_##controller)
 #else
 #define WRONG(controller) NULL
@@ -35,8 +35,8 @@ static struct fixpid_autotune second_autotune;
 static const struct fixpid_an937_config config = {96, 80, 16, 4000, 4};
 static const struct fixpid_an964_gains gains = {600, 40, 100};
 static const struct fixpid_an964_8bit_gains gains_8bit = {75, 5, 12};
-static const struct fixpid_autotune_config experiment = {0, 255,  0, 0, 1023,
-                                                         4, 1000, 3, 0};
+static const struct fixpid_relay_config experiment = {0, 255,  0, 0, 1023,
+                                                      4, 1000, 3, 0};
 static struct fixpid_pid_gains tuned;
 
 static const struct fixpid_pid_config valve = {
@@ -50,7 +50,7 @@ static void call(int number, bool wrong)
     struct fixpid_an964 *const b = wrong ? WRONG(an964) : &an964;
     struct fixpid_an964_8bit *const c = wrong ? WRONG(an964_8bit) : &an964_8bit;
     struct fixpid_pid *const d = wrong ? WRONG(pid) : &pid;
-    struct fixpid_autotune *const e = wrong ? WRONG(autotune) : &autotune;
+    struct fixpid_relay *const e = wrong ? WRONG(autotune) : &autotune;
 
     // clang-format off
     switch (number) {
@@ -105,14 +105,14 @@ static void call(int number, bool wrong)
     case 46: fixpid_pid_flags(d); break;
     case 47: fixpid_pid_init(&pid, wrong ? NULL : &valve); break;
     case 48: fixpid_pid_set_gains(&pid, wrong ? NULL : &valve.gains); break;
-    case 49: fixpid_autotune_init(e, &experiment); break;
-    case 50: fixpid_autotune_reset(e); break;
-    case 51: fixpid_autotune_step(e, 1, 2); break;
-    case 52: fixpid_autotune_status(e); break;
-    case 53: fixpid_autotune_result(e, 0, &tuned); break;
-    case 54: fixpid_autotune_init(&autotune, wrong ? NULL : &experiment); break;
+    case 49: fixpid_relay_init(e, &experiment); break;
+    case 50: fixpid_relay_reset(e); break;
+    case 51: fixpid_relay_step(e, 1, 2); break;
+    case 52: fixpid_relay_status(e); break;
+    case 53: fixpid_relay_result(e, 0, &tuned); break;
+    case 54: fixpid_relay_init(&autotune, wrong ? NULL : &experiment); break;
     case 55: // nowhere to put the gains
-        fixpid_autotune_result(&autotune, 0, wrong ? NULL : &tuned);
+        fixpid_relay_result(&autotune, 0, wrong ? NULL : &tuned);
         break;
     default: exit(1);
     }

@@ -5,7 +5,7 @@
 
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_relay.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")
 
@@ -50,8 +50,7 @@ void setUp(void)
     port_init_Ignore();
     port_running_IgnoreAndReturn(false);
     TEST_ASSERT_EQUAL_INT(0, application_main());
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING,
-                            fixpid_autotune_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, fixpid_relay_status(&tuner));
 }
 
 void tearDown(void)
@@ -107,8 +106,7 @@ void test_main_control_runs_once_in_100_ticks(void)
 void test_main_experiment_over_gains_are_kept_and_control_starts(void)
 {
     swing(20, 20, 8);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
-                            fixpid_autotune_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, fixpid_relay_status(&tuner));
     TEST_ASSERT_UINT16_WITHIN(2, (uint16_t)(256 * 1.2732 * 306 / 160 / 2.2),
                               tuned_gains.kp_q8);
     TEST_ASSERT_GREATER_THAN_UINT32(0, tuned_gains.ki_q24);
@@ -118,7 +116,7 @@ void test_main_experiment_over_gains_are_kept_and_control_starts(void)
 void test_main_control_starts_from_the_middle_of_the_relay(void)
 {
     int periods = 0;
-    while ((fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) &&
+    while ((fixpid_relay_status(&tuner) == FIXPID_RELAY_RUNNING) &&
            (periods < 1000)) {
         const bool above = ((periods / 20) % 2) != 0;
         (void)period((uint16_t)(above ? SET + 20 : SET - 20));
@@ -168,8 +166,8 @@ void test_main_failed_experiment_leaves_the_heater_off(void)
 {
     (void)period(80);
     TEST_ASSERT_EQUAL_INT16(0, period(1000)); // 4000 counts: the sensor's end
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_SATURATED,
-                            fixpid_autotune_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_SATURATED,
+                            fixpid_relay_status(&tuner));
     TEST_ASSERT_EQUAL_INT16(0, period(80));
     TEST_ASSERT_EQUAL_UINT16(0, tuned_gains.kp_q8);
 }

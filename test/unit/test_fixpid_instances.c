@@ -3,8 +3,8 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
-#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "fixpid_relay.h"
 #include "numbers.h"
 #include "numbers_pid.h"
 #include "reference.h"
@@ -19,7 +19,7 @@ TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_relay.c")
 
 #define COUNT 5
 
@@ -135,27 +135,27 @@ void test_pid_several_instances_keep_their_own_state(void)
 void test_autotune_several_instances_keep_their_own_state(void)
 {
     static const uint16_t half_steps[2] = {30, 7};
-    struct fixpid_autotune experiments[2];
+    struct fixpid_relay experiments[2];
     struct fixpid_pid_gains gains[2];
 
     for (unsigned i = 0; i < 2; i++) {
-        const struct fixpid_autotune_config config = {-100, 100, 0, -1000, 1000,
-                                                      4,    100, 2, 0};
+        const struct fixpid_relay_config config = {-100, 100, 0, -1000, 1000,
+                                                   4,    100, 2, 0};
 
-        TEST_ASSERT_TRUE(fixpid_autotune_init(&experiments[i], &config));
+        TEST_ASSERT_TRUE(fixpid_relay_init(&experiments[i], &config));
     }
     for (unsigned n = 0; n < 240; n++) {
         for (unsigned i = 0; i < 2; i++) {
             const bool high = n / half_steps[i] % 2u == 0u;
 
-            fixpid_autotune_step(&experiments[i], 0, high ? -20 : 20);
+            fixpid_relay_step(&experiments[i], 0, high ? -20 : 20);
         }
     }
     for (unsigned i = 0; i < 2; i++) {
-        TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
-                                fixpid_autotune_status(&experiments[i]));
-        TEST_ASSERT_TRUE(fixpid_autotune_result(
-            &experiments[i], FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, &gains[i]));
+        TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE,
+                                fixpid_relay_status(&experiments[i]));
+        TEST_ASSERT_TRUE(fixpid_relay_result(
+            &experiments[i], FIXPID_RELAY_TYREUS_LUYBEN_PI, &gains[i]));
     }
     // 326 * 16 * 200 / 40 * 80 / 16 = 130400, (130400 + 128) / 256 = 509
     TEST_ASSERT_EQUAL_UINT16(509, gains[0].kp_q8);

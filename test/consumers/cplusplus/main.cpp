@@ -6,8 +6,8 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
-#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "fixpid_relay.h"
 
 static constexpr std::uint8_t kp_q4 = FIXPID_AN937_GAIN(6.0);
 static_assert(kp_q4 == 96, "6.0 x 16");
@@ -30,19 +30,18 @@ int main()
 {
     const fixpid_an964_gains gains = {1023, 0, 0};
     const fixpid_an964_8bit_gains gains_8bit = {32, 0, 0};
-    const fixpid_autotune_config experiment = {0, 255,  0, 0, 1023,
-                                               4, 1000, 3, 0};
+    const fixpid_relay_config experiment = {0, 255, 0, 0, 1023, 4, 1000, 3, 0};
     fixpid_an937 an937;
     fixpid_an964 an964;
     fixpid_an964_8bit an964_8bit;
     fixpid_pid pid;
-    fixpid_autotune autotune;
+    fixpid_relay autotune;
 
     if (!fixpid_an937_init(&an937, &motor) ||
         !fixpid_an964_init(&an964, &gains) ||
         !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
         !fixpid_pid_init(&pid, &valve) ||
-        !fixpid_autotune_init(&autotune, &experiment)) {
+        !fixpid_relay_init(&autotune, &experiment)) {
         return 1;
     }
     fixpid_an937_tick(&an937);
@@ -50,7 +49,7 @@ int main()
                    fixpid_an964_step(&an964, 100) == 99 &&
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
-                   fixpid_autotune_step(&autotune, 500, 20) == 255
+                   fixpid_relay_step(&autotune, 500, 20) == 255
                ? 0
                : 1;
 }

@@ -13,7 +13,7 @@ TUNE_END_S = 100.0
 HOTTER_BAND_C = 0.02 * 80.0 # of what it is above the air
 RULES = { 'PI' => 'autotune_pi', 'PID' => 'autotune' }.freeze
 TUNED_OVERSHOOT = { 'PI' => 18.0, 'PID' => 4.0 }.freeze
-DONE = 2 # FIXPID_AUTOTUNE_DONE
+DONE = 2 # FIXPID_RELAY_DONE
 
 # What a plant's loop with the found gains may have: overshoot in percent of the
 # setpoint, steps until it stays within 2 %, sum of the error's magnitude.

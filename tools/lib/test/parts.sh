@@ -23,7 +23,7 @@ $defines
       - FIXPID_AN964_OBJECT=an964_controller
       - FIXPID_AN964_8BIT_OBJECT=an964_8bit_controller
       - FIXPID_PID_OBJECT=pid_controller
-      - FIXPID_AUTOTUNE_OBJECT=autotune_controller
+      - FIXPID_RELAY_OBJECT=relay_controller
     '/test_pendulum\\.c/':
       - FIXPID_AN964_OBJECT=pendulum
     'test_pendulum_8bit':
@@ -36,7 +36,7 @@ $defines
       - FIXPID_PID_OBJECT=thermostat
     'test_autotune_example':
       - FIXPID_PID_OBJECT=oven
-      - FIXPID_AUTOTUNE_OBJECT=tuner
+      - FIXPID_RELAY_OBJECT=tuner
 :files:
   :test:
     - -:test/unit/test_fixpid_instances.c
@@ -104,9 +104,9 @@ part_limits() {
     limits most 30000 255 1023 8191 127
 }
 
-part_autotune() {
+part_relay() {
     need ruby cc:gcc :libc6-dev
-    count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
+    count 'test/relay/run' '^ok ' '^FAILED ' test/relay/run
 }
 
 part_avr() {
@@ -176,7 +176,7 @@ part_target() {
     need_sdcc
     build_gpsim
     count 'test/target/run' '^ok ' '^FAILED ' test/target/run
-    count 'test/autotune/chips' '^ok ' '^FAILED ' test/autotune/chips
+    count 'test/relay/chips' '^ok ' '^FAILED ' test/relay/chips
 }
 
 part_cost() {

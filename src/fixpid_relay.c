@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "fixpid_autotune.h"
+#include "fixpid_relay.h"
 
 #undef OBJECT
-#ifdef FIXPID_AUTOTUNE_OBJECT
-#define OBJECT FIXPID_AUTOTUNE_OBJECT
+#ifdef FIXPID_RELAY_OBJECT
+#define OBJECT FIXPID_RELAY_OBJECT
 #endif
 #include "fixpid_self.h"
 
-#define RUNNING ((uint8_t)FIXPID_AUTOTUNE_RUNNING)
-#define DONE ((uint8_t)FIXPID_AUTOTUNE_DONE)
-#define LAST_RULE ((uint8_t)FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID)
+#define RUNNING ((uint8_t)FIXPID_RELAY_RUNNING)
+#define DONE ((uint8_t)FIXPID_RELAY_DONE)
+#define LAST_RULE ((uint8_t)FIXPID_RELAY_ZIEGLER_NICHOLS_PID)
 
 #define SIDE_UNKNOWN 0u // before the first step
 #define SIDE_HIGH 1u
@@ -41,7 +41,7 @@ static bool within(uint16_t value, uint16_t least, uint16_t most)
     return value <= most;
 }
 
-static bool legal(const struct fixpid_autotune_config *config)
+static bool legal(const struct fixpid_relay_config *config)
 {
     if (config->output_low >= config->output_high) {
         return false;
@@ -58,11 +58,11 @@ static bool legal(const struct fixpid_autotune_config *config)
     if (!within(config->cycles, 1u, CYCLES_MAX)) {
         return false;
     }
-    return (config->options & (uint8_t)~FIXPID_AUTOTUNE_REVERSE) == 0u;
+    return (config->options & (uint8_t)~FIXPID_RELAY_REVERSE) == 0u;
 }
 
-bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
-                          const struct fixpid_autotune_config *config)
+bool fixpid_relay_init(FIXPID_DATA struct fixpid_relay *self,
+                       const struct fixpid_relay_config *config)
 {
     bool accepted;
 
@@ -83,16 +83,16 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
         SELF.config.cycles = 0;
         SELF.config.output_rest = 0;
     }
-    fixpid_autotune_reset(self);
+    fixpid_relay_reset(self);
     return accepted;
 }
 
-void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
+void fixpid_relay_reset(FIXPID_DATA struct fixpid_relay *self)
 {
     FIXPID_ASSERT(VALID(self));
-    SELF.status = FIXPID_AUTOTUNE_REFUSED;
+    SELF.status = FIXPID_RELAY_REFUSED;
     if (SELF.config.cycles != 0u) {
-        SELF.status = FIXPID_AUTOTUNE_RUNNING;
+        SELF.status = FIXPID_RELAY_RUNNING;
     }
     SELF.side = SIDE_UNKNOWN;
     SELF.elapsed = 0;
@@ -119,7 +119,7 @@ static bool alike(uint16_t now, uint16_t before)
 
 // A cycle is a half at high and the half at low that ends now. Cycles that are
 // not alike start the average again.
-static void add_cycle(FIXPID_DATA struct fixpid_autotune *self)
+static void add_cycle(FIXPID_DATA struct fixpid_relay *self)
 {
     // Each half is shorter than the timeout: at most 2 * 32766
     const uint16_t period = (uint16_t)(SELF.high_steps + SELF.elapsed);
@@ -148,33 +148,33 @@ static void add_cycle(FIXPID_DATA struct fixpid_autotune *self)
 }
 
 // What the experiment came to with the cycle that was just added.
-static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
+static uint8_t verdict(FIXPID_DATA const struct fixpid_relay *self)
 {
     const uint32_t cycles = SELF.averaged;
 
     if (cycles != SELF.config.cycles) {
-        return (SELF.seen == CYCLES_SEEN_MAX) ? FIXPID_AUTOTUNE_IRREGULAR
-                                              : FIXPID_AUTOTUNE_RUNNING;
+        return (SELF.seen == CYCLES_SEEN_MAX) ? FIXPID_RELAY_IRREGULAR
+                                              : FIXPID_RELAY_RUNNING;
     }
     if ((SELF.high_steps / 4u) > SELF.elapsed) {
-        return FIXPID_AUTOTUNE_IRREGULAR;
+        return FIXPID_RELAY_IRREGULAR;
     }
     if ((SELF.elapsed / 4u) > SELF.high_steps) {
-        return FIXPID_AUTOTUNE_IRREGULAR;
+        return FIXPID_RELAY_IRREGULAR;
     }
     if (SELF.period_sum < (PERIOD_MIN * cycles)) {
-        return FIXPID_AUTOTUNE_TOO_FAST;
+        return FIXPID_RELAY_TOO_FAST;
     }
     if (SELF.swing_sum < (4u * cycles * SELF.config.hysteresis)) {
-        return FIXPID_AUTOTUNE_TOO_SMALL;
+        return FIXPID_RELAY_TOO_SMALL;
     }
-    return FIXPID_AUTOTUNE_DONE;
+    return FIXPID_RELAY_DONE;
 }
 
 // The error has 17 bits and is not saturated: all that counts is on which side
 // of the hysteresis it lies.
-static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
-                         int32_t error, int16_t measurement)
+static void switch_relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
+                         int16_t measurement)
 {
     const int32_t hysteresis = SELF.config.hysteresis;
 
@@ -197,7 +197,7 @@ static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
     SELF.elapsed++;
 }
 
-static void relay(FIXPID_DATA struct fixpid_autotune *self, int32_t error,
+static void relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
                   int16_t measurement)
 {
     if (SELF.side == SIDE_UNKNOWN) {
@@ -215,27 +215,27 @@ static void relay(FIXPID_DATA struct fixpid_autotune *self, int32_t error,
 }
 
 // A measurement at its limits says more than a relay that does not switch.
-static void watch_limits(FIXPID_DATA struct fixpid_autotune *self,
+static void watch_limits(FIXPID_DATA struct fixpid_relay *self,
                          int16_t measurement)
 {
     if (SELF.elapsed >= SELF.config.timeout_steps) {
-        SELF.status = FIXPID_AUTOTUNE_NO_OSCILLATION;
+        SELF.status = FIXPID_RELAY_NO_OSCILLATION;
     }
     if (measurement <= SELF.config.measurement_min) {
-        SELF.status = FIXPID_AUTOTUNE_SATURATED;
+        SELF.status = FIXPID_RELAY_SATURATED;
     }
     if (measurement >= SELF.config.measurement_max) {
-        SELF.status = FIXPID_AUTOTUNE_SATURATED;
+        SELF.status = FIXPID_RELAY_SATURATED;
     }
 }
 
-int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
-                             int16_t setpoint, int16_t measurement)
+int16_t fixpid_relay_step(FIXPID_DATA struct fixpid_relay *self,
+                          int16_t setpoint, int16_t measurement)
 {
     int32_t error = (int32_t)setpoint - measurement;
 
     FIXPID_ASSERT(VALID(self));
-    if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+    if ((SELF.config.options & FIXPID_RELAY_REVERSE) != 0u) {
         error = -error;
     }
     if (SELF.status == RUNNING) {
@@ -253,14 +253,14 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
     return SELF.config.output_low;
 }
 
-uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
+uint8_t fixpid_relay_status(FIXPID_DATA const struct fixpid_relay *self)
 {
     FIXPID_ASSERT(VALID(self));
     return SELF.status;
 }
 
 // kp in Q16; 0 if it is far beyond the range of kp.
-static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_autotune *self,
+static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_relay *self,
                                  uint8_t kp_q8)
 {
     const uint16_t relay_counts = (uint16_t)((uint16_t)SELF.config.output_high -
@@ -310,7 +310,7 @@ static bool tune_derivative(struct fixpid_pid_gains *gains,
 }
 
 // False if a gain is out of its range.
-static bool apply(FIXPID_DATA const struct fixpid_autotune *self,
+static bool apply(FIXPID_DATA const struct fixpid_relay *self,
                   const struct rule *rule, struct fixpid_pid_gains *gains)
 {
     // (16 * 8 * 65532 + 4) / 8 < 2^20
@@ -337,8 +337,8 @@ static bool apply(FIXPID_DATA const struct fixpid_autotune *self,
     return tune_derivative(gains, rate_time_q4);
 }
 
-bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
-                            uint8_t rule, struct fixpid_pid_gains *gains)
+bool fixpid_relay_result(FIXPID_DATA const struct fixpid_relay *self,
+                         uint8_t rule, struct fixpid_pid_gains *gains)
 {
     static const struct rule rules[] = {
         {80, 116, 0},   // TYREUS_LUYBEN_PI

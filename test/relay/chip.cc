@@ -25,7 +25,7 @@ namespace
 constexpr uint64_t cycles_of_an_answer = 100000; // far more than any takes
 constexpr unsigned reported_most = 5;            // the rest is only counted
 constexpr unsigned poison = 0xA5;
-constexpr unsigned object_size = offsetof(struct fixpid_autotune, averaged) + 1;
+constexpr unsigned object_size = offsetof(struct fixpid_relay, averaged) + 1;
 
 struct Call {
     std::string line;
@@ -61,7 +61,7 @@ bool next_call(std::istream &trace, Call &call)
         call.expected = {};
         call.expected.accepted = static_cast<uint8_t>(at[9]);
         call.expected.status =
-            at[9] != 0 ? FIXPID_AUTOTUNE_RUNNING : FIXPID_AUTOTUNE_REFUSED;
+            at[9] != 0 ? FIXPID_RELAY_RUNNING : FIXPID_RELAY_REFUSED;
         return count == 10;
     case CALL_RESET:
         call.expected = {};
@@ -96,7 +96,7 @@ class Replay
   public:
     Replay(const std::string &cod, const std::string &path)
         : chip(cod), trace(path), exchange(chip.data("exchange")),
-          turn(chip.data("turn")), object(chip.data("autotune_controller"))
+          turn(chip.data("turn")), object(chip.data("relay_controller"))
     {
         if (!chip.lint().empty()) {
             throw ChipError(cod +
@@ -171,8 +171,8 @@ void Replay::take_turn()
 
 bool Replay::run()
 {
-    const Meter &step = chip.meter("fixpid_autotune_step");
-    const Meter &result = chip.meter("fixpid_autotune_result");
+    const Meter &step = chip.meter("fixpid_relay_step");
+    const Meter &result = chip.meter("fixpid_relay_result");
     unsigned long before;
 
     do {

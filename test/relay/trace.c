@@ -11,7 +11,7 @@
 // prints a digest of all that instead.
 #include <stdio.h>
 
-#include "fixpid_autotune.h"
+#include "fixpid_relay.h"
 #include "numbers.h"
 
 #define LINE_MAX 16
@@ -38,13 +38,13 @@ struct world {
     int16_t side;
 };
 
-static struct fixpid_autotune tuner;
+static struct fixpid_relay tuner;
 
 static void say(char kind, const int32_t values[], uint8_t count);
 
 static uint8_t status(void)
 {
-    return fixpid_autotune_status(&tuner);
+    return fixpid_relay_status(&tuner);
 }
 
 // 1..2^bits - 1, small numbers as often as large ones.
@@ -65,9 +65,9 @@ static void order(int16_t *low, int16_t *high)
     }
 }
 
-static struct fixpid_autotune_config any_config(void)
+static struct fixpid_relay_config any_config(void)
 {
-    struct fixpid_autotune_config config = {
+    struct fixpid_relay_config config = {
         .output_low = numbers_int16(),
         .output_high = numbers_int16(),
         .output_rest = numbers_int16(),
@@ -86,12 +86,12 @@ static struct fixpid_autotune_config any_config(void)
     return config;
 }
 
-static struct fixpid_autotune_config legal_config(void)
+static struct fixpid_relay_config legal_config(void)
 {
     const uint16_t span = any_size(16);
     const int32_t low = INT16_MIN + (int32_t)numbers_below(65536u - span);
 
-    return (struct fixpid_autotune_config){
+    return (struct fixpid_relay_config){
         .output_low = (int16_t)low,
         .output_high = (int16_t)(low + span),
         .output_rest = numbers_int16(),
@@ -104,9 +104,9 @@ static struct fixpid_autotune_config legal_config(void)
 }
 
 // A relay about 0 that moves a plant by some hundred counts.
-static struct fixpid_autotune_config plant_config(struct world *world)
+static struct fixpid_relay_config plant_config(struct world *world)
 {
-    struct fixpid_autotune_config config = legal_config();
+    struct fixpid_relay_config config = legal_config();
 
     config.output_low = (int16_t)(-100 - (int16_t)numbers_below(900));
     config.output_high = (int16_t)(100 + numbers_below(900));
@@ -191,7 +191,7 @@ static void say_results(void)
 {
     for (uint8_t rule = 0; rule <= 4; rule++) {
         struct fixpid_pid_gains gains = {0, 0, 0, 0};
-        const bool good = fixpid_autotune_result(&tuner, rule, &gains);
+        const bool good = fixpid_relay_result(&tuner, rule, &gains);
         const int32_t values[] = {rule,        good,
                                   gains.kp_q8, (int32_t)gains.ki_q24,
                                   gains.kd_q8, gains.derivative_filter};
@@ -200,9 +200,9 @@ static void say_results(void)
     }
 }
 
-static void start(const struct fixpid_autotune_config *config)
+static void start(const struct fixpid_relay_config *config)
 {
-    const bool good = fixpid_autotune_init(&tuner, config);
+    const bool good = fixpid_relay_init(&tuner, config);
     const int32_t values[] = {config->output_low,      config->output_high,
                               config->output_rest,     config->measurement_min,
                               config->measurement_max, config->hysteresis,
@@ -214,7 +214,7 @@ static void start(const struct fixpid_autotune_config *config)
 
 static int16_t step(int16_t setpoint, int16_t measurement)
 {
-    const int16_t output = fixpid_autotune_step(&tuner, setpoint, measurement);
+    const int16_t output = fixpid_relay_step(&tuner, setpoint, measurement);
     const int32_t values[] = {setpoint, measurement, output, status()};
 
     say('s', values, 4);
@@ -225,7 +225,7 @@ static void start_again(void)
 {
     int32_t now;
 
-    fixpid_autotune_reset(&tuner);
+    fixpid_relay_reset(&tuner);
     now = status();
     say('n', &now, 1);
 }
@@ -233,7 +233,7 @@ static void start_again(void)
 static void experiment(enum kind kind)
 {
     struct world world = any_world(kind);
-    struct fixpid_autotune_config config;
+    struct fixpid_relay_config config;
     uint8_t after = 3; // steps once it is over
     int16_t setpoint = 0;
     int16_t output = 0;
@@ -260,7 +260,7 @@ static void experiment(enum kind kind)
         if (numbers_below(2000) == 0) {
             start_again();
         }
-        if (status() != FIXPID_AUTOTUNE_RUNNING) {
+        if (status() != FIXPID_RELAY_RUNNING) {
             after--;
         }
     }

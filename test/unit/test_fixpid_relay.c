@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "fixpid_autotune.h"
+#include "fixpid_relay.h"
 #include "poison.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_relay.c")
 
 #define REST 77
 
-FIXPID_DATA struct fixpid_autotune autotune_controller;
-static struct fixpid_autotune_config config;
+FIXPID_DATA struct fixpid_relay relay_controller;
+static struct fixpid_relay_config config;
 
 static bool init(void)
 {
-    return fixpid_autotune_init(&autotune_controller, &config);
+    return fixpid_relay_init(&relay_controller, &config);
 }
 
 static int16_t step(int16_t setpoint, int16_t measurement)
 {
-    return fixpid_autotune_step(&autotune_controller, setpoint, measurement);
+    return fixpid_relay_step(&relay_controller, setpoint, measurement);
 }
 
 static uint8_t status(void)
 {
-    return fixpid_autotune_status(&autotune_controller);
+    return fixpid_relay_status(&relay_controller);
 }
 
 // One half cycle of so many steps about a setpoint of 0, the last of which
@@ -49,7 +49,7 @@ static void begin(int16_t bottom)
     TEST_ASSERT_TRUE(init());
     step(0, 0); // the first step of the first half
     cycle(3, 3, 30000, bottom);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
 }
 
 static void is_over(uint8_t with)
@@ -71,15 +71,15 @@ static uint8_t experiment(uint16_t high_steps, uint16_t low_steps, int16_t top,
 
 void setUp(void)
 {
-    config = (struct fixpid_autotune_config){.output_low = -100,
-                                             .output_high = 100,
-                                             .output_rest = REST,
-                                             .measurement_min = INT16_MIN,
-                                             .measurement_max = INT16_MAX,
-                                             .hysteresis = 10,
-                                             .timeout_steps = 1000,
-                                             .cycles = 1,
-                                             .options = 0};
+    config = (struct fixpid_relay_config){.output_low = -100,
+                                          .output_high = 100,
+                                          .output_rest = REST,
+                                          .measurement_min = INT16_MIN,
+                                          .measurement_max = INT16_MAX,
+                                          .hysteresis = 10,
+                                          .timeout_steps = 1000,
+                                          .cycles = 1,
+                                          .options = 0};
 }
 
 void tearDown(void)
@@ -91,17 +91,17 @@ void tearDown(void)
 static void refused(void)
 {
     TEST_ASSERT_FALSE(init());
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_REFUSED, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_REFUSED, status());
     TEST_ASSERT_EQUAL_INT16(0, step(100, 0));
     TEST_ASSERT_EQUAL_INT16(0, step(100, INT16_MAX));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_REFUSED, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_REFUSED, status());
     setUp();
 }
 
 static void accepted(void)
 {
     TEST_ASSERT_TRUE(init());
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     setUp();
 }
 
@@ -178,7 +178,7 @@ void test_init_options_but_reverse_are_refused(void)
 {
     for (unsigned options = 0; options <= UINT8_MAX; options++) {
         config.options = (uint8_t)options;
-        if (options == 0 || options == FIXPID_AUTOTUNE_REVERSE) {
+        if (options == 0 || options == FIXPID_RELAY_REVERSE) {
             accepted();
         } else {
             refused();
@@ -192,10 +192,10 @@ void test_init_refused_stays_refused_until_a_good_init(void)
 
     config.cycles = 0;
     TEST_ASSERT_FALSE(init());
-    fixpid_autotune_reset(&autotune_controller);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_REFUSED, status());
+    fixpid_relay_reset(&relay_controller);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_REFUSED, status());
     TEST_ASSERT_EQUAL_INT16(0, step(100, 0));
-    TEST_ASSERT_FALSE(fixpid_autotune_result(&autotune_controller, 0, &gains));
+    TEST_ASSERT_FALSE(fixpid_relay_result(&relay_controller, 0, &gains));
     config.cycles = 1;
     TEST_ASSERT_TRUE(init());
     TEST_ASSERT_EQUAL_INT16(100, step(100, 0));
@@ -203,21 +203,21 @@ void test_init_refused_stays_refused_until_a_good_init(void)
 
 void test_an_all_zero_object_is_refused(void)
 {
-    static const struct fixpid_autotune zero; // like one at file scope
+    static const struct fixpid_relay zero; // like one at file scope
 
-    autotune_controller = zero;
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_REFUSED, status());
+    relay_controller = zero;
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_REFUSED, status());
     TEST_ASSERT_EQUAL_INT16(0, step(100, 0));
-    fixpid_autotune_reset(&autotune_controller);
+    fixpid_relay_reset(&relay_controller);
     TEST_ASSERT_EQUAL_INT16(0, step(100, 0));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_REFUSED, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_REFUSED, status());
 }
 
 void test_reset_starts_on_the_side_of_the_first_error(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(20, 20, 50, -50));
-    fixpid_autotune_reset(&autotune_controller);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(20, 20, 50, -50));
+    fixpid_relay_reset(&relay_controller);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     TEST_ASSERT_EQUAL_INT16(-100, step(0, 1)); // it was at high before
 }
 
@@ -226,11 +226,11 @@ void test_reset_counts_the_timeout_from_the_start(void)
     config.timeout_steps = 20;
     begin(-50);
     half(15, 0);
-    fixpid_autotune_reset(&autotune_controller);
+    fixpid_relay_reset(&relay_controller);
     half(20, 0);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     step(0, 0);
-    is_over(FIXPID_AUTOTUNE_NO_OSCILLATION);
+    is_over(FIXPID_RELAY_NO_OSCILLATION);
 }
 
 void test_reset_averages_from_the_start(void)
@@ -239,14 +239,14 @@ void test_reset_averages_from_the_start(void)
     begin(-50);
     cycle(20, 20, 50, -50);
     cycle(20, 20, 50, -50);
-    fixpid_autotune_reset(&autotune_controller);
+    fixpid_relay_reset(&relay_controller);
     step(0, 0);
     for (unsigned i = 0; i < 3; i++) {
         cycle(20, 20, 50, -50);
-        TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+        TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     }
     cycle(20, 20, 50, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
 }
 
 // Cycles of which none is like the one before it.
@@ -255,7 +255,7 @@ static void unlike_cycles(unsigned count)
     for (unsigned i = 0; i < count; i++) {
         const uint16_t steps = (i % 2u == 0u) ? 20u : 40u;
 
-        TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+        TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
         cycle(steps, steps, 50, -50);
     }
 }
@@ -265,10 +265,10 @@ void test_reset_counts_the_24_cycles_from_the_start(void)
     config.cycles = 2;
     begin(-50);
     unlike_cycles(22);
-    fixpid_autotune_reset(&autotune_controller);
+    fixpid_relay_reset(&relay_controller);
     step(0, 0);
     unlike_cycles(24);
-    is_over(FIXPID_AUTOTUNE_IRREGULAR);
+    is_over(FIXPID_RELAY_IRREGULAR);
 }
 
 // --- the relay ---
@@ -288,7 +288,7 @@ void test_step_first_error_decides_the_first_side(void)
         TEST_ASSERT_TRUE(init());
         TEST_ASSERT_EQUAL_INT16(rows[i].output,
                                 step(rows[i].setpoint, rows[i].measurement));
-        config.options = FIXPID_AUTOTUNE_REVERSE;
+        config.options = FIXPID_RELAY_REVERSE;
         TEST_ASSERT_TRUE(init());
         TEST_ASSERT_EQUAL_INT16(rows[i].reversed,
                                 step(rows[i].setpoint, rows[i].measurement));
@@ -332,7 +332,7 @@ void test_step_ends_of_the_types_switch_by_the_true_error(void)
 
 void test_step_reverse_gives_the_same_outputs_for_a_mirrored_plant(void)
 {
-    config.options = FIXPID_AUTOTUNE_REVERSE;
+    config.options = FIXPID_RELAY_REVERSE;
     TEST_ASSERT_TRUE(init());
     TEST_ASSERT_EQUAL_INT16(100, step(0, 0));
     TEST_ASSERT_EQUAL_INT16(100, step(0, -10));
@@ -341,7 +341,7 @@ void test_step_reverse_gives_the_same_outputs_for_a_mirrored_plant(void)
     TEST_ASSERT_EQUAL_INT16(100, step(0, 11));
     half(20, -30);
     half(20, 30);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
 }
 
 void test_step_the_setpoint_may_move(void)
@@ -370,10 +370,10 @@ void test_step_measurement_at_its_limits_is_saturated(void)
         step(0, 0);
         if (rows[i].ends) {
             TEST_ASSERT_EQUAL_INT16(REST, step(0, rows[i].measurement));
-            is_over(FIXPID_AUTOTUNE_SATURATED);
+            is_over(FIXPID_RELAY_SATURATED);
         } else {
             TEST_ASSERT_NOT_EQUAL(REST, step(0, rows[i].measurement));
-            TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+            TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
         }
     }
 }
@@ -383,7 +383,7 @@ void test_step_first_measurement_at_a_limit_is_saturated(void)
     config.measurement_max = 0;
     TEST_ASSERT_TRUE(init());
     TEST_ASSERT_EQUAL_INT16(REST, step(0, 0));
-    is_over(FIXPID_AUTOTUNE_SATURATED);
+    is_over(FIXPID_RELAY_SATURATED);
 }
 
 // A half of timeout - 1 steps is the longest; then the timeout ends it.
@@ -396,7 +396,7 @@ static void times_out_after(uint16_t timeout)
     TEST_ASSERT_EQUAL_INT16(100, half((uint16_t)(timeout - 1u), -50));
     TEST_ASSERT_EQUAL_INT16(-100, half((uint16_t)(timeout - 1u), 50));
     TEST_ASSERT_EQUAL_INT16(REST, half(timeout, -50));
-    is_over(FIXPID_AUTOTUNE_NO_OSCILLATION);
+    is_over(FIXPID_RELAY_NO_OSCILLATION);
 }
 
 void test_step_half_cycle_of_timeout_steps_is_no_oscillation(void)
@@ -415,7 +415,7 @@ void test_step_first_half_is_timed_too(void)
         TEST_ASSERT_EQUAL_INT16(100, step(0, 0));
     }
     TEST_ASSERT_EQUAL_INT16(REST, step(0, 50));
-    is_over(FIXPID_AUTOTUNE_NO_OSCILLATION);
+    is_over(FIXPID_RELAY_NO_OSCILLATION);
 }
 
 void test_step_saturated_is_said_before_no_oscillation(void)
@@ -426,7 +426,7 @@ void test_step_saturated_is_said_before_no_oscillation(void)
     step(0, 0);
     step(0, 0);
     TEST_ASSERT_EQUAL_INT16(REST, step(0, 50));
-    is_over(FIXPID_AUTOTUNE_SATURATED);
+    is_over(FIXPID_RELAY_SATURATED);
 }
 
 void test_step_done_after_one_cycle_more_than_asked_for(void)
@@ -436,12 +436,12 @@ void test_step_done_after_one_cycle_more_than_asked_for(void)
         config.cycles = cycles;
         begin(-50);
         for (uint8_t i = 0; i < cycles; i++) {
-            TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+            TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
             TEST_ASSERT_EQUAL_INT16(-100, half(20, 50));
             const int16_t output = half(20, -50);
             TEST_ASSERT_EQUAL_INT16(i + 1 < cycles ? 100 : REST, output);
         }
-        is_over(FIXPID_AUTOTUNE_DONE);
+        is_over(FIXPID_RELAY_DONE);
     }
 }
 
@@ -455,15 +455,15 @@ static bool are_alike(uint16_t first_steps, int16_t first_top,
     config.cycles = 2;
     begin(-50);
     cycle((uint16_t)(first_steps - 10u), 10, first_top, -50);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     cycle((uint16_t)(second_steps - half_steps), half_steps, second_top, -50);
     at_end = status();
-    if (at_end == FIXPID_AUTOTUNE_RUNNING) { // the average begins with it
+    if (at_end == FIXPID_RELAY_RUNNING) { // the average begins with it
         cycle((uint16_t)(second_steps - half_steps), half_steps, second_top,
               -50);
-        TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, status());
+        TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, status());
     }
-    return at_end == FIXPID_AUTOTUNE_DONE;
+    return at_end == FIXPID_RELAY_DONE;
 }
 
 // A cycle of 40 steps may differ by 40 / 4 + 2 = 12, one of 43 by no more.
@@ -500,7 +500,7 @@ void test_step_a_cycle_is_compared_with_the_last_not_with_the_first(void)
     cycle(25, 25, 60, -50);
     cycle(31, 31, 75, -50);
     cycle(38, 38, 90, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
 }
 
 void test_step_24_cycles_without_enough_alike_are_irregular(void)
@@ -508,9 +508,9 @@ void test_step_24_cycles_without_enough_alike_are_irregular(void)
     config.cycles = 2;
     begin(-50);
     unlike_cycles(22);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     cycle(20, 20, 50, -50); // the 24th, after one of 40
-    is_over(FIXPID_AUTOTUNE_IRREGULAR);
+    is_over(FIXPID_RELAY_IRREGULAR);
 }
 
 void test_step_the_24th_cycle_may_still_be_the_last_one_wanted(void)
@@ -519,19 +519,19 @@ void test_step_the_24th_cycle_may_still_be_the_last_one_wanted(void)
     begin(-50);
     unlike_cycles(22);
     cycle(40, 40, 50, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
 }
 
 void test_step_one_half_beyond_four_times_the_other_is_irregular(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(43, 10, 50, -50));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_IRREGULAR,
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(43, 10, 50, -50));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_IRREGULAR,
                             experiment(44, 10, 50, -50));
-    is_over(FIXPID_AUTOTUNE_IRREGULAR);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(10, 43, 50, -50));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_IRREGULAR,
+    is_over(FIXPID_RELAY_IRREGULAR);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(10, 43, 50, -50));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_IRREGULAR,
                             experiment(10, 44, 50, -50));
-    is_over(FIXPID_AUTOTUNE_IRREGULAR);
+    is_over(FIXPID_RELAY_IRREGULAR);
 }
 
 void test_step_only_the_halves_of_the_last_cycle_are_compared(void)
@@ -540,17 +540,15 @@ void test_step_only_the_halves_of_the_last_cycle_are_compared(void)
     begin(-50);
     cycle(44, 10, 50, -50);
     cycle(27, 27, 50, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
 }
 
 void test_step_periods_below_six_steps_are_too_fast(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(3, 3, 50, -50));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TOO_FAST,
-                            experiment(3, 2, 50, -50));
-    is_over(FIXPID_AUTOTUNE_TOO_FAST);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TOO_FAST,
-                            experiment(1, 1, 50, -50));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(3, 3, 50, -50));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_TOO_FAST, experiment(3, 2, 50, -50));
+    is_over(FIXPID_RELAY_TOO_FAST);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_TOO_FAST, experiment(1, 1, 50, -50));
 }
 
 void test_step_too_fast_is_judged_by_the_mean_period(void)
@@ -559,20 +557,20 @@ void test_step_too_fast_is_judged_by_the_mean_period(void)
     begin(-50);
     cycle(3, 4, 50, -50);
     cycle(3, 2, 50, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
     begin(-50);
     cycle(3, 3, 50, -50);
     cycle(3, 2, 50, -50);
-    is_over(FIXPID_AUTOTUNE_TOO_FAST);
+    is_over(FIXPID_RELAY_TOO_FAST);
 }
 
 void test_step_swings_below_four_hysteresis_are_too_small(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(20, 20, 20, -20));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TOO_SMALL,
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(20, 20, 20, -20));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_TOO_SMALL,
                             experiment(20, 20, 19, -20));
-    is_over(FIXPID_AUTOTUNE_TOO_SMALL);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TOO_SMALL,
+    is_over(FIXPID_RELAY_TOO_SMALL);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_TOO_SMALL,
                             experiment(20, 20, 20, -19));
 }
 
@@ -585,15 +583,15 @@ void test_step_too_small_is_judged_by_the_mean_swing(void)
     for (unsigned i = 0; i < 7; i++) {
         cycle(20, 20, 16382, -16382);
     }
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING, status());
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, status());
     cycle(20, 20, 16382, -16382);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
     begin(-16382);
     for (unsigned i = 0; i < 7; i++) {
         cycle(20, 20, 16382, -16382);
     }
     cycle(20, 20, 16381, -16382);
-    is_over(FIXPID_AUTOTUNE_TOO_SMALL);
+    is_over(FIXPID_RELAY_TOO_SMALL);
 }
 
 // Eight cycles with the mean below 6 steps, the last of which is lopsided:
@@ -606,10 +604,9 @@ void test_step_of_several_reasons_irregular_then_too_fast_is_given(void)
         cycle(3, 2, 11, -11);
     }
     cycle(8, 1, 11, -11);
-    is_over(FIXPID_AUTOTUNE_IRREGULAR);
+    is_over(FIXPID_RELAY_IRREGULAR);
     config.cycles = 1;
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TOO_FAST,
-                            experiment(3, 2, 11, -11));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_TOO_FAST, experiment(3, 2, 11, -11));
 }
 
 // --- result ---
@@ -623,7 +620,7 @@ static void measured(uint16_t span, uint16_t swing, uint16_t high_steps,
     config.hysteresis = 1;
     config.timeout_steps = 32767;
     TEST_ASSERT_EQUAL_UINT8(
-        FIXPID_AUTOTUNE_DONE,
+        FIXPID_RELAY_DONE,
         experiment(high_steps, low_steps, (int16_t)(swing - 2u), -2));
 }
 
@@ -644,8 +641,7 @@ static void gains_are(uint8_t rule, uint16_t kp, uint32_t ki, uint16_t kd,
     struct fixpid_pid_gains gains = {1, 2, 3, 255}; // all are set
 
     dirty_the_stack();
-    TEST_ASSERT_TRUE(
-        fixpid_autotune_result(&autotune_controller, rule, &gains));
+    TEST_ASSERT_TRUE(fixpid_relay_result(&relay_controller, rule, &gains));
     TEST_ASSERT_EQUAL_UINT16(kp, gains.kp_q8);
     TEST_ASSERT_EQUAL_UINT32(ki, gains.ki_q24);
     TEST_ASSERT_EQUAL_UINT16(kd, gains.kd_q8);
@@ -656,8 +652,7 @@ static void no_gains(uint8_t rule)
 {
     struct fixpid_pid_gains gains = {1, 2, 3, 4};
 
-    TEST_ASSERT_FALSE(
-        fixpid_autotune_result(&autotune_controller, rule, &gains));
+    TEST_ASSERT_FALSE(fixpid_relay_result(&relay_controller, rule, &gains));
     TEST_ASSERT_EQUAL_UINT16(1, gains.kp_q8);
     TEST_ASSERT_EQUAL_UINT32(2, gains.ki_q24);
     TEST_ASSERT_EQUAL_UINT16(3, gains.kd_q8);
@@ -671,18 +666,18 @@ void test_result_worked_numbers_of_each_rule(void)
     measured(200, 100, 20, 20);
     // 10432 * 80 / 16 = 52160, (52160 + 128) / 256 = 204
     // 52160 * 116 / 640 = 9454, 9454 * 16 = 151264, no rest
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
     // 10432 * 116 / 16 = 75632, (75632 + 128) / 256 = 295
     // 75632 * 116 / 640 = 13708, the rest 192: 13708 * 16 + 4 = 219332
     // 640 * 41 / 256 = 102, 295 * 102 / 16 = 1880
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 219332, 1880, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 219332, 1880, 0);
     // 10432 * 115 / 16 = 74980, (74980 + 128) / 256 = 293
     // 74980 * 307 / 640 = 35966, the rest 620: 35966 * 16 + 15 = 575471
-    gains_are(FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PI, 293, 575471, 0, 0);
+    gains_are(FIXPID_RELAY_ZIEGLER_NICHOLS_PI, 293, 575471, 0, 0);
     // 10432 * 154 / 16 = 100408, (100408 + 128) / 256 = 392
     // 100408 * 512 / 640 = 80326, the rest 256: 80326 * 16 + 6 = 1285222
     // 640 * 32 / 256 = 80, 392 * 80 / 16 = 1960
-    gains_are(FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID, 392, 1285222, 1960, 0);
+    gains_are(FIXPID_RELAY_ZIEGLER_NICHOLS_PID, 392, 1285222, 1960, 0);
 }
 
 // Periods of 40, 42, 40, 41 and 40 steps: (16 * 203 + 2) / 5 = 650, half up;
@@ -696,10 +691,10 @@ void test_result_averages_all_cycles(void)
     cycle(20, 20, 46, -50);
     cycle(20, 21, 47, -50);
     cycle(20, 20, 53, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
     // 75632 * 116 / 650 = 13497, the rest 262: 13497 * 16 + 6 = 215958
     // 650 * 41 / 256 = 104, 295 * 104 / 16 = 1917
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 215958, 1917, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 215958, 1917, 0);
 }
 
 // Of 80 steps, then twice of 40.
@@ -710,8 +705,8 @@ void test_result_averages_only_the_last_cycles_which_are_alike(void)
     cycle(40, 40, 50, -50);
     cycle(20, 20, 50, -50);
     cycle(20, 20, 50, -50);
-    is_over(FIXPID_AUTOTUNE_DONE);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
+    is_over(FIXPID_RELAY_DONE);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
 }
 
 // Wherever in the cycle the extremes are, and not those of the cycle before.
@@ -726,56 +721,56 @@ void test_result_swing_is_from_the_lowest_to_the_highest(void)
     step(0, 300);
     step(0, 0);
     half(18, -20);
-    is_over(FIXPID_AUTOTUNE_DONE);
+    is_over(FIXPID_RELAY_DONE);
     // 326 * 16 * 200 / 1000 = 1043, 1043 * 80 / 16 = 5215
     // (5215 + 128) / 256 = 20, 5215 * 116 / 640 = 945
     // the rest 140: 945 * 16 + 3 = 15123
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 20, 15123, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 20, 15123, 0, 0);
 }
 
 void test_result_unknown_rule_is_refused(void)
 {
     measured(200, 100, 20, 20);
-    no_gains(FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID + 1);
+    no_gains(FIXPID_RELAY_ZIEGLER_NICHOLS_PID + 1);
     no_gains(UINT8_MAX);
 }
 
 void test_result_unless_done_is_refused(void)
 {
     TEST_ASSERT_TRUE(init());
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // running
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // running
     step(0, INT16_MAX);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // saturated
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // saturated
     experiment(20, 20, 19, -20);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // too small
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // too small
     experiment(3, 2, 50, -50);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // too fast
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // too fast
     experiment(44, 10, 50, -50);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // irregular
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // irregular
     config.timeout_steps = 15;
     experiment(16, 10, 50, -50);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // no oscillation
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // no oscillation
     config.cycles = 0;
     TEST_ASSERT_FALSE(init());
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI); // refused
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI); // refused
 }
 
 // 5216 * 4 / 163 = 128, 5 * 128 = 640; 5216 * 8 / 233 = 179, 5 * 179 = 895.
 void test_result_kp_is_rounded_half_up(void)
 {
     measured(4, 163, 20, 20); // (640 + 128) / 256 = 3, just
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 3, 1856, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 3, 1856, 0, 0);
     measured(8, 233, 20, 20); // (895 + 128) / 256 = 3, just below 4
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 3, 2595, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 3, 2595, 0, 0);
 }
 
 // 5216 / 200 = 26, 5 * 26 + 128 = 258; 5216 / 208 = 25, 5 * 25 + 128 = 253.
 void test_result_kp_that_would_be_zero_is_refused(void)
 {
     measured(1, 200, 20, 20);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 1, 377, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 1, 377, 0, 0);
     measured(1, 208, 20, 20);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI);
 }
 
 // 5216 * 18977 / 59 = 1677695 and 5216 * 33451 / 104 = 1677696;
@@ -783,34 +778,34 @@ void test_result_kp_that_would_be_zero_is_refused(void)
 void test_result_kp_beyond_its_range_is_refused(void)
 {
     measured(18977, 59, 20, 20);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 32767, 24326577, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 32767, 24326577, 0, 0);
     measured(33451, 104, 20, 20);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI);
 }
 
 // 5216 * 41173 / 4 * 80 would be 200064 in 32 bits, and kp 49.
 void test_result_kp_far_beyond_its_range_is_refused(void)
 {
     measured(41173u, 4, 20, 20);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI);
     measured(UINT16_MAX, 4, 20, 20);
-    no_gains(FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID);
+    no_gains(FIXPID_RELAY_ZIEGLER_NICHOLS_PID);
 }
 
 // 130 * 116 * 16 / 30160 = 8, and less for the period of one step more.
 void test_result_ki_below_its_range_is_refused(void)
 {
     measured(1, 200, 943, 942);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 1, 8, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 1, 8, 0, 0);
     measured(1, 200, 943, 943);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI);
 }
 
 // The largest kp with the shortest period.
 void test_result_ki_is_never_above_its_range(void)
 {
     measured(18977, 59, 3, 3);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 32767, 162177183, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 32767, 162177183, 0, 0);
     TEST_ASSERT_TRUE(UINT32_C(715816960) < FIXPID_PID_KI_MAX);
 }
 
@@ -818,32 +813,32 @@ void test_result_ki_is_never_above_its_range(void)
 void test_result_filter_is_the_largest_that_lags_an_eighth_of_td(void)
 {
     measured(200, 100, 50, 49);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 88619, 4664, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 88619, 4664, 0);
     measured(200, 100, 50, 50);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 87733, 2360, 1);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 87733, 2360, 1);
     measured(200, 100, 100, 99);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 44086, 4692, 1);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 44086, 4692, 1);
     measured(200, 100, 100, 100);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 43866, 2360, 2);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 43866, 2360, 2);
     measured(200, 100, 3197, 3196);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 1372, 4719, 6);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 1372, 4719, 6);
     measured(200, 100, 3197, 3197);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 1372, 2360, 7);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 1372, 2360, 7);
 }
 
 void test_result_filter_is_at_most_7(void)
 {
     measured(200, 100, 6394, 6394); // 8 would lag an eighth of Td
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 686, 4720, 7);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 686, 4720, 7);
 }
 
 // 16 * 51150 * 41 / 256 = 131071.
 void test_result_td_beyond_its_range_is_refused(void)
 {
     measured(200, 100, 25575, 25575);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 295, 171, 18879, 7);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 295, 171, 18879, 7);
     measured(200, 100, 25576, 25575);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PID);
     // One step more in four cycles: (16 * 204601 + 2) / 4 = 818404,
     // 818404 * 41 / 256 = 131072.
     config.cycles = 4;
@@ -851,53 +846,53 @@ void test_result_td_beyond_its_range_is_refused(void)
     for (unsigned i = 0; i < 4; i++) {
         cycle(i == 0 ? 25576 : 25575, 25575, 50, -50);
     }
-    is_over(FIXPID_AUTOTUNE_DONE);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID);
+    is_over(FIXPID_RELAY_DONE);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PID);
     config.cycles = 1;
     measured(200, 100, 32766, 32766); // the longest period there is
-    gains_are(FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID, 392, 784, 25086, 7);
+    gains_are(FIXPID_RELAY_ZIEGLER_NICHOLS_PID, 392, 784, 25086, 7);
 }
 
 void test_result_kd_beyond_its_range_is_refused(void)
 {
     measured(1604, 61, 208, 207);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 3884, 277945, 32255, 3);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PID, 3884, 277945, 32255, 3);
     measured(1092, 60, 150, 150);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PID);
 }
 
 void test_result_may_be_asked_again_by_another_rule(void)
 {
     measured(200, 100, 20, 20);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
     step(0, 500);
-    gains_are(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
-    fixpid_autotune_reset(&autotune_controller);
-    no_gains(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI);
+    gains_are(FIXPID_RELAY_TYREUS_LUYBEN_PI, 204, 151264, 0, 0);
+    fixpid_relay_reset(&relay_controller);
+    no_gains(FIXPID_RELAY_TYREUS_LUYBEN_PI);
 }
 
 // ---- Memory ----
 
 static void init_good(void)
 {
-    (void)fixpid_autotune_init(&autotune_controller, &config);
+    (void)fixpid_relay_init(&relay_controller, &config);
 }
 
 static void init_bad(void)
 {
-    struct fixpid_autotune_config bad = config;
+    struct fixpid_relay_config bad = config;
     bad.cycles = 0;
-    (void)fixpid_autotune_init(&autotune_controller, &bad);
+    (void)fixpid_relay_init(&relay_controller, &bad);
 }
 
 void test_init_whatever_the_memory_held_sets_every_member(void)
 {
-    const size_t padding = POISON_PADDING(struct fixpid_autotune, averaged);
+    const size_t padding = POISON_PADDING(struct fixpid_relay, averaged);
 
-    TEST_ASSERT_EQUAL_UINT(padding,
-                           poison_left(&autotune_controller,
-                                       sizeof(autotune_controller), init_good));
-    TEST_ASSERT_EQUAL_UINT(padding,
-                           poison_left(&autotune_controller,
-                                       sizeof(autotune_controller), init_bad));
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&relay_controller, sizeof(relay_controller), init_good));
+    TEST_ASSERT_EQUAL_UINT(
+        padding,
+        poison_left(&relay_controller, sizeof(relay_controller), init_bad));
 }

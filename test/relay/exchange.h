@@ -3,7 +3,7 @@
 // its place. No member has padding before it.
 #ifndef EXCHANGE_H
 #define EXCHANGE_H
-#include "fixpid_autotune.h"
+#include "fixpid_relay.h"
 
 // As in a trace.
 #define CALL_INIT 'i'
@@ -12,7 +12,7 @@
 #define CALL_RESULT 'r'
 
 struct question {
-    struct fixpid_autotune_config config;
+    struct fixpid_relay_config config;
     int16_t setpoint;
     int16_t measurement;
     uint8_t call;

@@ -6,7 +6,7 @@
 #include "configuration.h"
 
 // In object mode the library is built for the object of this name.
-FIXPID_DATA struct fixpid_autotune autotune_controller;
+FIXPID_DATA struct fixpid_relay relay_controller;
 
 union exchange exchange;
 
@@ -27,20 +27,20 @@ static void reply(void)
     gains.kd_q8 = 0;
     gains.derivative_filter = 0;
     if (call == CALL_INIT) {
-        accepted = fixpid_autotune_init(&autotune_controller,
-                                        &exchange.question.config);
+        accepted =
+            fixpid_relay_init(&relay_controller, &exchange.question.config);
     }
     if (call == CALL_RESET) {
-        fixpid_autotune_reset(&autotune_controller);
+        fixpid_relay_reset(&relay_controller);
     }
     if (call == CALL_STEP) {
-        output = fixpid_autotune_step(&autotune_controller,
-                                      exchange.question.setpoint,
-                                      exchange.question.measurement);
+        output =
+            fixpid_relay_step(&relay_controller, exchange.question.setpoint,
+                              exchange.question.measurement);
     }
     if (call == CALL_RESULT) {
-        accepted = fixpid_autotune_result(&autotune_controller,
-                                          exchange.question.rule, &gains);
+        accepted = fixpid_relay_result(&relay_controller,
+                                       exchange.question.rule, &gains);
     }
     exchange.answer.ki_q24 = gains.ki_q24;
     exchange.answer.kp_q8 = gains.kp_q8;
@@ -48,7 +48,7 @@ static void reply(void)
     exchange.answer.output = output;
     exchange.answer.derivative_filter = gains.derivative_filter;
     exchange.answer.accepted = accepted;
-    exchange.answer.status = fixpid_autotune_status(&autotune_controller);
+    exchange.answer.status = fixpid_relay_status(&relay_controller);
 }
 
 void main(void)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The whole way on five plants: the experiment, gains by each of the calmer
 // rules, and the loop closed with them from rest.
-#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "fixpid_relay.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_relay.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 
@@ -126,12 +126,12 @@ struct expected {
     uint16_t settled_after[2];
 };
 
-static struct fixpid_autotune tuner;
+static struct fixpid_relay tuner;
 
 static uint8_t experiment(const struct plant *of,
                           const struct expected *expected)
 {
-    const struct fixpid_autotune_config config = {
+    const struct fixpid_relay_config config = {
         .output_low = expected->relay_low,
         .output_high = expected->relay_high,
         .output_rest = 0,
@@ -142,13 +142,13 @@ static uint8_t experiment(const struct plant *of,
         .cycles = 4,
         .options = 0};
 
-    TEST_ASSERT_TRUE(fixpid_autotune_init(&tuner, &config));
+    TEST_ASSERT_TRUE(fixpid_relay_init(&tuner, &config));
     random_state = 1;
     rest(of);
-    while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) {
-        drive(fixpid_autotune_step(&tuner, expected->setpoint, measured()));
+    while (fixpid_relay_status(&tuner) == FIXPID_RELAY_RUNNING) {
+        drive(fixpid_relay_step(&tuner, expected->setpoint, measured()));
     }
-    return fixpid_autotune_status(&tuner);
+    return fixpid_relay_status(&tuner);
 }
 
 static void close_loop(uint8_t rule, unsigned which,
@@ -165,7 +165,7 @@ static void close_loop(uint8_t rule, unsigned which,
     int64_t overshoot = 0;
     uint16_t settled_after = 0;
 
-    TEST_ASSERT_TRUE(fixpid_autotune_result(&tuner, rule, &config.gains));
+    TEST_ASSERT_TRUE(fixpid_relay_result(&tuner, rule, &config.gains));
     TEST_ASSERT_TRUE(fixpid_pid_init(&pid, &config));
     rest(plant);
     for (uint16_t n = 1; n <= expected->steps; n++) {
@@ -190,9 +190,9 @@ static void close_loop(uint8_t rule, unsigned which,
 static void tune_and_close(const struct plant *of,
                            const struct expected *expected)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, experiment(of, expected));
-    close_loop(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PI, 0, expected);
-    close_loop(FIXPID_AUTOTUNE_TYREUS_LUYBEN_PID, 1, expected);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, experiment(of, expected));
+    close_loop(FIXPID_RELAY_TYREUS_LUYBEN_PI, 0, expected);
+    close_loop(FIXPID_RELAY_TYREUS_LUYBEN_PID, 1, expected);
 }
 
 void setUp(void)
@@ -261,17 +261,16 @@ static uint8_t failure(int16_t setpoint, int16_t measurement_max)
 
 void test_plants_setpoint_out_of_reach_is_no_oscillation(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE, failure(700, 1023));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_NO_OSCILLATION,
-                            failure(1100, 2000));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, failure(700, 1023));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_NO_OSCILLATION, failure(1100, 2000));
 }
 
 void test_plants_sensor_at_its_end_is_saturated(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_SATURATED, failure(500, 516));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_SATURATED, failure(500, 516));
 }
 
 void test_plants_setpoint_near_an_end_of_the_relay_is_irregular(void)
 {
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_IRREGULAR, failure(100, 1023));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_IRREGULAR, failure(100, 1023));
 }
