@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_autotune.h"
+
+#include "fixpid_autotune_private.h"
+#include "fixpid_bits.h"
+
+#define SWING_MIN 8u
+#define SWING_MAX 16383u
+#define TIMEOUT_MIN 2u
+#define TIMEOUT_MAX 32767u
+#define CYCLES_MAX 4u
+
+#define NOISE_FILLED 2u // deviations before the first second difference
+#define NOISE_STEPS 34u
+#define NOISE_MAX 1023u
+#define STEPS_MAX 32767u
+#define TURN_MAX 2047 // 8 cycles of two turns are within 32752
+
+static bool within(uint16_t value, uint16_t least, uint16_t most)
+{
+    if (value < least) {
+        return false;
+    }
+    return value <= most;
+}
+
+static bool ranges_legal(const struct fixpid_autotune_config *config)
+{
+    if (config->output_min >= config->output_max) {
+        return false;
+    }
+    if (config->measurement_min >= config->measurement_max) {
+        return false;
+    }
+    if (config->output_rest < config->output_min) {
+        return false;
+    }
+    return config->output_rest <= config->output_max;
+}
+
+static bool legal(const struct fixpid_autotune_config *config)
+{
+    if (!ranges_legal(config)) {
+        return false;
+    }
+    if (config->swing != 0u) {
+        if (!within(config->swing, SWING_MIN, SWING_MAX)) {
+            return false;
+        }
+    }
+    if (!within(config->timeout_steps, TIMEOUT_MIN, TIMEOUT_MAX)) {
+        return false;
+    }
+    if (!within(config->cycles, 1u, CYCLES_MAX)) {
+        return false;
+    }
+    return (config->options & (uint8_t)~FIXPID_AUTOTUNE_REVERSE) == 0u;
+}
+
+bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
+                          const struct fixpid_autotune_config *config)
+{
+    const bool accepted = legal(config);
+
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(config != 0);
+    // SDCC's pic16 port cannot assign a structure.
+    SELF.config.output_min = config->output_min;
+    SELF.config.output_max = config->output_max;
+    SELF.config.output_rest = config->output_rest;
+    SELF.config.measurement_min = config->measurement_min;
+    SELF.config.measurement_max = config->measurement_max;
+    SELF.config.swing = config->swing;
+    SELF.config.timeout_steps = config->timeout_steps;
+    SELF.config.cycles = config->cycles;
+    SELF.config.options = config->options;
+    if (!accepted) {
+        SELF.config.cycles = 0;
+        SELF.config.output_rest = 0;
+    }
+    fixpid_autotune_reset(self);
+    return accepted;
+}
+
+void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    SELF.state = FIXPID_AUTOTUNE_REFUSED;
+    if (SELF.config.cycles != 0u) {
+        SELF.state = PHASE_NOISE;
+    }
+    fixpid_autotune_clear(&SELF.sums[0]);
+    fixpid_autotune_clear(&SELF.sums[1]);
+    SELF.output = SELF.config.output_rest;
+    SELF.centre = 0;
+    SELF.half = 0;
+    SELF.elapsed = 0;
+    SELF.period = 0;
+    SELF.last_period = 0;
+    SELF.noise = 0;
+    SELF.highest = 0;
+    SELF.lowest = 0;
+    SELF.side = SIDE_LOW;
+    SELF.seen = 0;
+    SELF.averaged = FRESH;
+}
+
+uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return (SELF.state >= PHASE_NOISE) ? (uint8_t)FIXPID_AUTOTUNE_RUNNING
+                                       : SELF.state;
+}
+
+static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
+                          int16_t deviation)
+{
+    const int32_t bend =
+        (int32_t)deviation - SELF.highest - SELF.highest + SELF.lowest;
+    uint32_t noise = (uint32_t)((bend < 0) ? -bend : bend);
+
+    if (noise > NOISE_MAX) {
+        noise = NOISE_MAX;
+    }
+    SELF.lowest = SELF.highest;
+    SELF.highest = deviation;
+    SELF.elapsed++;
+    if (SELF.elapsed > NOISE_FILLED) {
+        SELF.noise = (uint16_t)(SELF.noise + noise);
+    }
+    if (SELF.elapsed == NOISE_STEPS) {
+        SELF.state = PHASE_FIND;
+        SELF.side = (deviation <= 0) ? SIDE_HIGH : SIDE_LOW;
+        SELF.elapsed = 0;
+        SELF.highest = deviation;
+        SELF.lowest = deviation;
+        fixpid_autotune_drive(self);
+    }
+}
+
+// A deviation counts for the side whose output led to it. The one after a
+// switch is free of the noise that made the relay switch.
+static void add(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
+{
+    FIXPID_DATA struct fixpid_autotune_sums *const sums =
+        fixpid_autotune_sums_of_phase(self);
+
+    sums->all += deviation; // within 32767^2
+    sums->steps++;
+    if (SELF.side == SIDE_HIGH) {
+        sums->on += deviation;
+        sums->on_steps++;
+    }
+    if (SELF.elapsed == 1u) {
+        int16_t turn = deviation;
+
+        if (turn > TURN_MAX) {
+            turn = TURN_MAX;
+        }
+        if (turn < -TURN_MAX) {
+            turn = -TURN_MAX;
+        }
+        if (SELF.side == SIDE_HIGH) {
+            turn = (int16_t)-turn;
+        }
+        sums->rise = (int16_t)(sums->rise + turn);
+    }
+    if (sums->steps == STEPS_MAX) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_TOO_SLOW);
+    }
+}
+
+static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
+                         int16_t deviation)
+{
+    const int16_t hysteresis = fixpid_autotune_hysteresis(self);
+
+    if (SELF.side == SIDE_HIGH) {
+        if (deviation > hysteresis) {
+            SELF.side = SIDE_LOW;
+            SELF.elapsed = 0;
+            fixpid_autotune_drive(self);
+        }
+    } else {
+        if (deviation < -hysteresis) {
+            SELF.side = SIDE_HIGH;
+            fixpid_autotune_end_cycle(self, deviation);
+        }
+    }
+    SELF.elapsed++;
+}
+
+static void relay(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
+{
+    if (deviation > SELF.highest) {
+        SELF.highest = deviation;
+    }
+    if (deviation < SELF.lowest) {
+        SELF.lowest = deviation;
+    }
+    if (SELF.elapsed != 0u) {
+        SELF.period++;
+        if (SELF.averaged != FRESH) {
+            add(self, deviation);
+        }
+    }
+    if (SELF.state >= PHASE_NOISE) {
+        switch_relay(self, deviation);
+    }
+    if (SELF.state >= PHASE_CENTRE) {
+        if ((SELF.elapsed >> 2) > SELF.last_period) {
+            fixpid_autotune_find_again(self);
+        }
+    }
+}
+
+// A measurement at its limits says more than a relay that does not switch.
+static void watch_limits(FIXPID_DATA struct fixpid_autotune *self,
+                         int16_t measurement)
+{
+    if (SELF.elapsed >= SELF.config.timeout_steps) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_NO_OSCILLATION);
+    }
+    if (measurement <= SELF.config.measurement_min) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_SATURATED);
+    }
+    if (measurement >= SELF.config.measurement_max) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_SATURATED);
+    }
+}
+
+// measurement - setpoint, within 32767
+static int16_t deviation_from(int16_t setpoint, int16_t measurement)
+{
+    const uint16_t from = (uint16_t)setpoint;
+    const uint16_t to = (uint16_t)measurement;
+    const uint16_t difference = (uint16_t)(to - from);
+
+    // it has the wrong sign
+    if ((((to ^ from) & (to ^ difference)) & FIXPID_SIGN_BIT) != 0u) {
+        return (measurement < 0) ? -INT16_MAX : INT16_MAX;
+    }
+    if (difference == FIXPID_SIGN_BIT) {
+        return -INT16_MAX;
+    }
+    return (int16_t)difference;
+}
+
+int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
+                             int16_t setpoint, int16_t measurement)
+{
+    int16_t deviation;
+
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.state >= PHASE_NOISE) {
+        watch_limits(self, measurement);
+    }
+    if (SELF.state >= PHASE_NOISE) {
+        deviation = deviation_from(setpoint, measurement);
+        if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+            deviation = (int16_t)-deviation;
+        }
+        if (SELF.state == PHASE_NOISE) {
+            measure_noise(self, deviation);
+        } else {
+            relay(self, deviation);
+        }
+    }
+    return SELF.output;
+}

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// The relays of fixpid_autotune, and what the end of a cycle decides.
+#include "fixpid_autotune.h"
+
+#include "fixpid_autotune_private.h"
+
+#define CYCLES_SEEN_MAX 48u
+#define CYCLES_LOST 8u // so many counts a swing that was lost
+#define PERIOD_MIN 10u
+
+// Wide enough for every swing asked for: a swing is at most 65534, and a range
+// at most 65535.
+#define AMPLITUDE_MAX UINT32_C(131072)
+
+void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums)
+{
+    sums->all = 0;
+    sums->on = 0;
+    sums->rise = 0;
+    sums->steps = 0;
+    sums->on_steps = 0;
+}
+
+// A second difference of noise is 1.95 standard deviations in the mean; the sum
+// of 32 is at most 32 * 1023 = 32736, and with its half 49104.
+int16_t fixpid_autotune_hysteresis(
+    FIXPID_DATA const struct fixpid_autotune *self)
+{
+    return (int16_t)(1u +
+                     ((uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u) >> 5));
+}
+
+// `half` is at most 21759, so that twice of it fits.
+int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase, uint8_t side)
+{
+    const int16_t end =
+        (side == SIDE_HIGH) ? SELF.config.output_max : SELF.config.output_min;
+    const uint8_t wide =
+        (phase == PHASE_SECOND) ? (uint8_t)SIDE_LOW : (uint8_t)SIDE_HIGH;
+    const uint16_t centre = (uint16_t)SELF.centre;
+    uint16_t room = (uint16_t)(centre - (uint16_t)end);
+    uint16_t distance = SELF.half;
+
+    if (side == SIDE_HIGH) {
+        room = (uint16_t)(0u - room);
+    }
+    if (phase == PHASE_FIND) {
+        return end;
+    }
+    if (phase == PHASE_CENTRE) {
+        distance = (uint16_t)(distance + (distance >> 1));
+    } else if (side == wide) {
+        distance = (uint16_t)(distance << 1);
+    } else {
+        // the smaller half
+    }
+    if (distance >= room) {
+        return end;
+    }
+    return (int16_t)(uint16_t)((side == SIDE_HIGH) ? (centre + distance)
+                                                   : (centre - distance));
+}
+
+uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase)
+{
+    return (uint16_t)((uint16_t)fixpid_autotune_level(self, phase, SIDE_HIGH) -
+                      (uint16_t)fixpid_autotune_level(self, phase, SIDE_LOW));
+}
+
+void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self)
+{
+    SELF.output = fixpid_autotune_level(self, SELF.state, SELF.side);
+}
+
+void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
+                            uint8_t status)
+{
+    SELF.state = status;
+    SELF.output = SELF.config.output_rest;
+}
+
+// floor(256 part / whole), 0..255. pre: part < whole
+static uint8_t share(uint16_t part, uint16_t whole)
+{
+    uint8_t quotient = 0;
+    uint32_t rest = part;
+    uint8_t bit;
+
+    for (bit = 0; bit < 8u; bit++) {
+        rest <<= 1;
+        quotient = (uint8_t)(quotient << 1);
+        if (rest >= whole) {
+            rest -= whole;
+            quotient |= 1u;
+        }
+    }
+    return quotient;
+}
+
+// The relay that would make the wanted swing of this one.
+static uint32_t amplitude_for(uint16_t wanted_swing, uint16_t swing,
+                              uint16_t relay_counts)
+{
+    uint16_t wanted = wanted_swing;
+    uint32_t amplitude = relay_counts;
+
+    while (wanted > swing) {
+        wanted >>= 1; // rounded towards a smaller swing
+        amplitude <<= 1;
+    }
+    if (amplitude > AMPLITUDE_MAX) {
+        amplitude = AMPLITUDE_MAX;
+    }
+    if (wanted < swing) {
+        amplitude = (amplitude * share(wanted, swing)) >> 8;
+    }
+    return amplitude;
+}
+
+// What a half cycle overshoots is in proportion to the drive that is left on
+// its side. So where the setpoint cuts the swing, the output that holds it cuts
+// the relay: true of every lag with every dead time.
+static void recentre(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
+    const uint16_t swing =
+        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+    const uint16_t below = (uint16_t)(0u - (uint16_t)SELF.lowest);
+    const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
+                                       (uint16_t)SELF.config.output_min);
+    const uint16_t wanted =
+        (SELF.config.swing != 0u)
+            ? SELF.config.swing
+            : (uint16_t)(24u * (uint16_t)fixpid_autotune_hysteresis(self));
+    uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
+
+    if (below < swing) {
+        // 65535 * 255 + 128 < 2^24
+        const uint32_t above_low =
+            ((uint32_t)relay_counts * share(below, swing)) + 128u;
+
+        SELF.centre = (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(
+                                              self, SELF.state, SIDE_LOW) +
+                                          (uint16_t)(above_low >> 8));
+    }
+    if (amplitude > widest) { // or the two relays would not differ
+        amplitude = widest;
+    }
+    SELF.half = (uint16_t)((amplitude * 85u) >> 8); // a third
+    if (SELF.half < 2u) {
+        SELF.half = 2;
+    }
+}
+
+static uint16_t distance(uint16_t a, uint16_t b)
+{
+    return (uint16_t)((a < b) ? (b - a) : (a - b));
+}
+
+// The half at high is as long as it was before, within a 32nd of the period:
+// the output that holds the setpoint is the same. The sums have this cycle,
+// too.
+static bool same_load(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t on = (uint16_t)(SELF.last_period - SELF.elapsed);
+    const uint8_t others = (uint8_t)(SELF.config.cycles + SELF.averaged);
+    const uint32_t all = (uint32_t)on * (others + 1u); // 7 others at most
+    const uint32_t sum = SELF.sums[0].on_steps;
+    const uint32_t difference = (all < sum) ? (sum - all) : (all - sum);
+
+    return difference <= (((SELF.last_period >> 5) + UINT32_C(1)) * others);
+}
+
+// The cycle that ends is like the one before it, or in the last phase like
+// those of the first.
+static bool regular(FIXPID_DATA const struct fixpid_autotune *self,
+                    uint16_t before)
+{
+    if (SELF.state == PHASE_THIRD) {
+        return same_load(self);
+    }
+    return distance(SELF.last_period, before) <=
+           (uint16_t)((SELF.last_period >> 3) + 1u);
+}
+
+FIXPID_DATA struct fixpid_autotune_sums *fixpid_autotune_sums_of_phase(
+    FIXPID_DATA struct fixpid_autotune *self)
+{
+    if (SELF.state == PHASE_SECOND) {
+        return &SELF.sums[1];
+    }
+    return &SELF.sums[0];
+}
+
+// One half is below an eighth of the cycles: what so short a half says of the
+// process is little.
+static bool lopsided(FIXPID_DATA const struct fixpid_autotune_sums *sums)
+{
+    const uint16_t least = (uint16_t)(sums->steps >> 3);
+
+    if (sums->on_steps < least) {
+        return true;
+    }
+    return (uint16_t)(sums->steps - sums->on_steps) < least;
+}
+
+static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t swing =
+        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+
+    if (lopsided(&SELF.sums[0])) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (lopsided(&SELF.sums[1])) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (SELF.last_period < PERIOD_MIN) {
+        return FIXPID_AUTOTUNE_TOO_FAST;
+    }
+    if (swing < (uint16_t)(4u * (uint16_t)fixpid_autotune_hysteresis(self))) {
+        return FIXPID_AUTOTUNE_TOO_SMALL;
+    }
+    return FIXPID_AUTOTUNE_DONE;
+}
+
+// The cycles of a relay are complete, or one more is averaged.
+static void average(FIXPID_DATA struct fixpid_autotune *self)
+{
+    SELF.averaged++;
+    if (SELF.averaged < SELF.config.cycles) {
+        return;
+    }
+    SELF.averaged = FRESH;
+    if (SELF.state == PHASE_THIRD) {
+        fixpid_autotune_finish(self, verdict(self));
+        return;
+    }
+    if (SELF.state == PHASE_FIRST) {
+        fixpid_autotune_clear(&SELF.sums[1]);
+    }
+    SELF.state++; // the third phase goes on with the sums of the first
+}
+
+// A cycle unlike the one before may be the first of new ones.
+static void start_average_again(FIXPID_DATA struct fixpid_autotune *self)
+{
+    if (SELF.state == PHASE_THIRD) {
+        SELF.state = PHASE_FIRST;
+    }
+    fixpid_autotune_clear(fixpid_autotune_sums_of_phase(self));
+    SELF.averaged = 0;
+}
+
+// A cycle is a half at high and the half at low that ends now.
+static void end_cycle(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint16_t before = SELF.last_period;
+
+    SELF.last_period = SELF.period;
+    SELF.period = 0;
+    SELF.seen++;
+    if (SELF.seen >= CYCLES_SEEN_MAX) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_IRREGULAR);
+    } else if (SELF.averaged == FRESH) {
+        SELF.averaged = 0;
+    } else if (SELF.state < PHASE_FIRST) {
+        recentre(self);
+        SELF.averaged = FRESH;
+        SELF.state++;
+        if (SELF.state == PHASE_FIRST) {
+            fixpid_autotune_clear(&SELF.sums[0]);
+        }
+    } else if (regular(self, before)) {
+        average(self);
+    } else {
+        start_average_again(self);
+    }
+}
+
+void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
+                               int16_t deviation)
+{
+    end_cycle(self);
+    SELF.elapsed = 0;
+    if (SELF.state >= PHASE_NOISE) {
+        SELF.highest = deviation;
+        SELF.lowest = deviation;
+        fixpid_autotune_drive(self);
+    }
+}
+
+// The relay does not hold the setpoint any more: from the whole range again.
+void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self)
+{
+    fixpid_autotune_clear(&SELF.sums[0]);
+    SELF.state = PHASE_FIND;
+    SELF.averaged = FRESH;
+    SELF.period = 0;
+    SELF.elapsed = 1;
+    SELF.seen = (uint8_t)(SELF.seen + CYCLES_LOST);
+    fixpid_autotune_drive(self);
+}
