@@ -49,7 +49,8 @@ struct number16 {
 };
 
 // value * 2^exponent; a value of more than 16 bits loses the lower ones.
-static void make(struct number16 *result, uint32_t value, int16_t exponent)
+static void make(FIXPID_DATA struct number16 *result, uint32_t value,
+                 int16_t exponent)
 {
     uint32_t mantissa = value;
     int16_t places = exponent;
@@ -70,23 +71,25 @@ static void make(struct number16 *result, uint32_t value, int16_t exponent)
     result->exponent = places;
 }
 
-static void multiply(struct number16 *result, const struct number16 *a,
-                     const struct number16 *b)
+static void multiply(FIXPID_DATA struct number16 *result,
+                     FIXPID_DATA const struct number16 *a,
+                     FIXPID_DATA const struct number16 *b)
 {
     make(result, (uint32_t)a->mantissa * b->mantissa,
          (int16_t)(a->exponent + b->exponent));
 }
 
 // a / b. pre: b is not 0
-static void divide(struct number16 *result, const struct number16 *a,
-                   const struct number16 *b)
+static void divide(FIXPID_DATA struct number16 *result,
+                   FIXPID_DATA const struct number16 *a,
+                   FIXPID_DATA const struct number16 *b)
 {
     make(result, ((uint32_t)a->mantissa << 16) / b->mantissa,
          (int16_t)(a->exponent - b->exponent - 16));
 }
 
 // a with 15 bits more, at an exponent that is not below its own: below 2^31.
-static uint32_t aligned(const struct number16 *a, int16_t exponent)
+static uint32_t aligned(FIXPID_DATA const struct number16 *a, int16_t exponent)
 {
     const int16_t places = (int16_t)(exponent - a->exponent);
 
@@ -96,8 +99,9 @@ static uint32_t aligned(const struct number16 *a, int16_t exponent)
     return ((uint32_t)a->mantissa << 15) >> places;
 }
 
-static void add(struct number16 *result, const struct number16 *a,
-                const struct number16 *b)
+static void add(FIXPID_DATA struct number16 *result,
+                FIXPID_DATA const struct number16 *a,
+                FIXPID_DATA const struct number16 *b)
 {
     const int16_t exponent =
         (a->exponent < b->exponent) ? b->exponent : a->exponent;
@@ -107,8 +111,9 @@ static void add(struct number16 *result, const struct number16 *a,
 }
 
 // a - b, or 0 if b is the larger one
-static void subtract(struct number16 *result, const struct number16 *a,
-                     const struct number16 *b)
+static void subtract(FIXPID_DATA struct number16 *result,
+                     FIXPID_DATA const struct number16 *a,
+                     FIXPID_DATA const struct number16 *b)
 {
     const int16_t exponent = a->exponent;
     uint32_t minuend = 0;
@@ -124,7 +129,8 @@ static void subtract(struct number16 *result, const struct number16 *a,
 
 // number * 2^fraction to the nearest integer, half up; UINT32_MAX if it has
 // more than 31 bits.
-static uint32_t integer(const struct number16 *number, int8_t fraction)
+static uint32_t integer(FIXPID_DATA const struct number16 *number,
+                        int8_t fraction)
 {
     const uint32_t mantissa = number->mantissa;
     const int16_t places = (int16_t)(number->exponent + fraction);

@@ -371,8 +371,8 @@ static const struct operation gains_of_times[] FIXPID_AUTOTUNE_FLASH = {
     {END, 0, 0, 0},
 };
 
-static void take(const struct sheet *sheet, struct number16 *number,
-                 uint8_t which)
+static void take(FIXPID_DATA const struct sheet *sheet,
+                 FIXPID_DATA struct number16 *number, uint8_t which)
 {
     if (which < (uint8_t)NUMBERS) {
         number->mantissa = sheet->numbers[which].mantissa;
@@ -387,11 +387,12 @@ static void take(const struct sheet *sheet, struct number16 *number,
 }
 
 // `to` = the first number, or the second one where they differ so.
-static void choose(struct number16 *to, const struct number16 *a,
-                   const struct number16 *b, bool minimum)
+static void choose(FIXPID_DATA struct number16 *to,
+                   FIXPID_DATA const struct number16 *a,
+                   FIXPID_DATA const struct number16 *b, bool minimum)
 {
     struct number16 more;
-    const struct number16 *chosen = a;
+    FIXPID_DATA const struct number16 *chosen = a;
 
     subtract(&more, a, b);
     if ((more.mantissa != 0u) == minimum) {
@@ -402,13 +403,15 @@ static void choose(struct number16 *to, const struct number16 *a,
 }
 
 // Does the operations of a table, up to its END.
-static void calculate(struct sheet *sheet, const struct operation *table)
+static void calculate(FIXPID_DATA struct sheet *sheet,
+                      const struct operation *table)
 {
     const struct operation *operation = table;
     uint8_t verb = flash_byte(&operation->verb);
 
     while (verb != (uint8_t)END) {
-        struct number16 *const to = &sheet->numbers[flash_byte(&operation->to)];
+        FIXPID_DATA struct number16 *const to =
+            &sheet->numbers[flash_byte(&operation->to)];
         struct number16 a;
         struct number16 b;
 
@@ -436,13 +439,13 @@ static void calculate(struct sheet *sheet, const struct operation *table)
     }
 }
 
-static void set(struct sheet *sheet, uint8_t which, uint32_t value,
+static void set(FIXPID_DATA struct sheet *sheet, uint8_t which, uint32_t value,
                 int8_t exponent)
 {
     make(&sheet->numbers[which], value, exponent);
 }
 
-static bool is_zero(const struct sheet *sheet, uint8_t which)
+static bool is_zero(FIXPID_DATA const struct sheet *sheet, uint8_t which)
 {
     return sheet->numbers[which].mantissa == 0u;
 }
@@ -494,7 +497,7 @@ static int32_t output_q8(FIXPID_DATA const struct fixpid_autotune *self,
 }
 
 // The numbers of one relay. False if its sums make no sense.
-static bool measure_relay(struct sheet *sheet,
+static bool measure_relay(FIXPID_DATA struct sheet *sheet,
                           FIXPID_DATA const struct fixpid_autotune *self,
                           uint8_t relay)
 {
@@ -531,7 +534,7 @@ static bool measure_relay(struct sheet *sheet,
 }
 
 // FLAT, unless the process shows no static gain.
-static void measure_gain(struct sheet *sheet,
+static void measure_gain(FIXPID_DATA struct sheet *sheet,
                          FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t swing =
@@ -556,7 +559,7 @@ static void measure_gain(struct sheet *sheet,
 
 // No process is less round than one of a single lag. A larger RATIO means that
 // the load has changed.
-static void limit_ratio(struct sheet *sheet)
+static void limit_ratio(FIXPID_DATA struct sheet *sheet)
 {
     calculate(sheet, expected_round);
     while (!is_zero(sheet, Y)) {
@@ -574,7 +577,7 @@ static void limit_ratio(struct sheet *sheet)
 }
 
 // The process, SLOPE to LATER, and its DELAY. False if there is none.
-static bool identify(struct sheet *sheet,
+static bool identify(FIXPID_DATA struct sheet *sheet,
                      FIXPID_DATA const struct fixpid_autotune *self)
 {
     if (SELF.state != (uint8_t)FIXPID_AUTOTUNE_DONE) {
@@ -600,14 +603,14 @@ static bool identify(struct sheet *sheet,
 }
 
 // The mean output, less what the mean deviation takes, within the output range.
-static int16_t holding(struct sheet *sheet,
+static int16_t holding(FIXPID_DATA struct sheet *sheet,
                        FIXPID_DATA const struct fixpid_autotune *self)
 {
     const int32_t off = floor_shift(deviation_q8(&SELF.sums[0]), 1) +
                         floor_shift(deviation_q8(&SELF.sums[1]), 1);
     int32_t output =
         floor_shift(output_q8(self, 0), 1) + floor_shift(output_q8(self, 1), 1);
-    struct number16 *const part = &sheet->numbers[X];
+    FIXPID_DATA struct number16 *const part = &sheet->numbers[X];
 
     set(sheet, X, magnitude(off), 0);
     multiply(part, &sheet->numbers[FLAT], part);
@@ -649,8 +652,8 @@ bool fixpid_autotune_model(FIXPID_DATA const struct fixpid_autotune *self,
 }
 
 // What KP has of Ku, Tu of TI and TD of Tu, each x 256.
-static void classic_rule(struct sheet *sheet, uint8_t kp_q8, uint16_t reset_q8,
-                         uint8_t rate_q8)
+static void classic_rule(FIXPID_DATA struct sheet *sheet, uint8_t kp_q8,
+                         uint16_t reset_q8, uint8_t rate_q8)
 {
     set(sheet, KP, kp_q8, -8);
     set(sheet, TI, reset_q8, -8);
@@ -659,7 +662,7 @@ static void classic_rule(struct sheet *sheet, uint8_t kp_q8, uint16_t reset_q8,
 }
 
 // A table for an integrator, and what a lag changes in it.
-static void process_rule(struct sheet *sheet,
+static void process_rule(FIXPID_DATA struct sheet *sheet,
                          const struct operation *integrator,
                          const struct operation *of_lag)
 {
@@ -671,7 +674,8 @@ static void process_rule(struct sheet *sheet,
     }
 }
 
-static void apply(struct sheet *sheet, uint8_t rule, uint8_t robustness_q4)
+static void apply(FIXPID_DATA struct sheet *sheet, uint8_t rule,
+                  uint8_t robustness_q4)
 {
     set(sheet, ROBUST, (uint32_t)robustness_q4 + 16u, -4);
     switch (rule) {
@@ -700,7 +704,8 @@ static void apply(struct sheet *sheet, uint8_t rule, uint8_t robustness_q4)
 }
 
 // The gains of KP, TI and TD. False if one is out of its range.
-static bool fold(struct sheet *sheet, struct fixpid_pid_gains *gains)
+static bool fold(FIXPID_DATA struct sheet *sheet,
+                 struct fixpid_pid_gains *gains)
 {
     uint32_t lag_steps = integer(&sheet->numbers[TD], 0) >> 3;
     uint8_t filter = 0;

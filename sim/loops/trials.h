@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The five plants that a controller meets most, each with what the comparisons
-// do with it: gains, setpoints and a relay experiment.
+// do with it: gains and setpoints.
 #ifndef TRIALS_H
 #define TRIALS_H
 #include <stdint.h>
@@ -23,13 +23,6 @@ struct trial {
     // integrator.
     double setpoints[TRIAL_SETPOINTS];
     int steps; // of each
-
-    // Of the relay experiment, and of the loop with the gains that it finds.
-    int16_t relay_low;
-    int16_t relay_high;
-    double tune_at;
-    uint16_t timeout_steps;
-    int tuned_steps;
 };
 
 extern const struct trial trials[TRIALS];

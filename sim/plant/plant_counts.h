@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The other kind of plant: one that moves in a controller's steps, in counts of
 // its sensor and of its actuator. What a loop without a scenario needs: dead
-// time, then an integrator or one or two lags, then a sensor with noise.
+// time, then an integrator (with a lag or without) or one or two lags, then a
+// sensor with noise.
 //
 //   inner[n+1] = inner[n] + (gain drive[n - delay] - inner[n]) / lag
 //   value[n+1] = value[n] + (inner[n+1] - value[n]) / second_lag

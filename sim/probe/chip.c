@@ -2,7 +2,8 @@
 // A home for the application's objects where there is no application: the
 // co-simulation fills them from the chip's RAM. The build names the controller,
 // as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964, and where
-// there are any, the gains that the application has found: -DPROBE_GAINS=name.
+// there is one, the configuration whose gains the application has found:
+// -DPROBE_CONFIG=name.
 //
 // They have no pointer, and the build leaves no room between their members, so
 // they have the same bytes here and under SDCC, on any machine that stores the
@@ -29,18 +30,18 @@
 extern struct PROBE_TYPE HOST_PROBE_OBJECT;
 struct PROBE_TYPE HOST_PROBE_OBJECT;
 
-#ifdef PROBE_GAINS
+#ifdef PROBE_CONFIG
 // Deviation 8.5: an application has no header.
-extern struct fixpid_pid_gains PROBE_GAINS;
-struct fixpid_pid_gains PROBE_GAINS;
-#define HOME_OF_GAINS HOME(PROBE_GAINS),
+extern struct fixpid_pid_config PROBE_CONFIG;
+struct fixpid_pid_config PROBE_CONFIG;
+#define HOME_OF_CONFIG HOME(PROBE_CONFIG),
 #else
-#define HOME_OF_GAINS
+#define HOME_OF_CONFIG
 #endif
 
 const struct probe_object probe_objects[] = {
     HOME(HOST_PROBE_OBJECT),
-    HOME_OF_GAINS // or nothing
+    HOME_OF_CONFIG // or nothing
 };
 const size_t probe_object_count =
     sizeof(probe_objects) / sizeof(probe_objects[0]);

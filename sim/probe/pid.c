@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shows the host's trace the terms of the application's controller, which the
-// build names, as in -DHOST_PROBE_OBJECT=thermostat. With the name of gains
-// that the application finds, -DPROBE_GAINS=name, it prints them in the end.
+// build names, as in -DHOST_PROBE_OBJECT=thermostat. With the name of a
+// configuration whose gains the application finds, -DPROBE_CONFIG=name, it
+// prints them in the end.
 #include "fixpid_pid.h"
 
 #include <inttypes.h>
@@ -21,16 +22,17 @@ void host_probe(struct host_terms *terms)
         (double)fixpid_pid_derivative(&HOST_PROBE_OBJECT) / 256.0;
 }
 
-#ifdef PROBE_GAINS
+#ifdef PROBE_CONFIG
 // Deviation 8.5: an application has no header.
-extern struct fixpid_pid_gains PROBE_GAINS;
+extern struct fixpid_pid_config PROBE_CONFIG;
 
 void host_report(void)
 {
     (void)printf("gains: kp_q8 %" PRIu16 ", ki_q24 %" PRIu32 ", kd_q8 %" PRIu16
                  ", filter %u\n",
-                 PROBE_GAINS.kp_q8, PROBE_GAINS.ki_q24, PROBE_GAINS.kd_q8,
-                 (unsigned)PROBE_GAINS.derivative_filter);
+                 PROBE_CONFIG.gains.kp_q8, PROBE_CONFIG.gains.ki_q24,
+                 PROBE_CONFIG.gains.kd_q8,
+                 (unsigned)PROBE_CONFIG.gains.derivative_filter);
 }
 #else
 void host_report(void)

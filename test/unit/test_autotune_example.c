@@ -5,7 +5,9 @@
 
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_relay.c")
+TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_autotune_cycle.c")
+TEST_SOURCE_FILE("src/fixpid_autotune_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")
 
@@ -40,17 +42,18 @@ static uint16_t reading(uint8_t channel, int calls)
 
 void setUp(void)
 {
-    static const struct fixpid_pid_gains none = {0, 0, 0, 0};
+    static const struct fixpid_pid_config none = {.output_min = 0};
 
     driven = -1;
     higher = 0;
-    tuned_gains = none;
+    tuned = none;
     port_drive_Stub(keep_drive);
     port_read_Stub(reading);
     port_init_Ignore();
     port_running_IgnoreAndReturn(false);
     TEST_ASSERT_EQUAL_INT(0, application_main());
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_RUNNING, fixpid_relay_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING,
+                            fixpid_autotune_status(&tuner));
 }
 
 void tearDown(void)
@@ -64,31 +67,48 @@ static int16_t period(uint16_t counts)
     return driven;
 }
 
-// A wave of this height around the setpoint, `half` periods to each side.
-static void swing(uint16_t counts, int half, int cycles)
+// The experiment listens to the noise first.
+static void listen(uint16_t counts)
 {
-    for (int i = 0; i < 2 * half * cycles; i++) {
-        const bool above = ((i / half) % 2) != 0;
-        (void)period((uint16_t)(above ? SET + counts : SET - counts));
+    for (int i = 0; i < 33; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, period(counts));
     }
 }
 
-void test_main_experiment_starts_with_the_relay_high(void)
+// A wave of 20 conversions to each side of the setpoint, until the experiment
+// is over; 20 periods each.
+static void swing(void)
 {
-    TEST_ASSERT_EQUAL_INT16(306, period(80));
-    TEST_ASSERT_EQUAL_INT16(306, period(SET));
+    int periods = 0;
+
+    listen(SET);
+    while ((fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) &&
+           (periods < 2000)) {
+        const bool above = ((periods / 20) % 2) != 0;
+        (void)period((uint16_t)(above ? SET + 20 : SET - 20));
+        periods++;
+    }
+}
+
+void test_main_heater_is_off_while_the_noise_is_measured(void)
+{
+    listen(80);
+    TEST_ASSERT_EQUAL_INT16(1023, period(80));
 }
 
 void test_main_relay_switches_beyond_the_hysteresis_only(void)
 {
-    TEST_ASSERT_EQUAL_INT16(306, period(80));
-    TEST_ASSERT_EQUAL_INT16(306, period(SET + 2)); // 8 counts of a sum of 4
-    higher = 1;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET + 2)); // 9
-    higher = 0;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET - 2)); // -8
+    listen(80);
+    TEST_ASSERT_EQUAL_INT16(1023, period(80));
+    TEST_ASSERT_EQUAL_INT16(1023, period(SET));
+    higher = 1; // of a sum of 4: the hysteresis is 1 without noise
+    TEST_ASSERT_EQUAL_INT16(1023, period(SET));
+    higher = 2;
+    TEST_ASSERT_EQUAL_INT16(0, period(SET));
     higher = 3;
-    TEST_ASSERT_EQUAL_INT16(306, period(SET - 3)); // -9
+    TEST_ASSERT_EQUAL_INT16(0, period(SET - 1));
+    higher = 2;
+    TEST_ASSERT_EQUAL_INT16(1023, period(SET - 1));
 }
 
 void test_main_control_runs_once_in_100_ticks(void)
@@ -98,32 +118,32 @@ void test_main_control_runs_once_in_100_ticks(void)
     temperature_reading = 80;
     port_running_ExpectAndReturn(false);
     TEST_ASSERT_EQUAL_INT(0, application_main());
-    TEST_ASSERT_EQUAL_INT16(306, driven);
+    TEST_ASSERT_EQUAL_INT16(0, driven);
 }
 
-// A swing of 160 counts by a relay of 306 has Ku 4 / pi * 306 / 160, and the
-// rule divides it by 2.2.
-void test_main_experiment_over_gains_are_kept_and_control_starts(void)
+void test_main_experiment_over_gains_are_kept(void)
 {
-    swing(20, 20, 8);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE, fixpid_relay_status(&tuner));
-    TEST_ASSERT_UINT16_WITHIN(2, (uint16_t)(256 * 1.2732 * 306 / 160 / 2.2),
-                              tuned_gains.kp_q8);
-    TEST_ASSERT_GREATER_THAN_UINT32(0, tuned_gains.ki_q24);
-    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned_gains.kd_q8);
+    swing();
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
+                            fixpid_autotune_status(&tuner));
+    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kp_q8);
+    TEST_ASSERT_GREATER_THAN_UINT32(0, tuned.gains.ki_q24);
+    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kd_q8);
+    TEST_ASSERT_EQUAL_INT16(1023, tuned.output_max);
 }
 
-void test_main_control_starts_from_the_middle_of_the_relay(void)
+void test_main_control_starts_from_what_holds_the_temperature(void)
 {
-    int periods = 0;
-    while ((fixpid_relay_status(&tuner) == FIXPID_RELAY_RUNNING) &&
-           (periods < 1000)) {
-        const bool above = ((periods / 20) % 2) != 0;
-        (void)period((uint16_t)(above ? SET + 20 : SET - 20));
-        periods++;
+    struct fixpid_autotune_model process;
+
+    swing();
+    TEST_ASSERT_TRUE(fixpid_autotune_model(&tuner, &process));
+    TEST_ASSERT_GREATER_THAN_INT16(0, process.holding);
+    TEST_ASSERT_EQUAL_INT16(process.holding, period(SET - 20));
+    for (int i = 0; i < 50; i++) {
+        (void)period(SET - 20);
     }
-    TEST_ASSERT_EQUAL_INT16(153, period(SET - 20));
-    TEST_ASSERT_GREATER_THAN_INT16(153, period(SET - 20));
+    TEST_ASSERT_GREATER_THAN_INT16(process.holding, driven);
 }
 
 static int passes;
@@ -155,27 +175,29 @@ void test_main_goes_from_the_experiment_to_control(void)
     port_running_Stub(for_some_passes);
     port_wait_ticks_Stub(as_many_ticks);
     port_read_Stub(slow_wave);
-    passes = 329;
+    passes = 1000;
     TEST_ASSERT_EQUAL_INT(0, application_main());
-    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned_gains.kp_q8);
+    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kp_q8);
     TEST_ASSERT_NOT_EQUAL_INT16(0, driven);
-    TEST_ASSERT_NOT_EQUAL_INT16(RELAY_HIGH, driven);
+    TEST_ASSERT_NOT_EQUAL_INT16(1023, driven);
 }
 
 void test_main_failed_experiment_leaves_the_heater_off(void)
 {
-    (void)period(80);
+    listen(80);
+    TEST_ASSERT_EQUAL_INT16(1023, period(80));
     TEST_ASSERT_EQUAL_INT16(0, period(1000)); // 4000 counts: the sensor's end
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_SATURATED,
-                            fixpid_relay_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_SATURATED,
+                            fixpid_autotune_status(&tuner));
     TEST_ASSERT_EQUAL_INT16(0, period(80));
-    TEST_ASSERT_EQUAL_UINT16(0, tuned_gains.kp_q8);
+    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
 }
 
 void test_main_oven_that_stays_cold_is_given_up_after_a_minute(void)
 {
-    for (int i = 0; i < 600; i++) {
-        TEST_ASSERT_EQUAL_INT16(306, period(80));
+    listen(80);
+    for (int i = 0; i < 601; i++) {
+        TEST_ASSERT_EQUAL_INT16(1023, period(80));
     }
     TEST_ASSERT_EQUAL_INT16(0, period(80));
     TEST_ASSERT_EQUAL_INT16(0, period(SET));

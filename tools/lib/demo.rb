@@ -35,7 +35,7 @@ LOOPS = {
   'tuning' => Loop.new('the pendulum step by step, from falling to upright', -> { tuning }),
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
-  'autotune' => Loop.new('an oven finds its gains, and five plants work with theirs', -> { autotune }),
+  'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze

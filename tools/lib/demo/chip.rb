@@ -75,7 +75,7 @@ CHIPS = [
   Chip.new('thermostat', 'thermostat on a PIC18F4520', 'fixpid_pid_step',
            { seconds: 60 }, step_ticks: 100),
   Chip.new('autotune', 'autotuner on a PIC18F4520', 'fixpid_pid_step',
-           { seconds: 40 }, step_ticks: 100)
+           { seconds: 75 }, step_ticks: 100)
 ].freeze
 
 # How far the chip may be off the host, by column, from one time to another. The
@@ -98,7 +98,7 @@ AGREEMENTS = {
               Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
   'oven' => [Agreement.new('temperature_c', 'C', 0.0, 15.0, 0.05)],
   'thermostat' => [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)],
-  'autotune' => [Agreement.new('temperature_c', 'C', 0.0, 40.0, 0.1)]
+  'autotune' => [Agreement.new('temperature_c', 'C', 0.0, 75.0, 0.1)]
 }.freeze
 
 # To simulate, so they begin first.
@@ -197,8 +197,8 @@ end
 def check_autotune_on_chip(one)
   check_experiment(one.chip)
   gains = [one.lines, Host.printed('chip-autotune_host')]
-          .map { |text| found_gains(text).first(3) }
-  %w[kp ki kd].zip(*gains).each do |name, found, on_host|
+          .map { |text| found_gains(text).first(2) }
+  %w[kp ki].zip(*gains).each do |name, found, on_host|
     Report.at_most("#{name}: agrees with the host within",
                    100.0 * (found.to_f / on_host - 1.0).abs, 3.0, '%')
   end

@@ -36,7 +36,7 @@ $defines
       - FIXPID_PID_OBJECT=thermostat
     'test_autotune_example':
       - FIXPID_PID_OBJECT=oven
-      - FIXPID_RELAY_OBJECT=tuner
+      - FIXPID_AUTOTUNE_OBJECT=tuner
 :files:
   :test:
     - -:test/unit/test_fixpid_instances.c
