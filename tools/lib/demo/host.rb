@@ -110,6 +110,13 @@ module Host
       File.read("#{folder}/#{name}.txt")
     end
 
+    # What a recipe prints, kept as build/demo/<name>; its path.
+    def recipe(program, name)
+      path = "#{folder}/#{name}"
+      execute({}, "#{@programs}/recipe_#{program}", { out: path })
+      path
+    end
+
     # What a program prints, kept as build/demo/<name>; its path.
     def print(program, name, *arguments)
       path = "#{folder}/#{name}"
