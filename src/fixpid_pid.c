@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_pid.h"
 
+#include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
 // Private bits of `options`; the lowest three are the derivative filter.
@@ -154,6 +155,7 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
     SELF.previous = 0;
     SELF.proportional_error = 0;
     SELF.feedforward = 0;
+    SELF.output = 0;
     SELF.status = FIXPID_PID_FIRST;
 }
 
@@ -317,6 +319,9 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
         flags |= FIXPID_PID_AT_MAX;
         if (SIGNALS.error > 0) {
             SELF.status = flags;
+            if (HAS_TRACK) {
+                SELF.output = (int16_t)output;
+            }
             return (int16_t)output;
         }
     } else if (output < SELF.output_min) {
@@ -324,10 +329,16 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
         flags |= FIXPID_PID_AT_MIN;
         if (SIGNALS.error < 0) {
             SELF.status = flags;
+            if (HAS_TRACK) {
+                SELF.output = (int16_t)output;
+            }
             return (int16_t)output;
         }
     } else {
         // inside
+    }
+    if (HAS_TRACK) {
+        SELF.output = (int16_t)output;
     }
     SELF.status = flags;
     SELF.integral = SIGNALS.integral;
@@ -358,6 +369,9 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
         take_over(self, signals);
     } else {
         SELF.status = FIXPID_PID_MANUAL;
+        if (HAS_TRACK) {
+            SELF.output = (int16_t)shift_right_floor(SELF.integral, 16);
+        }
         return (int16_t)shift_right_floor(SELF.integral, 16);
     }
     return limit_and_remember(self, signals);
