@@ -319,9 +319,6 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
         flags |= FIXPID_PID_AT_MAX;
         if (SIGNALS.error > 0) {
             SELF.status = flags;
-            if (HAS_TRACK) {
-                SELF.output = (int16_t)output;
-            }
             return (int16_t)output;
         }
     } else if (output < SELF.output_min) {
@@ -329,16 +326,10 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
         flags |= FIXPID_PID_AT_MIN;
         if (SIGNALS.error < 0) {
             SELF.status = flags;
-            if (HAS_TRACK) {
-                SELF.output = (int16_t)output;
-            }
             return (int16_t)output;
         }
     } else {
         // inside
-    }
-    if (HAS_TRACK) {
-        SELF.output = (int16_t)output;
     }
     SELF.status = flags;
     SELF.integral = SIGNALS.integral;
@@ -350,6 +341,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
                         int16_t measurement)
 {
     LOCAL_SIGNALS;
+    int16_t output;
 
     FIXPID_ASSERT(VALID(self));
     if ((SELF.options & PUBLIC_OPTIONS) == 0u) {
@@ -374,5 +366,9 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
         }
         return (int16_t)shift_right_floor(SELF.integral, 16);
     }
-    return limit_and_remember(self, signals);
+    output = limit_and_remember(self, signals);
+    if (HAS_TRACK) {
+        SELF.output = output;
+    }
+    return output;
 }
