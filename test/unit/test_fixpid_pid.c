@@ -18,12 +18,6 @@ TEST_SOURCE_FILE("src/fixpid_pid_track.c")
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
 #endif
-#ifndef TEST_PID_ROWS
-#define TEST_PID_ROWS 2000
-#endif
-#ifndef TEST_TRACK_ROWS
-#define TEST_TRACK_ROWS 1000
-#endif
 
 FIXPID_DATA struct fixpid_pid pid_controller;
 static struct reference_pid reference;
@@ -261,7 +255,7 @@ void test_step_recorded_rows_match_the_definition(void)
         TEST_ASSERT_EQUAL_HEX8(row[STATUS], flags() & VECTORS_PID_FLAGS);
         rows++;
     }
-    TEST_ASSERT_EQUAL_UINT(TEST_PID_ROWS, rows);
+    TEST_ASSERT_EQUAL_UINT(2000, rows);
 }
 
 // Of the recording of tracking.
@@ -376,7 +370,7 @@ void test_track_recorded_rows_match_the_definition(void)
         TEST_ASSERT_EQUAL_HEX8(row[TRACK_STATUS], flags());
         rows++;
     }
-    TEST_ASSERT_EQUAL_UINT(TEST_TRACK_ROWS, rows);
+    TEST_ASSERT_EQUAL_UINT(1000, rows);
 }
 
 void test_step_worked_example_gives_the_table(void)
@@ -1590,12 +1584,12 @@ void test_track_sum_beyond_32_bits_is_the_limit(void)
         track(30000, 0);
         track(0, 15);
     }
-    TEST_ASSERT_EQUAL_INT32(INT32_C(32767) * 65536 - 30000 * 2, integral());
+    TEST_ASSERT_EQUAL_INT32(INT32_C(32767) * 65536 - 60000, integral());
     for (int n = 0; n < 4; n++) {
         track(-30000, 0);
         track(0, 15);
     }
-    TEST_ASSERT_EQUAL_INT32(-INT32_C(32767) * 65536 + 30000 * 2, integral());
+    TEST_ASSERT_EQUAL_INT32(-INT32_C(32767) * 65536 + 60000, integral());
 }
 
 void test_track_keeps_the_integral_within_its_limits(void)
@@ -1683,7 +1677,7 @@ void test_track_leaves_the_flags_and_the_other_terms(void)
     TEST_ASSERT_EQUAL_INT16(255, step(700, 10));
     track(100, 4);
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
-    TEST_ASSERT_EQUAL_INT32(512 * 690,
+    TEST_ASSERT_EQUAL_INT32(INT32_C(512) * 690,
                             fixpid_pid_proportional(&pid_controller));
     TEST_ASSERT_EQUAL_INT32(-1000, fixpid_pid_derivative(&pid_controller));
 }

@@ -117,12 +117,8 @@ part_avr() {
     for vectors in an937_firmware an964_firmware; do
         cut -d , -f 1-12 "test/vectors/$vectors.csv" >"build/avr/$vectors.csv"
     done
-    # So many rows of fixpid_pid, beside its tests, are what fits; the part
-    # target replays all on an AVR.
-    head -n 1001 test/vectors/pid_definition.csv >build/avr/pid_definition.csv
-    head -n 401 test/vectors/track.csv >build/avr/track.csv
     ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
-        build/avr/pid_definition.csv build/avr/track.csv \
+        test/vectors/pid_definition.csv test/vectors/track.csv \
         >build/avr/vectors/vectors_table.c
     # Its own form in both modes; the narrow one, in plain C, in one.
     run_mode avr pointer wide test/avr/avr.yml
