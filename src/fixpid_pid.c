@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_pid.h"
 
+#include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
 // Private bits of `options`; the lowest three are the derivative filter.
@@ -154,6 +155,7 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
     SELF.previous = 0;
     SELF.proportional_error = 0;
     SELF.feedforward = 0;
+    SELF.output = 0;
     SELF.status = FIXPID_PID_FIRST;
 }
 
@@ -339,6 +341,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
                         int16_t measurement)
 {
     LOCAL_SIGNALS;
+    int16_t output;
 
     FIXPID_ASSERT(VALID(self));
     if ((SELF.options & PUBLIC_OPTIONS) == 0u) {
@@ -358,7 +361,14 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
         take_over(self, signals);
     } else {
         SELF.status = FIXPID_PID_MANUAL;
+        if (HAS_TRACK) {
+            SELF.output = (int16_t)shift_right_floor(SELF.integral, 16);
+        }
         return (int16_t)shift_right_floor(SELF.integral, 16);
     }
-    return limit_and_remember(self, signals);
+    output = limit_and_remember(self, signals);
+    if (HAS_TRACK) {
+        SELF.output = output;
+    }
+    return output;
 }

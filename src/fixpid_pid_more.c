@@ -4,21 +4,9 @@
 // not pay for them.
 #include "fixpid_pid.h"
 
+#include "fixpid_pid_accept.h"
+#include "fixpid_pid_limit.h"
 #include "fixpid_pid_private.h"
-
-static void limit_integral(FIXPID_DATA struct fixpid_pid *self)
-{
-    const int16_t counts = (int16_t)shift_right_floor(SELF.integral, 16);
-
-    if (counts >= SELF.integral_max) {
-        SELF.integral = shift_left(SELF.integral_max, 16);
-        SELF.integral_fraction = 0;
-    }
-    if (counts < SELF.integral_min) {
-        SELF.integral = shift_left(SELF.integral_min, 16);
-        SELF.integral_fraction = 0;
-    }
-}
 
 // Sets the integral, saturated: a value that does not fit lies beyond every
 // limit, too.
@@ -157,3 +145,11 @@ uint8_t fixpid_pid_flags(FIXPID_DATA const struct fixpid_pid *self)
     }
     return SELF.status;
 }
+
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_TRACK) != 0
+int16_t fixpid_pid_output(FIXPID_DATA const struct fixpid_pid *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return SELF.output;
+}
+#endif

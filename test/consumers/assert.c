@@ -42,7 +42,7 @@ static struct fixpid_pid_gains tuned;
 static const struct fixpid_pid_config valve = {
     FIXPID_PID_GAINS(2, 0.5, 0.1, 10, 1), 0, 255, -32767, 32767, 256, 0};
 
-#define CALLS 56
+#define CALLS 58
 
 static void call(int number, bool wrong)
 {
@@ -114,6 +114,8 @@ static void call(int number, bool wrong)
     case 55: // nowhere to put the gains
         fixpid_relay_result(&autotune, 0, wrong ? NULL : &tuned);
         break;
+    case 56: fixpid_pid_track(d, 1, 2); break;
+    case 57: fixpid_pid_output(d); break;
     default: exit(1);
     }
     // clang-format on

@@ -149,15 +149,18 @@ static void rows(void)
     union answer expected;
 
     begin(1);
-    vectors_open(plan->controller->recording);
-    while (vectors_next(columns)) {
-        memset(&question, 0, sizeof question);
-        memset(&expected, 0, sizeof expected);
-        plan->controller->row(columns, &question, &expected);
-        if (plan->plain != 0u) {
-            layout->make_plain(&question);
+    for (const struct recording *from = plan->controller->recordings;
+         from->name != NULL; from++) {
+        vectors_open(from->name);
+        while (vectors_next(columns)) {
+            memset(&question, 0, sizeof question);
+            memset(&expected, 0, sizeof expected);
+            from->row(columns, &question, &expected);
+            if (plan->plain != 0u) {
+                layout->make_plain(&question);
+            }
+            (void)measure(&question, &expected);
         }
-        (void)measure(&question, &expected);
     }
     if (plan->plain != 0u) {
         figures.different = 0;

@@ -83,6 +83,7 @@ void reference_pid_reset(struct reference_pid *self)
     self->previous = 0;
     self->feedforward = 0;
     self->held = 0;
+    self->output = 0;
     self->seen = false;
     self->seeded = false;
     self->manual = false;
@@ -201,7 +202,8 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
     self->at_min = false;
     self->integral_at_limit = false;
     if (self->manual) {
-        return self->held;
+        self->output = self->held;
+        return self->output;
     }
     integral = self->integral;
     if (self->seeded) {
@@ -222,7 +224,25 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
         self->integral = integral;
     }
     self->seeded = false;
-    return reference_clamp(output, self->output_min, self->output_max);
+    self->output = reference_clamp(output, self->output_min, self->output_max);
+    return self->output;
+}
+
+void reference_pid_track(struct reference_pid *self, int64_t applied,
+                         int64_t shift)
+{
+    const int64_t missing = int16_of(applied - self->output);
+    const int64_t divisor = INT64_C(1) << reference_clamp(shift, 0, 15);
+
+    if (!self->accepted || !self->seen) {
+        return;
+    }
+    self->output = applied;
+    if (!self->manual && !self->seeded) {
+        self->integral =
+            reference_clamp(self->integral + missing * (ONE / divisor),
+                            ONE * self->integral_min, ONE * self->integral_max);
+    }
 }
 
 int64_t reference_pid_proportional(const struct reference_pid *self)

@@ -19,6 +19,7 @@ struct reference_pid {
     int64_t integral;   // x 2^24
     int64_t derivative; // x 2^8
     int64_t proportional_error, previous, feedforward, held;
+    int64_t output; // of the last step, or as track was told since
     bool seen, seeded, manual, at_max, at_min, integral_at_limit;
 };
 
@@ -37,6 +38,8 @@ void reference_pid_set_auto(struct reference_pid *self);
 void reference_pid_seed(struct reference_pid *self, int64_t output);
 int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
                            int64_t measurement);
+void reference_pid_track(struct reference_pid *self, int64_t applied,
+                         int64_t shift);
 
 // What the getters return.
 int64_t reference_pid_proportional(const struct reference_pid *self);

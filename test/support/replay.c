@@ -4,9 +4,11 @@
 //   replay an937 FILE
 //   replay an964 FILE
 //   replay pid FILE
+//   replay track FILE
 //
 // Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
-// 77 the library was built with other limits than the recording.
+// 77 the library was built with other limits than the recording, or without
+// what was recorded.
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +19,6 @@
 #include "fixpid_pid.h"
 #include "vectors_pid.h"
 
-#define ROWS 2000
 #define REPORTED_MAX 10 // differing values; the rest is only counted
 #define EXIT_WRONG_FILE 2
 #define EXIT_SKIPPED 77
@@ -89,7 +90,30 @@ enum {
     PID_SET_FEEDFORWARD,
     PID_SET_MANUAL,
     PID_SET_AUTO,
-    PID_SEED
+    PID_SEED,
+    PID_TRACK // of track.csv
+};
+
+// Columns of track.csv from the event on; those before are the same.
+enum {
+    TRACK_EVENT = PID_EVENT,
+    TRACK_VALUE,
+    TRACK_VALUE2,
+    TRACK_ACCEPTED,
+    TRACK_SETPOINT,
+    TRACK_MEASUREMENT,
+    TRACK_OUTPUT,
+    TRACK_EVENT2, // after the step
+    TRACK_VALUE3,
+    TRACK_TRACKED,
+    TRACK_APPLIED,
+    TRACK_SHIFT,
+    TRACK_LAST_OUTPUT,
+    TRACK_P,
+    TRACK_I,
+    TRACK_D,
+    TRACK_STATUS,
+    TRACK_COLUMNS
 };
 
 static const char *path;
@@ -194,7 +218,7 @@ static bool an964_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
-static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
+static struct fixpid_pid_config pid_config(const int32_t at[])
 {
     const struct fixpid_pid_config config = {
         .gains = {.ki_q24 = (uint32_t)at[PID_KI],
@@ -206,10 +230,18 @@ static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
         .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
         .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
         .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
-        .options = vectors_pid_options(at[PID_OPTIONS], at[PID_WEIGHT]),
+        .options = (uint8_t)at[PID_OPTIONS],
     };
+
+    return config;
+}
+
+static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
+{
+    struct fixpid_pid_config config = pid_config(at);
     const int16_t value = (int16_t)at[PID_VALUE];
 
+    config.options = vectors_pid_options(at[PID_OPTIONS], at[PID_WEIGHT]);
     switch (at[PID_EVENT]) {
     case PID_NOTHING:
         return true;
@@ -261,12 +293,81 @@ static bool pid_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
-static int replay(const char *name, int columns,
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_TRACK) != 0
+#define TRACK_IS_BUILT true
+
+// Some of these were refused, and the limits are arguments.
+static bool track_event(struct fixpid_pid *pid, const int32_t at[])
+{
+    const struct fixpid_pid_config config = pid_config(at);
+    const int16_t value = (int16_t)at[TRACK_VALUE];
+    const int16_t value2 = (int16_t)at[TRACK_VALUE2];
+
+    switch (at[TRACK_EVENT]) {
+    case PID_INIT:
+        return fixpid_pid_init(pid, &config);
+    case PID_SET_LIMITS:
+        return fixpid_pid_set_limits(pid, value, value2);
+    case PID_SET_INTEGRAL_LIMITS:
+        return fixpid_pid_set_integral_limits(pid, value, value2);
+    case PID_TRACK:
+        fixpid_pid_track(pid, value, (uint8_t)value2);
+        return true;
+    default:
+        return pid_event(pid, at);
+    }
+}
+
+static void track_after_step(struct fixpid_pid *pid, const int32_t at[])
+{
+    int32_t event[PID_COLUMNS];
+
+    memcpy(event, at, sizeof event);
+    event[PID_EVENT] = at[TRACK_EVENT2];
+    event[PID_VALUE] = at[TRACK_VALUE3];
+    (void)pid_event(pid, event);
+    if (at[TRACK_TRACKED] != 0) {
+        fixpid_pid_track(pid, (int16_t)at[TRACK_APPLIED],
+                         (uint8_t)at[TRACK_SHIFT]);
+    }
+}
+
+static bool track_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_pid pid;
+    bool equal = true;
+
+    (void)fresh; // is an event of its own
+    equal &= same("accepted", at[TRACK_ACCEPTED], track_event(&pid, at));
+    equal &= same("output", at[TRACK_OUTPUT],
+                  fixpid_pid_step(&pid, (int16_t)at[TRACK_SETPOINT],
+                                  (int16_t)at[TRACK_MEASUREMENT]));
+    track_after_step(&pid, at);
+    equal &=
+        same("last_output", at[TRACK_LAST_OUTPUT], fixpid_pid_output(&pid));
+    equal &= same("p_q8", at[TRACK_P], fixpid_pid_proportional(&pid));
+    equal &= same("i_q16", at[TRACK_I], fixpid_pid_integral(&pid));
+    equal &= same("d_q8", at[TRACK_D], fixpid_pid_derivative(&pid));
+    equal &= same("flags", at[TRACK_STATUS], fixpid_pid_flags(&pid));
+    return equal;
+}
+#else
+#define TRACK_IS_BUILT false
+
+static bool track_row_is_same(const int32_t at[], bool fresh)
+{
+    (void)at;
+    (void)fresh;
+    return false;
+}
+#endif
+
+static int replay(const char *name, int rows, int columns,
                   bool (*row_is_same)(const int32_t at[], bool fresh))
 {
     FILE *const file = fopen(path, "r");
     char line[256];
-    int32_t at[PID_COLUMNS]; // the others have fewer
+    int32_t at[TRACK_COLUMNS]; // the others have fewer
     int32_t run = -1;
     int different = 0;
 
@@ -280,8 +381,8 @@ static int replay(const char *name, int columns,
         run = at[0];
     }
     fclose(file);
-    if (row != ROWS) {
-        stop("is the last one; exactly 2000 are expected");
+    if (row != rows) {
+        stop("is not the last one that is expected");
     }
     printf("%d rows of %s: %d different\n", row, name, different);
     return different == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
@@ -295,18 +396,25 @@ int main(int argc, char *argv[])
 
     path = argc == 3 ? argv[2] : "";
     if (argc == 3 && strcmp(argv[1], "an937") == 0) {
-        return replay("an937", AN937_COLUMNS, an937_row_is_same);
+        return replay("an937", 2000, AN937_COLUMNS, an937_row_is_same);
     }
     if (argc == 3 && strcmp(argv[1], "an964") == 0) {
         if (limits_of_the_note) {
-            return replay("an964", AN964_COLUMNS, an964_row_is_same);
+            return replay("an964", 2000, AN964_COLUMNS, an964_row_is_same);
         }
         printf("an964: skipped, recorded with other limits\n");
         return EXIT_SKIPPED;
     }
     if (argc == 3 && strcmp(argv[1], "pid") == 0) {
-        return replay("pid", PID_COLUMNS, pid_row_is_same);
+        return replay("pid", 2000, PID_COLUMNS, pid_row_is_same);
     }
-    fprintf(stderr, "usage: replay an937|an964|pid FILE\n");
+    if (argc == 3 && strcmp(argv[1], "track") == 0) {
+        if (TRACK_IS_BUILT) {
+            return replay("track", 1000, TRACK_COLUMNS, track_row_is_same);
+        }
+        printf("track: skipped, the library is built without it\n");
+        return EXIT_SKIPPED;
+    }
+    fprintf(stderr, "usage: replay an937|an964|pid|track FILE\n");
     return EXIT_WRONG_FILE;
 }

@@ -423,12 +423,21 @@ static const struct member pid_members[] = {
     {"integral", offsetof(struct pid_answer, integral), 4},
     {"derivative", offsetof(struct pid_answer, derivative), 4},
     {"output", offsetof(struct pid_answer, output), 2},
+    {"last_output", offsetof(struct pid_answer, last_output), 2},
     {"accepted", offsetof(struct pid_answer, accepted), 1},
     {"flags", offsetof(struct pid_answer, flags), 1},
     {NULL, 0, 0},
 };
 
-// One call before most of the steps that have any.
+// Any, but half of them below the actuators' ranges.
+static int16_t any_applied(void)
+{
+    const int16_t applied = numbers_int16();
+
+    return (int16_t)(numbers_below(2) == 0u ? applied : applied / 128);
+}
+
+// One call before most of the steps that have any, and often only tracking.
 static uint16_t any_pid_calls(void)
 {
     const uint32_t kind = numbers_below(128);
@@ -437,9 +446,11 @@ static uint16_t any_pid_calls(void)
     if (first || kind < 2u) {
         calls = CALL_INIT;
     } else if (kind < 20u) {
-        calls = (uint16_t)(1u << numbers_below(9));
+        calls = (uint16_t)(1u << numbers_below(15));
     } else if (kind < 22u) {
-        calls = (uint16_t)numbers_below(512);
+        calls = (uint16_t)numbers_below(0x8000);
+    } else if (kind < 46u) {
+        calls = CALL_TRACK_AFTER;
     }
     first = false;
     return calls;
@@ -463,6 +474,11 @@ static void pid_ask(union question *question)
     asked->options = config.options;
     asked->calls = any_pid_calls();
     asked->value = numbers_int16();
+    asked->value_after = numbers_int16();
+    asked->applied = any_applied();
+    asked->shift_before = (uint8_t)numbers_below(256);
+    asked->shift = (uint8_t)numbers_below(numbers_below(4) == 0u ? 256 : 18);
+    asked->unused = 0;
     numbers_pid_inputs(&setpoint, &asked->measurement);
     asked->setpoint = setpoint;
 }
@@ -517,6 +533,28 @@ static void pid_set(const struct pid_question *asked, uint8_t *accepted)
     if ((asked->calls & CALL_SEED) != 0u) {
         reference_pid_seed(&pid, asked->value);
     }
+    if ((asked->calls & CALL_TRACK) != 0u) {
+        reference_pid_track(&pid, asked->value, asked->shift_before);
+    }
+}
+
+static void pid_after(const struct pid_question *asked)
+{
+    if ((asked->calls & CALL_RESET_AFTER) != 0u) {
+        reference_pid_reset(&pid);
+    }
+    if ((asked->calls & CALL_SET_MANUAL_AFTER) != 0u) {
+        reference_pid_set_manual(&pid, asked->value_after);
+    }
+    if ((asked->calls & CALL_SET_AUTO_AFTER) != 0u) {
+        reference_pid_set_auto(&pid);
+    }
+    if ((asked->calls & CALL_SEED_AFTER) != 0u) {
+        reference_pid_seed(&pid, asked->value_after);
+    }
+    if ((asked->calls & CALL_TRACK_AFTER) != 0u) {
+        reference_pid_track(&pid, asked->applied, asked->shift);
+    }
 }
 
 static void pid_define(const union question *question, union answer *answer)
@@ -529,6 +567,9 @@ static void pid_define(const union question *question, union answer *answer)
     pid_set(asked, &expected->accepted);
     expected->output =
         (int16_t)reference_pid_step(&pid, asked->setpoint, asked->measurement);
+    pid_after(asked);
+    expected->last_output = (int16_t)pid.output;
+    expected->unused = 0;
     expected->proportional = (int32_t)reference_pid_proportional(&pid);
     expected->integral = (int32_t)reference_pid_integral(&pid);
     expected->derivative = (int32_t)pid.derivative;
@@ -569,24 +610,93 @@ static void pid_row(const int32_t columns[], union question *question,
                                   (uint8_t)columns[19]);
 }
 
+// Columns: those of pid_row to the event, value, value2, accepted, setpoint,
+// measurement, output, event2, value3, tracked, applied, shift, last_output,
+// p_q8, i_q16, d_q8, status. The event is numbered as in pid_row, and event2,
+// after the step, too; the limits that were set are the values.
+static void track_row(const int32_t columns[], union question *question,
+                      union answer *answer)
+{
+    static const uint16_t calls_after[] = {0,
+                                           0,
+                                           CALL_RESET_AFTER,
+                                           0,
+                                           0,
+                                           0,
+                                           0,
+                                           CALL_SET_MANUAL_AFTER,
+                                           CALL_SET_AUTO_AFTER,
+                                           CALL_SEED_AFTER};
+    const bool outputs = columns[11] == 4;
+    const bool integrals = columns[11] == 5;
+    const struct pid_question asked = {
+        .ki_q24 = (uint32_t)columns[2],
+        .kp_q8 = (uint16_t)columns[1],
+        .kd_q8 = (uint16_t)columns[3],
+        .output_min = (int16_t)columns[outputs ? 12 : 5],
+        .output_max = (int16_t)columns[outputs ? 13 : 6],
+        .integral_min = (int16_t)columns[integrals ? 12 : 7],
+        .integral_max = (int16_t)columns[integrals ? 13 : 8],
+        .setpoint_weight_q8 = (uint16_t)columns[9],
+        .value = (int16_t)columns[12],
+        .value_after = (int16_t)columns[19],
+        .applied = (int16_t)columns[21],
+        .setpoint = (int16_t)columns[15],
+        .measurement = (int16_t)columns[16],
+        .calls =
+            (uint16_t)(((1u << columns[11]) >> 1) | calls_after[columns[18]] |
+                       (columns[20] != 0 ? CALL_TRACK_AFTER : 0u)),
+        .derivative_filter = (uint8_t)columns[4],
+        .options = (uint8_t)columns[10],
+        .shift_before = (uint8_t)columns[13],
+        .shift = (uint8_t)columns[22],
+    };
+    const uint8_t before = (uint8_t)(asked.calls & 0x1Fu);
+
+    question->pid = asked;
+    pid_define(question, answer);
+    // An event that has a result is one of these.
+    if ((before & (CALL_INIT | CALL_SET_GAINS | CALL_SET_LIMITS |
+                   CALL_SET_INTEGRAL_LIMITS)) != 0u) {
+        answer->pid.accepted = columns[14] != 0 ? before : 0u;
+    }
+    answer->pid.output = (int16_t)columns[17];
+    answer->pid.last_output = (int16_t)columns[23];
+    answer->pid.proportional = columns[24];
+    answer->pid.integral = columns[25];
+    answer->pid.derivative = columns[26];
+    answer->pid.flags = (uint8_t)columns[27];
+}
+
+static const struct recording an937_recordings[] = {
+    {"an937_firmware", 2000, an937_row}, {NULL, 0, NULL}};
+static const struct recording an964_recordings[] = {
+    {"an964_firmware", 2000, an964_row}, {NULL, 0, NULL}};
+static const struct recording an964_8bit_recordings[] = {
+    {"an964_firmware", 2000, an964_8bit_row}, {NULL, 0, NULL}};
+static const struct recording pid_recordings[] = {
+    {"pid_definition", 2000, pid_row},
+    {"track", 1000, track_row},
+    {NULL, 0, NULL}};
+
 // The size of an object whose last member is a byte.
 #define UP_TO(type, last) (offsetof(type, last) + 1u)
 
 const struct controller controllers[CONTROLLERS] = {
     {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
      offsetof(struct an937_question, calls),
-     UP_TO(struct fixpid_an937, step_flags), an937_members, "an937_firmware",
-     an937_row, an937_ask, an937_define},
+     UP_TO(struct fixpid_an937, step_flags), an937_members, an937_recordings,
+     an937_ask, an937_define},
     {"an964", sizeof(struct an964_question), sizeof(struct an964_answer),
      offsetof(struct an964_question, calls), UP_TO(struct fixpid_an964, ready),
-     an964_members, "an964_firmware", an964_row, an964_ask, an964_define},
+     an964_members, an964_recordings, an964_ask, an964_define},
     {"an964_8bit", sizeof(struct an964_8bit_question),
      sizeof(struct an964_answer), offsetof(struct an964_8bit_question, calls),
-     UP_TO(struct fixpid_an964_8bit, ready), an964_members, "an964_firmware",
-     an964_8bit_row, an964_8bit_ask, an964_8bit_define},
+     UP_TO(struct fixpid_an964_8bit, ready), an964_members,
+     an964_8bit_recordings, an964_8bit_ask, an964_8bit_define},
     {"pid", sizeof(struct pid_question), sizeof(struct pid_answer),
      offsetof(struct pid_question, calls), UP_TO(struct fixpid_pid, status),
-     pid_members, "pid_definition", pid_row, pid_ask, pid_define},
+     pid_members, pid_recordings, pid_ask, pid_define},
 };
 
 const struct controller *controller_named(const char *name)

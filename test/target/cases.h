@@ -29,6 +29,15 @@ struct member {
     uint8_t size; // 1: unsigned; 2 and 4: signed
 };
 
+// A file of test/vectors/ by its name, and a question and an answer from one of
+// its rows.
+struct recording {
+    const char *name;
+    uint16_t rows;
+    void (*row)(const int32_t columns[], union question *question,
+                union answer *answer);
+};
+
 struct controller {
     const char *name;
     uint8_t question_size;
@@ -36,11 +45,8 @@ struct controller {
     uint8_t calls_at;    // of a question's calls, their low byte
     uint8_t object_size; // without padding at its end
     const struct member *members;
-    const char *recording; // the name of a file of test/vectors/
+    const struct recording *recordings; // the last one has no name
 
-    // A question and an answer from a row of the recording.
-    void (*row)(const int32_t columns[], union question *question,
-                union answer *answer);
     // The next random question; the first one initialises.
     void (*ask)(union question *question);
     // What the definition answers. It remembers, like the controller, and

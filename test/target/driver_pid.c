@@ -88,9 +88,32 @@ static void choose_mode(void)
     if (called(CALL_SEED)) {
         fixpid_pid_seed(&pid_controller, QUESTION.value);
     }
+    if (called(CALL_TRACK)) {
+        fixpid_pid_track(&pid_controller, QUESTION.value,
+                         QUESTION.shift_before);
+    }
 }
 
-// The question ends where the answer begins: after the step.
+static void call_after(void)
+{
+    if (called(CALL_RESET_AFTER)) {
+        fixpid_pid_reset(&pid_controller);
+    }
+    if (called(CALL_SET_MANUAL_AFTER)) {
+        fixpid_pid_set_manual(&pid_controller, QUESTION.value_after);
+    }
+    if (called(CALL_SET_AUTO_AFTER)) {
+        fixpid_pid_set_auto(&pid_controller);
+    }
+    if (called(CALL_SEED_AFTER)) {
+        fixpid_pid_seed(&pid_controller, QUESTION.value_after);
+    }
+    if (called(CALL_TRACK_AFTER)) {
+        fixpid_pid_track(&pid_controller, QUESTION.applied, QUESTION.shift);
+    }
+}
+
+// The question ends where the answer begins: after the last call.
 void pid_reply(void)
 {
     int16_t output;
@@ -100,7 +123,10 @@ void pid_reply(void)
     choose_mode();
     output = fixpid_pid_step(&pid_controller, QUESTION.setpoint,
                              QUESTION.measurement);
+    call_after();
     ANSWER.output = output;
+    ANSWER.last_output = fixpid_pid_output(&pid_controller);
+    ANSWER.unused = 0;
     ANSWER.accepted = accepted;
     ANSWER.proportional = fixpid_pid_proportional(&pid_controller);
     ANSWER.integral = fixpid_pid_integral(&pid_controller);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a test asks of a controller, and what the controller answers: one step
-// with the calls that come before it. Whoever asks fills in the question, lets
-// the controller's driver reply, and reads the answer in its place: a PIC16F684
-// in pointer mode has no room for both.
+// with the calls that come before it, and those of fixpid_pid after it. Whoever
+// asks fills in the question, lets the controller's driver reply, and reads the
+// answer in its place: a PIC16F684 in pointer mode has no room for both.
 //
 // No compiler pads these structures and all machines are little-endian: the
 // bytes on a chip are the bytes on the host.
@@ -34,6 +34,12 @@
 #define CALL_SET_MANUAL 0x0040u
 #define CALL_SET_AUTO 0x0080u
 #define CALL_SEED 0x0100u
+#define CALL_TRACK 0x0200u       // with value and shift_before
+#define CALL_RESET_AFTER 0x0400u // these: after the step, in this order
+#define CALL_SET_MANUAL_AFTER 0x0800u
+#define CALL_SET_AUTO_AFTER 0x1000u
+#define CALL_SEED_AFTER 0x2000u
+#define CALL_TRACK_AFTER 0x4000u // with applied and shift
 
 struct an937_question {
     uint16_t limit;
@@ -90,12 +96,17 @@ struct pid_question {
     int16_t integral_min;
     int16_t integral_max;
     uint16_t setpoint_weight_q8;
-    int16_t value; // feed-forward, or output by hand or to start from
+    int16_t value; // feed-forward, or output by hand, to start from, or applied
+    int16_t value_after; // output by hand or to start from
+    int16_t applied;
     int16_t setpoint;
     int16_t measurement;
     uint16_t calls;
     uint8_t derivative_filter;
     uint8_t options;
+    uint8_t shift_before;
+    uint8_t shift;
+    uint16_t unused;
 };
 
 struct pid_answer {
@@ -103,8 +114,10 @@ struct pid_answer {
     int32_t integral;
     int32_t derivative;
     int16_t output;
+    int16_t last_output; // after all calls
     uint8_t accepted;
     uint8_t flags;
+    uint16_t unused;
 };
 
 // A driver calls it before init, which must set every member of the object. On

@@ -95,21 +95,26 @@ static void digest_answer(const struct controller *controller)
 static uint32_t rows(const struct controller *controller)
 {
     int32_t columns[VECTORS_COLUMNS_MAX];
-    uint32_t count = 0, different = 0;
+    uint32_t count = 0, different = 0, missing = 0;
 
-    cases_begin(1);
-    vectors_open(controller->recording);
-    while (vectors_next(columns)) {
-        controller->row(columns, &question, &expected);
-        reply(controller);
-        count++;
-        different += differs(controller);
+    for (const struct recording *from = controller->recordings;
+         from->name != NULL; from++) {
+        cases_begin(1);
+        vectors_open(from->name);
+        missing += from->rows;
+        while (vectors_next(columns)) {
+            from->row(columns, &question, &expected);
+            reply(controller);
+            count++;
+            missing--;
+            different += differs(controller);
+        }
     }
     put_text(controller->name);
     put_count(" rows ", count);
     put_count(" different ", different);
     put_text("\n");
-    return different + (count == 0u ? 1u : 0u);
+    return different + missing;
 }
 
 static uint32_t random_steps(const struct controller *controller)

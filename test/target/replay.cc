@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every recorded row, then random steps, through a driver's firmware:
 //
-//   replay FIRMWARE.cod CONTROLLER RECORDING.csv STEPS SEED
+//   replay FIRMWARE.cod CONTROLLER STEPS SEED RECORDING.csv...
 //
 // Prints one line of figures. Exit status: 0 no answer differs, 1 some do, 2
 // the run could not be made.
@@ -15,7 +15,38 @@
 namespace
 {
 
-constexpr std::size_t rows_expected = 2000;
+// A row and what makes a question of it.
+struct Row {
+    const recording *from;
+    std::vector<int32_t> columns;
+};
+
+// All rows of a controller's recordings, whose files are in their order.
+std::vector<Row> rows_of(const controller &which,
+                         const std::vector<std::string> &paths)
+{
+    std::vector<Row> rows;
+    const recording *from = which.recordings;
+
+    for (const std::string &path : paths) {
+        if (from->name == nullptr) {
+            throw ChipError(path + " is no recording of it");
+        }
+        const std::vector<std::vector<int32_t>> columns = recorded_rows(path);
+        if (columns.size() != from->rows) {
+            throw ChipError(path + " has not " + std::to_string(from->rows) +
+                            " rows");
+        }
+        for (const std::vector<int32_t> &row : columns) {
+            rows.push_back({from, row});
+        }
+        from++;
+    }
+    if (from->name != nullptr) {
+        throw ChipError(std::string(from->name) + " is missing");
+    }
+    return rows;
+}
 
 struct Result {
     unsigned long asked = 0;
@@ -26,13 +57,10 @@ class Replay
 {
   public:
     Replay(const std::string &cod, const controller &which,
-           const std::string &recording, unsigned long steps)
-        : tested(which), rows(recorded_rows(recording)), random_steps(steps),
+           const std::vector<std::string> &paths, unsigned long steps)
+        : tested(which), rows(rows_of(which, paths)), random_steps(steps),
           driver(cod, which)
     {
-        if (rows.size() != rows_expected) {
-            throw ChipError(recording + " has not 2000 rows");
-        }
         driver.ask = [this](question &asked) { return ask(asked); };
         driver.judge = [this](const answer &given) { judge(given); };
     }
@@ -47,7 +75,7 @@ class Replay
     void judge(const answer &given);
 
     const controller &tested;
-    const std::vector<std::vector<int32_t>> rows;
+    const std::vector<Row> rows;
     const unsigned long random_steps;
     Driver driver;
     answer expected;
@@ -56,7 +84,8 @@ class Replay
 bool Replay::ask(question &asked)
 {
     if (recorded.asked < rows.size()) {
-        tested.row(rows[recorded.asked].data(), &asked, &expected);
+        const Row &row = rows[recorded.asked];
+        row.from->row(row.columns.data(), &asked, &expected);
         recorded.asked++;
         return true;
     }
@@ -107,13 +136,14 @@ bool Replay::run(unsigned seed)
 int main(int argc, char *argv[])
 {
     try {
-        if (argc != 6) {
-            throw ChipError("usage: replay FIRMWARE.cod CONTROLLER "
-                            "RECORDING.csv STEPS SEED");
+        if (argc < 6) {
+            throw ChipError("usage: replay FIRMWARE.cod CONTROLLER STEPS SEED "
+                            "RECORDING.csv...");
         }
-        Replay replay(argv[1], find_controller(argv[2]), argv[3],
-                      std::strtoul(argv[4], nullptr, 10));
-        const unsigned long seed = std::strtoul(argv[5], nullptr, 10);
+        Replay replay(argv[1], find_controller(argv[2]),
+                      {argv + 5, argv + argc},
+                      std::strtoul(argv[3], nullptr, 10));
+        const unsigned long seed = std::strtoul(argv[4], nullptr, 10);
         return replay.run(static_cast<unsigned>(seed)) ? EXIT_SUCCESS
                                                        : EXIT_FAILURE;
     } catch (const std::exception &error) {

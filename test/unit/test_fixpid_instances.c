@@ -19,6 +19,7 @@ TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
 TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/fixpid_pid_track.c")
 TEST_SOURCE_FILE("src/fixpid_relay.c")
 
 #define COUNT 5
@@ -128,6 +129,14 @@ void test_pid_several_instances_keep_their_own_state(void)
         TEST_ASSERT_EQUAL_INT16(
             reference_pid_step(&references[i], setpoint, measurement),
             fixpid_pid_step(&controllers[i], setpoint, measurement));
+        if (numbers_below(2) == 0) {
+            const int16_t applied = numbers_int16();
+
+            reference_pid_track(&references[i], applied, 3);
+            fixpid_pid_track(&controllers[i], applied, 3);
+            TEST_ASSERT_EQUAL_INT16(references[i].output,
+                                    fixpid_pid_output(&controllers[i]));
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <stddef.h>
 #include <string.h>
 
 #include "fixpid_pid.h"
@@ -12,12 +13,10 @@
 
 TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/fixpid_pid_track.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
-#endif
-#ifndef TEST_PID_ROWS
-#define TEST_PID_ROWS 2000
 #endif
 
 FIXPID_DATA struct fixpid_pid pid_controller;
@@ -43,6 +42,8 @@ static void compare(void)
                             fixpid_pid_derivative(&pid_controller));
     TEST_ASSERT_EQUAL_HEX8(reference_pid_flags(&reference),
                            fixpid_pid_flags(&pid_controller));
+    TEST_ASSERT_EQUAL_INT16(reference.output,
+                            fixpid_pid_output(&pid_controller));
 }
 
 static bool init(void)
@@ -130,6 +131,13 @@ static int16_t step(int16_t setpoint, int16_t measurement)
     return output;
 }
 
+static void track(int16_t applied, uint8_t shift)
+{
+    reference_pid_track(&reference, applied, shift);
+    fixpid_pid_track(&pid_controller, applied, shift);
+    compare();
+}
+
 static int32_t integral(void)
 {
     return fixpid_pid_integral(&pid_controller);
@@ -214,6 +222,20 @@ static void make_event(const int32_t row[])
     }
 }
 
+static void configure(const int32_t row[])
+{
+    config.gains.kp_q8 = (uint16_t)row[KP];
+    config.gains.ki_q24 = (uint32_t)row[KI];
+    config.gains.kd_q8 = (uint16_t)row[KD];
+    config.gains.derivative_filter = (uint8_t)row[FILTER];
+    config.output_min = (int16_t)row[OUTPUT_MIN];
+    config.output_max = (int16_t)row[OUTPUT_MAX];
+    config.integral_min = (int16_t)row[INTEGRAL_MIN];
+    config.integral_max = (int16_t)row[INTEGRAL_MAX];
+    config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
+    config.options = (uint8_t)row[OPTIONS];
+}
+
 void test_step_recorded_rows_match_the_definition(void)
 {
     int32_t row[VECTORS_COLUMNS_MAX];
@@ -221,15 +243,7 @@ void test_step_recorded_rows_match_the_definition(void)
 
     vectors_open("pid_definition");
     while (vectors_next(row)) {
-        config.gains.kp_q8 = (uint16_t)row[KP];
-        config.gains.ki_q24 = (uint32_t)row[KI];
-        config.gains.kd_q8 = (uint16_t)row[KD];
-        config.gains.derivative_filter = (uint8_t)row[FILTER];
-        config.output_min = (int16_t)row[OUTPUT_MIN];
-        config.output_max = (int16_t)row[OUTPUT_MAX];
-        config.integral_min = (int16_t)row[INTEGRAL_MIN];
-        config.integral_max = (int16_t)row[INTEGRAL_MAX];
-        config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
+        configure(row);
         config.options = vectors_pid_options(row[OPTIONS], row[WEIGHT]);
         make_event(row);
         TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[SETPOINT],
@@ -241,7 +255,122 @@ void test_step_recorded_rows_match_the_definition(void)
         TEST_ASSERT_EQUAL_HEX8(row[STATUS], flags() & VECTORS_PID_FLAGS);
         rows++;
     }
-    TEST_ASSERT_EQUAL_UINT(TEST_PID_ROWS, rows);
+    TEST_ASSERT_EQUAL_UINT(2000, rows);
+}
+
+// Of the recording of tracking.
+enum track_column {
+    TRACK_EVENT = 11,
+    TRACK_VALUE,
+    TRACK_VALUE2,
+    TRACK_ACCEPTED,
+    TRACK_SETPOINT,
+    TRACK_MEASUREMENT,
+    TRACK_OUTPUT,
+    TRACK_EVENT2,
+    TRACK_VALUE3,
+    TRACK_TRACKED,
+    TRACK_APPLIED,
+    TRACK_SHIFT,
+    TRACK_LAST_OUTPUT,
+    TRACK_P,
+    TRACK_I,
+    TRACK_D,
+    TRACK_STATUS
+};
+
+// Some of these may be refused, and the limits are arguments.
+static bool before_the_step(const int32_t row[])
+{
+    const int16_t value = (int16_t)row[TRACK_VALUE];
+    const int16_t value2 = (int16_t)row[TRACK_VALUE2];
+
+    switch (row[TRACK_EVENT]) {
+    case 0:
+        return true;
+    case 1:
+        return init();
+    case 2:
+        reset();
+        return true;
+    case 3:
+        return set_gains();
+    case 4:
+        return set_limits(value, value2);
+    case 5:
+        return set_integral_limits(value, value2);
+    case 6:
+        set_feedforward(value);
+        return true;
+    case 7:
+        set_manual(value);
+        return true;
+    case 8:
+        set_auto();
+        return true;
+    case 9:
+        seed(value);
+        return true;
+    case 10:
+        track(value, (uint8_t)value2);
+        return true;
+    default:
+        TEST_FAIL_MESSAGE("unknown event");
+    }
+    return false;
+}
+
+static void after_the_step(const int32_t row[])
+{
+    const int16_t value = (int16_t)row[TRACK_VALUE3];
+
+    switch (row[TRACK_EVENT2]) {
+    case 0:
+        break;
+    case 2:
+        reset();
+        break;
+    case 7:
+        set_manual(value);
+        break;
+    case 8:
+        set_auto();
+        break;
+    case 9:
+        seed(value);
+        break;
+    default:
+        TEST_FAIL_MESSAGE("unknown event");
+    }
+    if (row[TRACK_TRACKED] != 0) {
+        track((int16_t)row[TRACK_APPLIED], (uint8_t)row[TRACK_SHIFT]);
+    }
+}
+
+void test_track_recorded_rows_match_the_definition(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    vectors_open("track");
+    while (vectors_next(row)) {
+        configure(row);
+        TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
+        TEST_ASSERT_EQUAL_INT16(row[TRACK_OUTPUT],
+                                step((int16_t)row[TRACK_SETPOINT],
+                                     (int16_t)row[TRACK_MEASUREMENT]));
+        after_the_step(row);
+        TEST_ASSERT_EQUAL_INT16(row[TRACK_LAST_OUTPUT],
+                                fixpid_pid_output(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_P],
+                                fixpid_pid_proportional(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_D],
+                                fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(row[TRACK_STATUS], flags());
+        rows++;
+    }
+    TEST_ASSERT_EQUAL_UINT(1000, rows);
 }
 
 void test_step_worked_example_gives_the_table(void)
@@ -312,7 +441,7 @@ static void any_setting(void)
 {
     int16_t low, high;
 
-    switch (numbers_below(14)) {
+    switch (numbers_below(15)) {
     case 0:
         numbers_pid_config(&config);
         (void)init();
@@ -350,6 +479,9 @@ static void any_setting(void)
     case 12:
         seed(numbers_int16());
         break;
+    case 13:
+        track(numbers_int16(), (uint8_t)numbers_below(20));
+        break;
     default:
         numbers_pid_config(&config);
         (void)init();
@@ -368,6 +500,12 @@ void test_random_operations_match_the_definition(void)
         }
         numbers_pid_inputs(&setpoint, &measurement);
         step(setpoint, measurement);
+        if (numbers_below(4) == 0) {
+            track(numbers_int16(), (uint8_t)numbers_below(256));
+        }
+        if (numbers_below(4) == 0) {
+            track((int16_t)(numbers_int16() / 256), (uint8_t)numbers_below(16));
+        }
     }
 }
 
@@ -386,6 +524,8 @@ static void is_refused(void)
     for (int16_t n = 0; n < 5; n++) {
         TEST_ASSERT_EQUAL_INT16(
             0, fixpid_pid_step(&pid_controller, 1000, (int16_t)(-100 * n)));
+        fixpid_pid_track(&pid_controller, 70, 0);
+        TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
     }
     fixpid_pid_set_manual(&pid_controller, 50);
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 1000, 0));
@@ -610,11 +750,13 @@ void test_reset_forgets_derivative_and_feedforward_and_keeps_the_gains(void)
 
 // ---- The step ----
 
-void test_struct_is_at_most_32_bytes(void)
+void test_struct_has_34_bytes(void)
 {
-    typedef char at_most_32_bytes[sizeof(struct fixpid_pid) <= 32 ? 1 : -1];
+    typedef char
+        has_34_bytes[offsetof(struct fixpid_pid, status) == 33u ? 1 : -1];
 
-    TEST_ASSERT_EQUAL_UINT(1, sizeof(at_most_32_bytes));
+    TEST_ASSERT_EQUAL_UINT(1, sizeof(has_34_bytes));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(36, sizeof(struct fixpid_pid));
 }
 
 void test_step_same_error_both_ways_leaves_the_integral_as_it_was(void)
@@ -1369,6 +1511,282 @@ void test_seed_in_manual_moves_the_output_held(void)
     set_manual(97);
     TEST_ASSERT_BITS_LOW(FIXPID_PID_SEEDED, flags());
     TEST_ASSERT_EQUAL_INT16(97, step(500, 450));
+}
+
+// ---- Tracking ----
+
+// The table's rows: automatic, a limit reached each time.
+void test_track_worked_example_gives_the_table(void)
+{
+    static const struct {
+        int16_t measurement, output;
+        uint8_t shift;
+        int32_t integral;
+    } rows[] = {
+        {600, 205, 0, -3276780}, {640, 73, 2, -1818592}, {660, 54, 2, -114648},
+        {660, 80, 15, 16572},    {660, 82, 200, 147788},
+    };
+
+    for (unsigned n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        TEST_ASSERT_EQUAL_INT16(rows[n].output, step(700, rows[n].measurement));
+        track(150, rows[n].shift);
+        TEST_ASSERT_EQUAL_INT32(rows[n].integral, integral());
+        TEST_ASSERT_EQUAL_INT16(150, fixpid_pid_output(&pid_controller));
+    }
+}
+
+// The integral begins at 0, without a fraction, and the output is 0.
+static void start_without_gains(void)
+{
+    memset(&config, 0, sizeof config);
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_INT16(0, step(0, 0));
+}
+
+void test_track_each_shift_divides_exactly(void)
+{
+    static const int16_t differences[] = {1, -1, 3, -3, 12345, -12345, 32766};
+    const unsigned count = sizeof differences / sizeof differences[0];
+
+    start_without_gains();
+    for (int16_t shift = 0; shift <= 255; shift++) {
+        const int32_t part = 65536 >> (shift < 15 ? shift : 15);
+
+        for (unsigned n = 0; n < count; n++) {
+            reset();
+            step(0, 0);
+            track(differences[n], (uint8_t)shift);
+            TEST_ASSERT_EQUAL_INT32(differences[n] * part, integral());
+        }
+    }
+}
+
+void test_track_the_ends_of_int16_are_kept(void)
+{
+    start_without_gains();
+    track(INT16_MIN, 1);
+    TEST_ASSERT_EQUAL_INT32(-INT32_C(32768) * 32768, integral());
+    // The difference saturates: 32767 and not 65535.
+    track(INT16_MAX, 1);
+    TEST_ASSERT_EQUAL_INT32(-INT32_C(32768), integral());
+    TEST_ASSERT_EQUAL_INT16(INT16_MAX, fixpid_pid_output(&pid_controller));
+    // -32768 and not -65535
+    track(INT16_MIN, 15);
+    TEST_ASSERT_EQUAL_INT32(-INT32_C(3) * 32768, integral());
+}
+
+void test_track_sum_beyond_32_bits_is_the_limit(void)
+{
+    start_without_gains();
+    for (int n = 0; n < 3; n++) { // 0 is behind an int16_t
+        track(30000, 0);
+        track(0, 15);
+    }
+    TEST_ASSERT_EQUAL_INT32(INT32_C(32767) * 65536 - 60000, integral());
+    for (int n = 0; n < 4; n++) {
+        track(-30000, 0);
+        track(0, 15);
+    }
+    TEST_ASSERT_EQUAL_INT32(-INT32_C(32767) * 65536 + 60000, integral());
+}
+
+void test_track_keeps_the_integral_within_its_limits(void)
+{
+    start_without_gains();
+    TEST_ASSERT_TRUE(set_integral_limits(-50, 20));
+    track(20, 0);
+    TEST_ASSERT_EQUAL_INT32(20 * 65536, integral());
+    track(21, 0);
+    TEST_ASSERT_EQUAL_INT32(20 * 65536, integral());
+    track(21 - 70, 0);
+    TEST_ASSERT_EQUAL_INT32(-50 * 65536, integral());
+    track(21 - 71, 15);
+    TEST_ASSERT_EQUAL_INT32(-50 * 65536, integral());
+}
+
+void test_track_keeps_the_fraction_inside(void)
+{
+    start_with_a_fraction(10);
+    track((int16_t)(fixpid_pid_output(&pid_controller) + 100), 3);
+    track((int16_t)(fixpid_pid_output(&pid_controller) - 100), 3);
+    step(55, 0); // with the 200 of before 255 of 256
+    TEST_ASSERT_EQUAL_INT32(10 * 65536, integral());
+    step(1, 0);
+    TEST_ASSERT_EQUAL_INT32(10 * 65536 + 1, integral());
+}
+
+void test_track_leaves_no_fraction_at_a_limit(void)
+{
+    start_with_a_fraction(10);
+    TEST_ASSERT_TRUE(set_integral_limits(-20, 20));
+    track((int16_t)(fixpid_pid_output(&pid_controller) + 10), 0);
+    TEST_ASSERT_EQUAL_INT32(20 * 65536, integral());
+    TEST_ASSERT_TRUE(set_integral_limits(-100, 100));
+    has_no_fraction();
+    start_with_a_fraction(10);
+    TEST_ASSERT_TRUE(set_integral_limits(-20, 20));
+    track((int16_t)(fixpid_pid_output(&pid_controller) - 31), 0);
+    TEST_ASSERT_EQUAL_INT32(-20 * 65536, integral());
+    has_no_fraction_above();
+}
+
+void test_track_what_the_step_returned_changes_nothing(void)
+{
+    const int16_t output = step(700, 640);
+    const int32_t before = integral();
+
+    for (int16_t shift = 0; shift < 20; shift++) {
+        track(output, (uint8_t)shift);
+        TEST_ASSERT_EQUAL_INT32(before, integral());
+    }
+}
+
+void test_track_second_time_changes_nothing(void)
+{
+    int32_t once;
+
+    step(700, 640);
+    track(30, 3);
+    once = integral();
+    track(30, 3);
+    TEST_ASSERT_EQUAL_INT32(once, integral());
+}
+
+void test_track_chain_of_limiters_is_the_last_one_alone(void)
+{
+    int32_t chained;
+
+    step(700, 640);
+    track(60, 3);
+    track(45, 3);
+    track(20, 3);
+    chained = integral();
+    TEST_ASSERT_TRUE(init());
+    step(700, 640);
+    track(20, 3);
+    TEST_ASSERT_EQUAL_INT32(chained, integral());
+}
+
+void test_track_leaves_the_flags_and_the_other_terms(void)
+{
+    config.gains.kd_q8 = 100;
+    TEST_ASSERT_TRUE(init());
+    step(700, 0);
+    TEST_ASSERT_EQUAL_INT16(255, step(700, 10));
+    track(100, 4);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_AT_MAX, flags());
+    TEST_ASSERT_EQUAL_INT32(INT32_C(512) * 690,
+                            fixpid_pid_proportional(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(-1000, fixpid_pid_derivative(&pid_controller));
+}
+
+void test_track_before_the_first_step_changes_nothing(void)
+{
+    track(100, 0);
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    seed(50);
+    track(100, 0);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    set_manual(60);
+    track(100, 0);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(60 * 65536, integral());
+    TEST_ASSERT_EQUAL_INT16(60, step(700, 0));
+    reset();
+    track(100, 0);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+}
+
+void test_track_by_hand_remembers_and_moves_nothing(void)
+{
+    step(700, 640);
+    set_manual(60);
+    track(100, 0); // before its first step
+    TEST_ASSERT_EQUAL_INT16(100, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT16(60, step(700, 640));
+    TEST_ASSERT_EQUAL_INT16(60, fixpid_pid_output(&pid_controller));
+    track(100, 0); // and after it
+    TEST_ASSERT_EQUAL_INT16(100, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(60 * 65536, integral());
+    set_auto();
+    track(90, 0);
+    TEST_ASSERT_EQUAL_INT32(60 * 65536, integral());
+    TEST_ASSERT_EQUAL_INT16(60, step(700, 640));
+}
+
+void test_track_after_a_seed_remembers_until_its_first_step(void)
+{
+    int32_t before;
+
+    step(700, 640);
+    seed(70);
+    track(100, 0);
+    TEST_ASSERT_EQUAL_INT16(100, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(70 * 65536, integral());
+    TEST_ASSERT_EQUAL_INT16(70, step(700, 640));
+    before = integral();
+    track(72, 0);
+    TEST_ASSERT_EQUAL_INT32(before + 2 * 65536, integral());
+}
+
+void test_track_settings_since_the_step_change_nothing(void)
+{
+    int32_t before;
+
+    step(700, 640);
+    before = integral();
+    config.gains.kp_q8 = 1000;
+    TEST_ASSERT_TRUE(set_gains());
+    set_feedforward(55);
+    TEST_ASSERT_TRUE(set_limits(-1000, 1000));
+    track((int16_t)(fixpid_pid_output(&pid_controller) + 16), 4);
+    TEST_ASSERT_EQUAL_INT32(before + 65536, integral());
+}
+
+void test_track_refused_or_all_zero_controller_ignores_it(void)
+{
+    memset(&pid_controller, 0, sizeof pid_controller);
+    fixpid_pid_track(&pid_controller, 100, 0);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 700, 0));
+    fixpid_pid_track(&pid_controller, -100, 15);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(0, integral());
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
+}
+
+void test_output_is_what_the_last_step_returned(void)
+{
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    step(700, 640); // within, above and below the limits
+    TEST_ASSERT_EQUAL_INT16(123, fixpid_pid_output(&pid_controller));
+    step(700, 0);
+    TEST_ASSERT_EQUAL_INT16(255, fixpid_pid_output(&pid_controller));
+    step(0, 700);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    set_manual(77);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    step(0, 700);
+    TEST_ASSERT_EQUAL_INT16(77, fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_FALSE(set_limits(1, 0));
+    reset();
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+}
+
+// New gains at any error: a seed of the last output is the start with them.
+void test_output_as_a_seed_after_new_gains_is_no_bump(void)
+{
+    step(700, 640);
+    step(700, 640);
+    config.gains.kp_q8 = 1300;
+    TEST_ASSERT_TRUE(set_gains());
+    seed(fixpid_pid_output(&pid_controller));
+    TEST_ASSERT_EQUAL_INT16(126, step(700, 640));
 }
 
 // ---- Macros ----

@@ -90,7 +90,8 @@ def pid_bounds
    ['PID', 'floor(I / 256) + ki * e, ki in 2^-8', integral + gain * error, 'int32_t'],
    ['PID', 'P + D + 256 F + floor(I / 256) + 128', terms + integral + 128, 'int32_t'],
    ['PID', 'held output - (P + D + 256 F)', feedforward + terms, 'int32_t'],
-   ['PID', 'set_limits: 256 (limit - F) - (P + D)', room + proportional + derivative_max, 'int32_t']]
+   ['PID', 'set_limits: 256 (limit - F) - (P + D)', room + proportional + derivative_max, 'int32_t'],
+   ['PID', 'track: 2^16 * d, d above 0', 2**16 * (error - 1), 'int32_t']]
 end
 
 def autotune_bounds

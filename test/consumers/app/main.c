@@ -34,8 +34,12 @@ static bool pid_works(void)
     };
     struct fixpid_pid pid;
 
-    return fixpid_pid_init(&pid, &config) &&
-           fixpid_pid_step(&pid, 60, 10) == 101;
+    if (!fixpid_pid_init(&pid, &config) ||
+        fixpid_pid_step(&pid, 60, 10) != 101) {
+        return false;
+    }
+    fixpid_pid_track(&pid, 91, 0);
+    return fixpid_pid_output(&pid) == 91 && fixpid_pid_step(&pid, 60, 10) == 92;
 }
 
 static bool an964_limits_agree(void)

@@ -45,10 +45,12 @@ int main()
         return 1;
     }
     fixpid_an937_tick(&an937);
+    fixpid_pid_track(&pid, 0, 2); // before the first step: nothing
     return fixpid_an937_step(&an937, 240) == 2880 &&
                    fixpid_an964_step(&an964, 100) == 99 &&
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
+                   fixpid_pid_output(&pid) == 100 &&
                    fixpid_relay_step(&autotune, 500, 20) == 255
                ? 0
                : 1;

@@ -114,7 +114,7 @@ module Harness
         File.write(path, rows.map { |row| "#{row.split(',').take(12).join(',')}\n" }.join)
         path
       end
-      tables << 'test/vectors/pid_definition.csv'
+      tables << 'test/vectors/pid_definition.csv' << 'test/vectors/track.csv'
       File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/avr/vectors_table.rb', *tables))
     end
   end

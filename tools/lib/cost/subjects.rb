@@ -125,7 +125,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   end
 
   def all_sources
-    straight? ? sources : sources + ["src/fixpid_#{controller.name}_more.c"]
+    straight? ? sources : sources + Dir.glob("src/fixpid_#{controller.name}_{more,track}.c", base: Host.root).sort
   end
 
   class << self

@@ -117,11 +117,9 @@ part_avr() {
     for vectors in an937_firmware an964_firmware; do
         cut -d , -f 1-12 "test/vectors/$vectors.csv" >"build/avr/$vectors.csv"
     done
-    # Half of the rows of fixpid_pid, beside its tests, is what fits; the part
-    # target replays all on an AVR.
-    head -n 1001 test/vectors/pid_definition.csv >build/avr/pid_definition.csv
     ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
-        build/avr/pid_definition.csv >build/avr/vectors/vectors_table.c
+        test/vectors/pid_definition.csv test/vectors/track.csv \
+        >build/avr/vectors/vectors_table.c
     # Its own form in both modes; the narrow one, in plain C, in one.
     run_mode avr pointer wide test/avr/avr.yml
     run_mode avr object wide test/avr/avr.yml
