@@ -190,7 +190,8 @@ static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
     SELF.elapsed++;
 }
 
-static void relay(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
+static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
+                       int16_t deviation)
 {
     if (deviation > SELF.highest) {
         SELF.highest = deviation;
@@ -263,7 +264,7 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
         if (SELF.state == PHASE_NOISE) {
             measure_noise(self, deviation);
         } else {
-            relay(self, deviation);
+            step_relay(self, deviation);
         }
     }
     return SELF.output;

@@ -30,36 +30,41 @@ int16_t fixpid_autotune_hysteresis(
                      ((uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u) >> 5));
 }
 
-// `half` is at most 21759, so that twice of it fits.
+// How far a side is from the centre. `half` is at most 21759, so that twice of
+// it fits.
+static uint16_t reach(FIXPID_DATA const struct fixpid_autotune *self,
+                      uint8_t phase, uint8_t side)
+{
+    const uint8_t wide =
+        (phase == PHASE_SECOND) ? (uint8_t)SIDE_LOW : (uint8_t)SIDE_HIGH;
+
+    if (phase == PHASE_CENTRE) {
+        return (uint16_t)(SELF.half + (SELF.half >> 1));
+    }
+    if (side == wide) {
+        return (uint16_t)(SELF.half << 1);
+    }
+    return SELF.half;
+}
+
 int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase, uint8_t side)
 {
-    const int16_t end =
-        (side == SIDE_HIGH) ? SELF.config.output_max : SELF.config.output_min;
-    const uint8_t wide =
-        (phase == PHASE_SECOND) ? (uint8_t)SIDE_LOW : (uint8_t)SIDE_HIGH;
     const uint16_t centre = (uint16_t)SELF.centre;
+    const uint16_t distance = reach(self, phase, side);
+    int16_t end = SELF.config.output_min;
     uint16_t room = (uint16_t)(centre - (uint16_t)end);
-    uint16_t distance = SELF.half;
+    uint16_t level = (uint16_t)(centre - distance);
 
     if (side == SIDE_HIGH) {
-        room = (uint16_t)(0u - room);
+        end = SELF.config.output_max;
+        room = (uint16_t)((uint16_t)end - centre);
+        level = (uint16_t)(centre + distance);
     }
     if (phase == PHASE_FIND) {
         return end;
     }
-    if (phase == PHASE_CENTRE) {
-        distance = (uint16_t)(distance + (distance >> 1));
-    } else if (side == wide) {
-        distance = (uint16_t)(distance << 1);
-    } else {
-        // the smaller half
-    }
-    if (distance >= room) {
-        return end;
-    }
-    return (int16_t)(uint16_t)((side == SIDE_HIGH) ? (centre + distance)
-                                                   : (centre - distance));
+    return (distance >= room) ? end : (int16_t)level;
 }
 
 uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
