@@ -96,7 +96,7 @@ static uint32_t aligned(FIXPID_DATA const struct number16 *a, int16_t exponent)
     if (places > 31) {
         return 0;
     }
-    return ((uint32_t)a->mantissa << 15) >> places;
+    return ((uint32_t)a->mantissa << 15) >> (uint8_t)places;
 }
 
 static void add(FIXPID_DATA struct number16 *result,
@@ -116,15 +116,17 @@ static void subtract(FIXPID_DATA struct number16 *result,
                      FIXPID_DATA const struct number16 *b)
 {
     const int16_t exponent = a->exponent;
-    uint32_t minuend = 0;
-    uint32_t subtrahend = 0;
+    uint32_t difference = 0;
 
     if (exponent >= b->exponent) {
-        minuend = aligned(a, exponent);
-        subtrahend = aligned(b, exponent);
+        const uint32_t minuend = aligned(a, exponent);
+        const uint32_t subtrahend = aligned(b, exponent);
+
+        if (minuend > subtrahend) {
+            difference = minuend - subtrahend;
+        }
     }
-    make(result, (minuend > subtrahend) ? (minuend - subtrahend) : 0u,
-         (int16_t)(exponent - 15));
+    make(result, difference, (int16_t)(exponent - 15));
 }
 
 // number * 2^fraction to the nearest integer, half up; UINT32_MAX if it has
@@ -134,17 +136,18 @@ static uint32_t integer(FIXPID_DATA const struct number16 *number,
 {
     const uint32_t mantissa = number->mantissa;
     const int16_t places = (int16_t)(number->exponent + fraction);
+    const int16_t beyond = (int16_t)(-1 - places); // of the binary point
 
     if (places > 15) {
         return UINT32_MAX;
     }
     if (places >= 0) {
-        return mantissa << places;
+        return mantissa << (uint8_t)places;
     }
     if (places < -17) {
         return 0;
     }
-    return ((mantissa >> (uint8_t)(-places - 1)) + 1u) >> 1;
+    return ((mantissa >> (uint8_t)beyond) + 1u) >> 1;
 }
 
 #endif

@@ -26,8 +26,10 @@ void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums)
 int16_t fixpid_autotune_hysteresis(
     FIXPID_DATA const struct fixpid_autotune *self)
 {
-    return (int16_t)(1u +
-                     ((uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u) >> 5));
+    const uint16_t sum = (uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u);
+    const uint16_t counts = (uint16_t)((sum >> 5) + 1u);
+
+    return (int16_t)counts;
 }
 
 // How far a side is from the centre. `half` is at most 21759, so that twice of
@@ -161,7 +163,10 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
 
 static uint16_t distance(uint16_t a, uint16_t b)
 {
-    return (uint16_t)((a < b) ? (b - a) : (a - b));
+    if (a < b) {
+        return (uint16_t)(b - a);
+    }
+    return (uint16_t)(a - b);
 }
 
 // The half at high is as long as it was before, within a 32nd of the period:
@@ -170,12 +175,15 @@ static uint16_t distance(uint16_t a, uint16_t b)
 static bool same_load(FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t on = (uint16_t)(SELF.last_period - SELF.elapsed);
-    const uint8_t others = (uint8_t)(SELF.config.cycles + SELF.averaged);
-    const uint32_t all = (uint32_t)on * (others + 1u); // 7 others at most
+    const uint32_t others = (uint32_t)SELF.config.cycles + SELF.averaged;
+    const uint32_t cycles = others + 1u; // 8 at most
+    const uint32_t all = cycles * on;
     const uint32_t sum = SELF.sums[0].on_steps;
-    const uint32_t difference = (all < sum) ? (sum - all) : (all - sum);
+    const uint32_t more = (all > sum) ? all : sum;
+    const uint32_t less = (all > sum) ? sum : all;
+    const uint16_t allowed = (uint16_t)((SELF.last_period >> 5) + 1u);
 
-    return difference <= (((SELF.last_period >> 5) + UINT32_C(1)) * others);
+    return (more - less) <= (others * allowed);
 }
 
 // The cycle that ends is like the one before it, or in the last phase like

@@ -59,10 +59,9 @@ enum number {
 
     X, // on the way
     Y,
-    NUMBERS,
 
     // Constants.
-    ONE = NUMBERS,
+    ONE,
     TWO,
     FOUR,
     EIGHT,
@@ -136,7 +135,7 @@ struct operation {
 };
 
 struct sheet {
-    struct number16 numbers[NUMBERS];
+    struct number16 numbers[ONE];
 };
 
 // MID = HIGH_STEPS LOW_STEPS / STEPS / CYCLES
@@ -374,11 +373,12 @@ static const struct operation gains_of_times[] FIXPID_AUTOTUNE_FLASH = {
 static void take(FIXPID_DATA const struct sheet *sheet,
                  FIXPID_DATA struct number16 *number, uint8_t which)
 {
-    if (which < (uint8_t)NUMBERS) {
+    if (which < (uint8_t)ONE) {
         number->mantissa = sheet->numbers[which].mantissa;
         number->exponent = sheet->numbers[which].exponent;
     } else {
-        const struct constant *const constant = &constants[which - NUMBERS];
+        const struct constant *const constant =
+            &constants[which - (uint8_t)ONE];
 
         number->mantissa = flash_word(&constant->mantissa);
         number->exponent =
@@ -453,9 +453,10 @@ static bool is_zero(FIXPID_DATA const struct sheet *sheet, uint8_t which)
 // floor(x / 2^n), in offset binary
 static int32_t floor_shift(int32_t x, uint8_t n)
 {
-    const uint32_t offset = UINT32_C(0x80000000);
+    const uint32_t offset = 0x80000000u;
+    const uint32_t quotient = (((uint32_t)x ^ offset) >> n) - (offset >> n);
 
-    return (int32_t)((((uint32_t)x ^ offset) >> n) - (offset >> n));
+    return (int32_t)quotient;
 }
 
 static uint32_t magnitude(int32_t x)

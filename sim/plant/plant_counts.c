@@ -31,7 +31,7 @@ void motion_move(struct motion *self, double output)
 
     self->line[self->oldest] = output;
     self->oldest = (self->oldest + 1) % plant->delay_steps;
-    if (plant->lag_steps <= 0.0 && plant->second_lag_steps <= 0.0) {
+    if ((plant->lag_steps <= 0.0) && (plant->second_lag_steps <= 0.0)) {
         self->value += driven;
     } else if (plant->lag_steps <= 0.0) {
         self->inner += (driven - self->inner) / plant->second_lag_steps;

@@ -136,8 +136,8 @@ if ARGV == ['--quick']
   exit(@failures.zero? ? 0 : 1)
 end
 # SDCC compiles the support files, the co-simulation those of chips, and the
-# comparisons of tools/demo are programs for a PC.
-programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/chip\.c})
+# comparisons and recipes of tools/demo are programs for a PC.
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/clouds/|/recipes/|/chip\.c})
 (library + programs).each { |file| warnings(file) }
 library.each { |file| modes_and_forms(file) }
 (library + programs).each { |file| tidy(file) }
