@@ -5,7 +5,8 @@
 # Each column takes the smallest type that holds it: [C type, range, read, size].
 TYPES = [['uint8_t', 0..255, 'byte', 1], ['int8_t', -128..127, 'byte', 1],
          ['int16_t', -32_768..32_767, 'word', 2],
-         ['int32_t', -2**31..2**31 - 1, 'dword', 4]].freeze
+         ['int32_t', -2**31..2**31 - 1, 'dword', 4],
+         ['uint32_t', 0..2**32 - 1, 'dword', 4]].freeze
 
 # A column: where its runs of equal values begin (nil: each row is one), and
 # the values.
@@ -46,7 +47,7 @@ files.each do |name, (_, columns)|
     table = "#{name}_#{index}"
     at = column.starts ? "run[#{index}]" : 'row'
     puts "if (row >= #{flash('uint16_t', 'word', 2, "#{table}_starts", "#{at} + 1u")}) { #{at}++; }" if column.starts
-    puts "columns[#{index}] = #{flash(column.type, column.read, column.size, table, at)};"
+    puts "columns[#{index}] = (int32_t)#{flash(column.type, column.read, column.size, table, at)};"
   end
   puts '}'
 end

@@ -12,14 +12,20 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_gains.h"
 #include "fixpid_pid.h"
+#include "fixpid_record.h"
 #include "fixpid_relay.h"
+#include "fixpid_slew.h"
+#include "fixpid_tpo.h"
 
 struct fixpid_an937 an937;
 struct fixpid_an964 an964;
 struct fixpid_an964_8bit an964_8bit;
 struct fixpid_pid pid;
 struct fixpid_relay autotune;
+static struct fixpid_slew slew;
+static struct fixpid_tpo tpo;
 
 #ifdef FIXPID_AN937_OBJECT
 static struct fixpid_an937 second_an937;
@@ -42,7 +48,13 @@ static struct fixpid_pid_gains tuned;
 static const struct fixpid_pid_config valve = {
     FIXPID_PID_GAINS(2, 0.5, 0.1, 10, 1), 0, 255, -32767, 32767, 256, 0};
 
-#define CALLS 58
+static const struct fixpid_tpo_config relay = {255, 10, 1, 1};
+static const struct fixpid_gains_milli typed = {2000, 500, 100};
+static struct fixpid_gains_milli shown;
+static struct fixpid_record record;
+static struct fixpid_pid_config unpacked;
+
+#define CALLS 76
 
 static void call(int number, bool wrong)
 {
@@ -51,6 +63,8 @@ static void call(int number, bool wrong)
     struct fixpid_an964_8bit *const c = wrong ? WRONG(an964_8bit) : &an964_8bit;
     struct fixpid_pid *const d = wrong ? WRONG(pid) : &pid;
     struct fixpid_relay *const e = wrong ? WRONG(autotune) : &autotune;
+    struct fixpid_slew *const f = wrong ? NULL : &slew; // no object mode
+    struct fixpid_tpo *const g = wrong ? NULL : &tpo;
 
     // clang-format off
     switch (number) {
@@ -116,6 +130,32 @@ static void call(int number, bool wrong)
         break;
     case 56: fixpid_pid_track(d, 1, 2); break;
     case 57: fixpid_pid_output(d); break;
+    case 58: fixpid_slew_init(f, 1, 2); break;
+    case 59: fixpid_slew_reset(f); break;
+    case 60: fixpid_slew_set_rates(f, 1, 2); break;
+    case 61: fixpid_slew_seed(f, 1); break;
+    case 62: fixpid_slew_step(f, 1); break;
+    case 63: fixpid_slew_value(f); break;
+    case 64: fixpid_tpo_init(g, &relay); break;
+    case 65: fixpid_tpo_init(&tpo, wrong ? NULL : &relay); break;
+    case 66: fixpid_tpo_reset(g); break;
+    case 67: fixpid_tpo_step(g, 1); break;
+    case 68:
+        fixpid_gains_from_milli(wrong ? NULL : &tuned, &typed, 1000, 0);
+        break;
+    case 69:
+        fixpid_gains_from_milli(&tuned, wrong ? NULL : &typed, 1000, 0);
+        break;
+    case 70:
+        fixpid_gains_to_milli(wrong ? NULL : &shown, &valve.gains, 1000);
+        break;
+    case 71:
+        fixpid_gains_to_milli(&shown, wrong ? NULL : &valve.gains, 1000);
+        break;
+    case 72: fixpid_record_pack(wrong ? NULL : &record, &valve); break;
+    case 73: fixpid_record_pack(&record, wrong ? NULL : &valve); break;
+    case 74: fixpid_record_unpack(wrong ? NULL : &record, &unpacked); break;
+    case 75: fixpid_record_unpack(&record, wrong ? NULL : &unpacked); break;
     default: exit(1);
     }
     // clang-format on

@@ -5,6 +5,9 @@
 //   replay an964 FILE
 //   replay pid FILE
 //   replay track FILE
+//   replay slew FILE
+//   replay tpo FILE
+//   replay gains FILE
 //
 // Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
 // 77 the library was built with other limits than the recording, or without
@@ -16,7 +19,10 @@
 
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
+#include "fixpid_gains.h"
 #include "fixpid_pid.h"
+#include "fixpid_slew.h"
+#include "fixpid_tpo.h"
 #include "vectors_pid.h"
 
 #define REPORTED_MAX 10 // differing values; the rest is only counted
@@ -78,6 +84,54 @@ enum {
     PID_STATUS,
     PID_COLUMNS
 };
+
+// Columns of slew.csv.
+enum {
+    SLEW_RUN,
+    SLEW_EVENT,
+    SLEW_RISE,
+    SLEW_FALL,
+    SLEW_SEED,
+    SLEW_TARGET,
+    SLEW_OUTPUT,
+    SLEW_VALUE,
+    SLEW_COLUMNS
+};
+
+// Columns of tpo.csv.
+enum {
+    TPO_RUN,
+    TPO_EVENT,
+    TPO_ACCEPTED,
+    TPO_FULL,
+    TPO_WINDOW,
+    TPO_MINIMUM_ON,
+    TPO_MINIMUM_OFF,
+    TPO_DUTY,
+    TPO_ON,
+    TPO_COLUMNS = TPO_ON + 2 // one more: the definition's carry
+};
+
+// Columns of gains.csv.
+enum {
+    GAINS_KP_MILLI,
+    GAINS_KI_MILLI,
+    GAINS_KD_MILLI,
+    GAINS_RATE,
+    GAINS_FILTER,
+    GAINS_ACCEPTED,
+    GAINS_KP,
+    GAINS_KI,
+    GAINS_KD,
+    GAINS_BACK_ACCEPTED,
+    GAINS_KP_BACK,
+    GAINS_KI_BACK,
+    GAINS_KD_BACK,
+    GAINS_COLUMNS
+};
+
+// What was called before the row's step of a slew or tpo.
+enum { EVENT_NOTHING, EVENT_INIT, EVENT_RESET, EVENT_SET_RATES, EVENT_SEED };
 
 // What was called before the row's step.
 enum {
@@ -293,6 +347,96 @@ static bool pid_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
+static void slew_event(struct fixpid_slew *slew, const int32_t at[])
+{
+    const uint32_t rise = (uint32_t)at[SLEW_RISE];
+    const uint32_t fall = (uint32_t)at[SLEW_FALL];
+
+    switch (at[SLEW_EVENT]) {
+    case EVENT_NOTHING:
+        break;
+    case EVENT_INIT:
+        fixpid_slew_init(slew, rise, fall);
+        break;
+    case EVENT_RESET:
+        fixpid_slew_reset(slew);
+        break;
+    case EVENT_SET_RATES:
+        fixpid_slew_set_rates(slew, rise, fall);
+        break;
+    case EVENT_SEED:
+        fixpid_slew_seed(slew, (int16_t)at[SLEW_SEED]);
+        break;
+    default:
+        stop("has an unknown event");
+    }
+}
+
+static bool slew_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_slew slew;
+    bool equal = true;
+
+    (void)fresh; // is an event of its own
+    slew_event(&slew, at);
+    equal &= same("output", at[SLEW_OUTPUT],
+                  fixpid_slew_step(&slew, (int16_t)at[SLEW_TARGET]));
+    equal &= same("value_q16", at[SLEW_VALUE], fixpid_slew_value(&slew));
+    return equal;
+}
+
+static bool tpo_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_tpo tpo;
+    const struct fixpid_tpo_config config = {
+        .full = (int16_t)at[TPO_FULL],
+        .window = (uint16_t)at[TPO_WINDOW],
+        .minimum_on = (uint16_t)at[TPO_MINIMUM_ON],
+        .minimum_off = (uint16_t)at[TPO_MINIMUM_OFF],
+    };
+    bool accepted = true;
+    bool equal = true;
+
+    (void)fresh;
+    if (at[TPO_EVENT] == EVENT_INIT) {
+        accepted = fixpid_tpo_init(&tpo, &config);
+    } else if (at[TPO_EVENT] == EVENT_RESET) {
+        fixpid_tpo_reset(&tpo);
+    }
+    equal &= same("accepted", at[TPO_ACCEPTED], accepted);
+    equal &=
+        same("on", at[TPO_ON], fixpid_tpo_step(&tpo, (int16_t)at[TPO_DUTY]));
+    return equal;
+}
+
+static bool gains_row_is_same(const int32_t at[], bool fresh)
+{
+    const struct fixpid_gains_milli milli = {
+        .kp = (uint32_t)at[GAINS_KP_MILLI],
+        .ki = (uint32_t)at[GAINS_KI_MILLI],
+        .kd = (uint32_t)at[GAINS_KD_MILLI],
+    };
+    const uint32_t rate = (uint32_t)at[GAINS_RATE];
+    struct fixpid_pid_gains gains = {0, 0, 0, 0};
+    struct fixpid_gains_milli back = {0, 0, 0};
+    const bool accepted = fixpid_gains_from_milli(&gains, &milli, rate,
+                                                  (uint8_t)at[GAINS_FILTER]);
+    const bool back_accepted =
+        accepted && fixpid_gains_to_milli(&back, &gains, rate);
+    bool equal = true;
+
+    (void)fresh;
+    equal &= same("accepted", at[GAINS_ACCEPTED], accepted);
+    equal &= same("kp_q8", at[GAINS_KP], gains.kp_q8);
+    equal &= same("ki_q24", at[GAINS_KI], (int32_t)gains.ki_q24);
+    equal &= same("kd_q8", at[GAINS_KD], gains.kd_q8);
+    equal &= same("back_accepted", at[GAINS_BACK_ACCEPTED], back_accepted);
+    equal &= same("kp_back", at[GAINS_KP_BACK], (int32_t)back.kp);
+    equal &= same("ki_back", at[GAINS_KI_BACK], (int32_t)back.ki);
+    equal &= same("kd_back", at[GAINS_KD_BACK], (int32_t)back.kd);
+    return equal;
+}
+
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_TRACK) != 0
 #define TRACK_IS_BUILT true
 
@@ -415,6 +559,16 @@ int main(int argc, char *argv[])
         printf("track: skipped, the library is built without it\n");
         return EXIT_SKIPPED;
     }
-    fprintf(stderr, "usage: replay an937|an964|pid|track FILE\n");
+    if (argc == 3 && strcmp(argv[1], "slew") == 0) {
+        return replay("slew", 1000, SLEW_COLUMNS, slew_row_is_same);
+    }
+    if (argc == 3 && strcmp(argv[1], "tpo") == 0) {
+        return replay("tpo", 1000, TPO_COLUMNS, tpo_row_is_same);
+    }
+    if (argc == 3 && strcmp(argv[1], "gains") == 0) {
+        return replay("gains", 1000, GAINS_COLUMNS, gains_row_is_same);
+    }
+    fprintf(stderr,
+            "usage: replay an937|an964|pid|track|slew|tpo|gains FILE\n");
     return EXIT_WRONG_FILE;
 }

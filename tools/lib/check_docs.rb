@@ -38,7 +38,7 @@ end
 
 # [controller, value, bound, type that holds it]
 def bounds
-  notes_bounds + pid_bounds + autotune_bounds
+  notes_bounds + pid_bounds + autotune_bounds + beside_bounds
 end
 
 def notes_bounds
@@ -107,6 +107,24 @@ def autotune_bounds
    ['autotuner', '16 * rest', 16 * period_q4, 'uint32_t'],
    ['autotuner', 'ki', (kp_q16 * 512 / 96 + 1) * 16, 'int32_t'],
    ['autotuner', 'kp * Td, where neither is refused', 32_767 * 131_071, 'uint32_t']]
+end
+
+# What stands beside a controller.
+def beside_bounds
+  steps = 32_767
+  half = 2**16 - 1
+  rate_max = 500_000_000
+  [['slew', 'distance of value and target', 2**32 - 2**16, 'uint32_t'],
+   ['slew', 'value in offset binary + 2^15', 2**32 - 2**16 + 2**15, 'uint32_t'],
+   ['time-proportioned', 'duty * W, minimum_on * full', steps * steps, 'int32_t'],
+   ['time-proportioned', '(W + 1 - minimum_off) * full', (steps + 1) * steps, 'int32_t'],
+   ['time-proportioned', 'credit', steps * steps - 1 + steps * steps, 'int32_t'],
+   ['gains', 'middle sum of a * b', half * half + 2 * half, 'uint32_t'],
+   ['gains', 'rest before its shift, c - 1', 2**31 - 1, 'int32_t'],
+   ['gains', 'rate_milli * 4', 4 * rate_max, 'int32_t'],
+   ['gains', '15625 * 2^filter', 15_625 * 2**7, 'int32_t'],
+   ['gains', 'rate_milli + 2^21 - 1', rate_max + 2**21 - 1, 'uint32_t'],
+   ['gains', 'kp_q8 * 125 + 16', 32_767 * 125 + 16, 'uint32_t']]
 end
 
 LIMITS = { '7 bits' => 2**7 - 1, '2^30 - 2^24' => 2**30 - 2**24, '2^14' => 2**14 - 1, 'int16_t' => 2**15 - 1, 'uint16_t' => 2**16 - 1,

@@ -14,20 +14,23 @@ require_relative 'cost/documents'
 require_relative 'cost/picture'
 require_relative 'cost/firmware'
 require_relative 'cost/memory'
+require_relative 'cost/modules'
 
 Encoding.default_external = 'UTF-8'
 
 # What measures a part, or all of it.
 class Cost
-  def initialize(subjects)
+  def initialize(subjects, modules)
     @subjects = subjects
+    @modules = modules
     @memory = Memory.new
     @done = 0
     @mutex = Mutex.new
   end
 
   def print
-    puts Tables.plain(Tables.steps(measured))
+    puts Tables.plain(Tables.steps(measured)) if @subjects.any?
+    puts Tables.plain(Tables.modules(called)) if @modules.any?
   end
 
   def print_all
@@ -74,6 +77,16 @@ class Cost
     end
   end
 
+  # The figures of the modules' functions.
+  def called
+    @called ||= @modules.zip(Host.in_parallel(@modules) { |one| calls_of(one) }).to_h
+  end
+
+  def calls_of(one)
+    found = @memory.of(one) { ModuleMeter.of(one).figures }
+    found.transform_values { |figures| ModuleFigures.new(**figures.transform_keys(&:to_sym)) }
+  end
+
   def straight
     @straight ||= begin
       subjects = @subjects.select(&:has_straight?)
@@ -95,12 +108,13 @@ class Cost
   end
 
   def limits
-    @limits ||= Limits.all(measured, straight, "#{Host.root}/docs/chips.md")
+    @limits ||= Limits.modules(called) + Limits.all(measured, straight, "#{Host.root}/docs/chips.md")
   end
 
   def all_parts
     page = "#{Host.root}/docs/cost.md"
     [[page, 'steps', Tables.steps(measured)],
+     [page, 'modules', Tables.modules(called)],
      [page, 'ratios', Tables.ratios(measured, straight)],
      [page, 'beside', Tables.beside(measured)],
      [page, 'limits', Tables.limits(limits)],
@@ -116,9 +130,10 @@ def chosen(words)
   raise WrongUse, "nothing is called #{unknown.join(', ')} (see --help)" if unknown.any?
 
   subjects = Subject.all.select { |one| one.matches?(words) }
-  raise WrongUse, "nothing is #{words.join(' ')} (see --help)" if subjects.empty?
+  modules = ModuleSubject.all.select { |one| one.matches?(words) }
+  raise WrongUse, "nothing is #{words.join(' ')} (see --help)" if subjects.empty? && modules.empty?
 
-  subjects
+  [subjects, modules]
 end
 
 # MODE ROOT WORD..., or `words WORD...`: only whether something is called so.
@@ -128,7 +143,7 @@ def main(mode, root = nil, *words)
   Host.setup(root)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
-  cost = Cost.new(chosen(words))
+  cost = Cost.new(*chosen(words))
   case mode
   when 'check' then cost.check
   when 'update' then cost.update

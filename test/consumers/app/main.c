@@ -6,7 +6,11 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_gains.h"
 #include "fixpid_pid.h"
+#include "fixpid_record.h"
+#include "fixpid_slew.h"
+#include "fixpid_tpo.h"
 
 static bool an937_works(void)
 {
@@ -32,14 +36,32 @@ static bool pid_works(void)
         .gains = FIXPID_PID_GAINS(2.0, 2.0 / 10.0, 0, 10, 0),
         .output_max = 255,
     };
+    struct fixpid_pid_config kept;
+    struct fixpid_record record;
     struct fixpid_pid pid;
 
-    if (!fixpid_pid_init(&pid, &config) ||
-        fixpid_pid_step(&pid, 60, 10) != 101) {
+    fixpid_record_pack(&record, &config);
+    if (!fixpid_record_unpack(&record, &kept) ||
+        !fixpid_pid_init(&pid, &kept) || fixpid_pid_step(&pid, 60, 10) != 101) {
         return false;
     }
     fixpid_pid_track(&pid, 91, 0);
     return fixpid_pid_output(&pid) == 91 && fixpid_pid_step(&pid, 60, 10) == 92;
+}
+
+static bool small_ones_work(void)
+{
+    const struct fixpid_tpo_config relay = {.full = 255, .window = 2};
+    const struct fixpid_gains_milli typed = {.kp = 2000};
+    struct fixpid_pid_gains gains;
+    struct fixpid_slew slew;
+    struct fixpid_tpo tpo;
+
+    fixpid_slew_init(&slew, FIXPID_SLEW_RATE(30, 10), 0);
+    return fixpid_slew_step(&slew, 100) == 3 && fixpid_tpo_init(&tpo, &relay) &&
+           fixpid_tpo_step(&tpo, 200) &&
+           fixpid_gains_from_milli(&gains, &typed, 10000, 0) &&
+           gains.kp_q8 == 512;
 }
 
 static bool an964_limits_agree(void)
@@ -88,8 +110,8 @@ int main(void)
     printf("limits %d %d %d %d %d\n", FIXPID_AN964_SUM_LIMIT,
            FIXPID_AN964_TERM_LIMIT, FIXPID_AN964_OUTPUT_LIMIT,
            FIXPID_AN964_8BIT_SUM_LIMIT, FIXPID_AN964_8BIT_TERM_LIMIT);
-    if (!an937_works() || !pid_works() || !an964_limits_agree() ||
-        !an964_8bit_limits_agree()) {
+    if (!an937_works() || !pid_works() || !small_ones_work() ||
+        !an964_limits_agree() || !an964_8bit_limits_agree()) {
         printf("the library is not the one of the header\n");
         return 1;
     }

@@ -6,8 +6,12 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_gains.h"
 #include "fixpid_pid.h"
+#include "fixpid_record.h"
 #include "fixpid_relay.h"
+#include "fixpid_slew.h"
+#include "fixpid_tpo.h"
 
 static constexpr std::uint8_t kp_q4 = FIXPID_AN937_GAIN(6.0);
 static_assert(kp_q4 == 96, "6.0 x 16");
@@ -23,6 +27,8 @@ static_assert(FIXPID_PID_TI(2, 30, 10) == 111848, "2 / 300 x 2^24");
 static_assert(FIXPID_PID_KD(0.1, 100, 2) == 640, "2.5 x 256");
 static_assert(FIXPID_PID_TD(1.5, 3, 100, 4) == 7200, "28.125 x 256");
 
+static_assert(FIXPID_SLEW_RATE(30, 10) == 196608, "3 x 2^16");
+
 static const fixpid_pid_config valve = {
     FIXPID_PID_GAINS(2, 0, 0, 1, 0), 0, 255, 0, 0, 0, 0};
 
@@ -36,7 +42,25 @@ int main()
     fixpid_an964_8bit an964_8bit;
     fixpid_pid pid;
     fixpid_relay autotune;
+    const fixpid_tpo_config relay = {255, 2, 0, 0};
+    const fixpid_gains_milli typed = {2000, 0, 0};
+    fixpid_pid_gains gains_typed;
+    fixpid_slew slew;
+    fixpid_tpo tpo;
 
+    fixpid_pid_config kept;
+    fixpid_record record;
+
+    fixpid_record_pack(&record, &valve);
+    if (!fixpid_record_unpack(&record, &kept)) {
+        return 1;
+    }
+    fixpid_slew_init(&slew, FIXPID_SLEW_RATE(30, 10), 0);
+    if (!fixpid_tpo_init(&tpo, &relay) ||
+        !fixpid_gains_from_milli(&gains_typed, &typed, 10000, 0) ||
+        gains_typed.kp_q8 != 512) {
+        return 1;
+    }
     if (!fixpid_an937_init(&an937, &motor) ||
         !fixpid_an964_init(&an964, &gains) ||
         !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
@@ -51,7 +75,9 @@ int main()
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
                    fixpid_pid_output(&pid) == 100 &&
-                   fixpid_relay_step(&autotune, 500, 20) == 255
+                   fixpid_relay_step(&autotune, 500, 20) == 255 &&
+                   fixpid_slew_step(&slew, 100) == 3 &&
+                   fixpid_tpo_step(&tpo, 200)
                ? 0
                : 1;
 }

@@ -49,6 +49,26 @@ module Limits
     ['pid', 'cortex-m4', '-O2', nil] => { most: 114 }
   }.freeze
 
+  # What stands beside a controller: function, chip, build.
+  CALLED = {
+    ['fixpid_slew_step', 'pic18f4520', 'pointer'] => { most: 395, flash: 1850, instance: 12 },
+    ['fixpid_slew_step', 'atmega328p', '-Os'] => { most: 118, flash: 330, instance: 12 },
+    ['fixpid_slew_step', 'cortex-m0', '-O2'] => { most: 31, flash: 127 },
+    ['fixpid_slew_step', 'cortex-m4', '-O2'] => { most: 20, flash: 114 },
+    ['fixpid_tpo_step', 'pic18f4520', 'pointer'] => { most: 1020, flash: 2960, instance: 20 },
+    ['fixpid_tpo_step', 'atmega328p', '-Os'] => { most: 211, flash: 460, instance: 20 },
+    ['fixpid_tpo_step', 'cortex-m0', '-O2'] => { most: 52, flash: 210 },
+    ['fixpid_tpo_step', 'cortex-m4', '-O2'] => { most: 46, flash: 255 },
+    ['fixpid_gains_from_milli', 'pic18f4520', 'pointer'] => { most: 16_200, flash: 4860 },
+    ['fixpid_gains_from_milli', 'atmega328p', '-Os'] => { most: 5700, flash: 1460 },
+    ['fixpid_gains_from_milli', 'cortex-m0', '-O2'] => { most: 1340, flash: 455 },
+    ['fixpid_gains_from_milli', 'cortex-m4', '-O2'] => { most: 1190, flash: 425 },
+    ['fixpid_gains_to_milli', 'pic18f4520', 'pointer'] => { most: 11_100 },
+    ['fixpid_gains_to_milli', 'atmega328p', '-Os'] => { most: 3800 },
+    ['fixpid_gains_to_milli', 'cortex-m0', '-O2'] => { most: 915 },
+    ['fixpid_gains_to_milli', 'cortex-m4', '-O2'] => { most: 805 }
+  }.freeze
+
   # Of docs/chips.md, where test/target/run keeps them.
   FIRMWARE = {
     ['pendulum, PIC16F684', 'interrupt'] => [40, 'cycles'],
@@ -61,7 +81,22 @@ module Limits
   WORDS = { most: 'worst', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
             ram: 'RAM in all' }.freeze
 
+  CALLED_WORDS = { most: 'worst', flash: 'flash', instance: 'RAM each' }.freeze
+
   class << self
+    # Of what was measured of them.
+    def modules(called)
+      CALLED.flat_map do |(function, chip, build), limits|
+        subject, functions = called.find { |one, all| one.chip.name == chip && one.build == build && all.key?(function) }
+        raise Host::Failure, "no #{function} #{chip} #{build} to limit" unless subject
+
+        limits.map do |figure, most|
+          what = "#{function}, #{subject.chip.title}, #{build}, #{CALLED_WORDS.fetch(figure)}"
+          Limit.new(what, most, functions[function][figure], figure == :most ? subject.chip.cost : 'bytes')
+        end
+      end
+    end
+
     def all(measured, straight, chips_document)
       steps(measured) + bounds(measured) + ratios(measured, straight) + firmware(chips_document)
     end

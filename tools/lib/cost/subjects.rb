@@ -31,6 +31,9 @@ CONTROLLERS = [
                  turns: FILTER_TURNS)
 ].freeze
 
+# What stands beside them, measured by the program of test/beside: modules.rb.
+MODULES = %w[slew tpo gains].freeze
+
 # The same controller built otherwise, for one chip in its first build:
 # definitions and sources that are added.
 Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
@@ -143,7 +146,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
     end
 
     WORDS = {
-      controller: CONTROLLERS.map(&:id),
+      controller: CONTROLLERS.map(&:id) + MODULES,
       chip: CHIPS.map(&:name) + CHIPS.map { |chip| chip.kind.to_s },
       build: MODES + OPTIONS,
       variant: VARIANTS.map(&:name)

@@ -20,6 +20,18 @@ module Tables
       [HEAD] + measured.map { |subject, figures| step(subject, figures) }
     end
 
+    # What stands beside a controller, a row for each function.
+    def modules(called)
+      [['', 'chip', 'built', 'least', 'mean', 'worst', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
+        functions.map do |name, figures|
+          function = subject.called.functions.fetch(name)
+          title = function == 'step' ? subject.called.title : "#{subject.called.title}, #{function}"
+          [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most, figures.flash,
+           figures.instance]
+        end
+      end
+    end
+
     # Ours, then the notes' and the others'.
     def beside(measured)
       ours = CONTROLLERS.flat_map { |controller| own_rows(measured, controller) }

@@ -119,6 +119,7 @@ part_avr() {
     done
     ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
         test/vectors/pid_definition.csv test/vectors/track.csv \
+        test/vectors/slew.csv test/vectors/tpo.csv test/vectors/gains.csv \
         >build/avr/vectors/vectors_table.c
     # Its own form in both modes; the narrow one, in plain C, in one.
     run_mode avr pointer wide test/avr/avr.yml
@@ -175,6 +176,7 @@ part_target() {
     build_gpsim
     count 'test/target/run' '^ok ' '^FAILED ' test/target/run
     count 'test/relay/chips' '^ok ' '^FAILED ' test/relay/chips
+    count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
 }
 
 part_cost() {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// fixpid_slew: a value that follows a target at limited speed, for the ramp of
+// a setpoint or for an actuator that must not be moved fast.
+//
+//   value += clamp(target - value, -fall, rise)
+//
+// Call fixpid_slew_step once per sample period: the module has no clock, so its
+// rates are counts per step. Target and result are counts, any int16_t each;
+// the value between them has 16 fractional bits, so that a rate may be as slow
+// as a count in 65536 steps. Nothing is rounded but the result, to the nearest
+// count, half up. Hence
+//   - the target is reached exactly and never passed;
+//   - a value on its way moves by exactly n times the rate in n steps;
+//   - a result differs from the one before by the rate at most, rounded up to
+//     whole counts;
+//   - a new target, direction or rate counts from the next step on, from the
+//     fraction that the value has.
+//
+// As a ramp, it stands before the controller,
+//   output = fixpid_pid_step(&pid, fixpid_slew_step(&ramp, setpoint), y);
+// and is seeded with the measurement before the first step and when the loop
+// comes back from manual. As an actuator's limit, it stands behind it:
+//   valve = fixpid_slew_step(&slew, fixpid_pid_step(&pid, setpoint, y));
+//
+// Any number of them work side by side. Functions of one must not interrupt
+// each other; fixpid.h says on which chips those of two must not.
+#ifndef FIXPID_SLEW_H
+#define FIXPID_SLEW_H
+#include <stdint.h>
+
+#include "fixpid.h"
+
+FIXPID_C_BEGIN
+
+// A rate that is none: the value is at its target after each step. So it is
+// with every rate from 0xFFFF0000 on, which are 65535 counts.
+#define FIXPID_SLEW_NO_LIMIT UINT32_C(0xFFFFFFFF)
+
+// A rate from counts per second and steps per second, folded at compile time
+// and rounded half up; also in a static initialiser. It takes constants only;
+// anything else does not compile (C++98 alone cannot tell), nor does a rate
+// below 0, one that would round to 0 without being 0, or one that 32 bits do
+// not hold: 65536 counts per step. No floating-point code is generated.
+#define FIXPID_SLEW_RATE(counts_per_second, steps_per_second)                  \
+    ((uint32_t)(((counts_per_second)*65536.0 / (steps_per_second)) + 0.5) +    \
+     FIXPID_CHECKED(                                                           \
+         0, ((counts_per_second) >= 0) && ((steps_per_second) > 0) &&          \
+                (((counts_per_second) == 0) ||                                 \
+                 ((counts_per_second)*65536.0 / (steps_per_second) >= 0.5)) && \
+                ((counts_per_second)*65536.0 / (steps_per_second) <            \
+                 4294967295.5)))
+
+// This is private, and open only so that the application can allocate it: 12
+// bytes.
+struct fixpid_slew {
+    int32_t value; // Q16.16
+    uint32_t rise_q16;
+    uint32_t fall_q16;
+};
+
+#define fixpid_slew_init FIXPID_MARKED(fixpid_slew_init)
+
+// The rates upward and downward in counts per step x 65536, any uint32_t each:
+// 0 holds the value in that direction. The value is 0, not the first target: an
+// actuator starts from rest. An all-zero object holds 0.
+void fixpid_slew_init(FIXPID_DATA struct fixpid_slew *self, uint32_t rise_q16,
+                      uint32_t fall_q16);
+
+// Back to 0 at once. The rates stay.
+void fixpid_slew_reset(FIXPID_DATA struct fixpid_slew *self);
+
+// New rates from the next step on. The value stays.
+void fixpid_slew_set_rates(FIXPID_DATA struct fixpid_slew *self,
+                           uint32_t rise_q16, uint32_t fall_q16);
+
+// Puts the value somewhere at once, in counts: where the process is, or where
+// the actuator was found.
+void fixpid_slew_seed(FIXPID_DATA struct fixpid_slew *self, int16_t value);
+
+// One step toward the target; returns the value to the nearest count.
+int16_t fixpid_slew_step(FIXPID_DATA struct fixpid_slew *self, int16_t target);
+
+// The value in 1/65536 of a count.
+int32_t fixpid_slew_value(FIXPID_DATA const struct fixpid_slew *self);
+
+FIXPID_C_END
+
+#endif

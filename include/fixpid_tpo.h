@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// fixpid_tpo: time-proportioned output, for what can only be on or off: a
+// relay, a solid-state relay, a solenoid valve.
+//
+// Time is cut into windows of some steps, and each window begins with one pulse
+// that lasts as much of it as the duty asks for. Pulses are whole steps; what
+// one window cannot give, because it is less than a step or less than the
+// shortest pulse, is carried into the next. So the mean is exact: over any
+// number of windows the on-steps differ from what the duties asked for by less
+// than the shortest pulse or gap, one step at least.
+//
+// Call fixpid_tpo_step once per step, a period that is the application's, as a
+// rule the controller's:
+//   relay = fixpid_tpo_step(&tpo, fixpid_pid_step(&pid, setpoint, y));
+// The module has no clock. Integers only, no division.
+//
+// The duty that counts is that of a window's first step. The others are
+// ignored; a change waits for the next window, and who must be off at once
+// calls fixpid_tpo_reset.
+//
+// There is at most one pulse in a window. Each on-time has minimum_on steps or
+// more, each off-time minimum_off, also across windows. A window of duty 0 has
+// no pulse, one of full duty no gap.
+//
+// Choose a window of at most a tenth of the plant's lag, because the duty waits
+// for it like in a dead time, and minimum times that the actuator endures:
+// 3600 / (window in seconds) is the most on-off cycles in an hour. With a
+// window of 1 and no minimum it is a sigma-delta modulator, which has the least
+// ripple and switches most. An actuator that needs a rest after power-up gets
+// steps of duty 0 first.
+//
+// Any number of them work side by side. Functions of one must not interrupt
+// each other; fixpid.h says on which chips those of two must not.
+#ifndef FIXPID_TPO_H
+#define FIXPID_TPO_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fixpid.h"
+
+FIXPID_C_BEGIN
+
+struct fixpid_tpo_config {
+    // The duty that is on without a gap, 1..32767: as a rule the controller's
+    // output_max.
+    int16_t full;
+
+    uint16_t window; // steps; 1..32767
+
+    // The shortest pulse and the shortest gap in steps, each 0..window and both
+    // together at most window. 0 and 1 mean the same.
+    uint16_t minimum_on;
+    uint16_t minimum_off;
+};
+
+// This is private, and open only so that the application can allocate it: 20
+// bytes.
+struct fixpid_tpo {
+    int32_t credit;      // duty x steps that the relay owes
+    int32_t pulse_least; // the credit that opens a window with a pulse
+    int32_t whole_least; // the credit that makes all of a window a pulse
+    int16_t full;        // 0: refused
+    uint16_t window;
+    uint16_t left; // steps of this window that are to come
+    uint8_t on;    // this window has a pulse
+    uint8_t whole; // this window has no gap
+};
+
+#define fixpid_tpo_init FIXPID_MARKED(fixpid_tpo_init)
+
+// Nothing is owed, and the next step begins a window. A value outside its range
+// above is refused: the result is false and every step is off until a good
+// init. An all-zero object is such a one.
+bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
+                     const struct fixpid_tpo_config *config);
+
+// Off at once, as after init: forgets what is owed, and the next step begins a
+// window. It does not wait for the minimum times.
+void fixpid_tpo_reset(FIXPID_DATA struct fixpid_tpo *self);
+
+// One step: true is on. Any duty is legal; below 0 it counts as 0, above full
+// as full. With W the window and c the credit carried over, 0 at first, a
+// window's first step makes
+//   owed  = c + duty * W
+//   pulse = floor(owed / full), 0 if owed is negative
+//   pulse = 0, if it is below minimum_on
+//   pulse = W, if it is above W or W - pulse is below minimum_off
+//   c     = owed - pulse * full
+// and the window's first `pulse` steps are on.
+bool fixpid_tpo_step(FIXPID_DATA struct fixpid_tpo *self, int16_t duty);
+
+FIXPID_C_END
+
+#endif

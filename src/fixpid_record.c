@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_record.h"
+
+// Where each number begins.
+#define VERSION_AT 0u
+#define KP_AT 1u
+#define KI_AT 3u
+#define KD_AT 7u
+#define FILTER_AT 9u
+#define OUTPUT_MIN_AT 10u
+#define OUTPUT_MAX_AT 12u
+#define INTEGRAL_MIN_AT 14u
+#define INTEGRAL_MAX_AT 16u
+#define WEIGHT_AT 18u
+#define OPTIONS_AT 20u
+#define CHECK_AT 21u
+
+#define CHECK_BEGIN 0xFFFFu // else bytes of 0 at the front would change nothing
+#define CHECK_POLYNOMIAL 0x1021u
+
+// CRC-16 of the bytes before the check, the highest bit first. Its polynomial
+// has a Hamming distance of 4 up to 32751 bits; a record has 23 * 8 = 184.
+static uint16_t check_of(const uint8_t bytes[])
+{
+    uint16_t check = CHECK_BEGIN;
+    uint8_t at;
+    uint8_t bit;
+
+    for (at = 0; at < CHECK_AT; at++) {
+        check ^= (uint16_t)((uint16_t)bytes[at] << 8);
+        for (bit = 8; bit != 0u; bit--) {
+            const uint16_t out = check & 0x8000u;
+
+            check = (uint16_t)((check & 0x7FFFu) << 1);
+            if (out != 0u) {
+                check ^= CHECK_POLYNOMIAL;
+            }
+        }
+    }
+    return check;
+}
+
+static void put(uint8_t bytes[], uint16_t value)
+{
+    bytes[0] = (uint8_t)(value & 0xFFu);
+    bytes[1] = (uint8_t)(value >> 8);
+}
+
+static uint16_t get(const uint8_t bytes[])
+{
+    return (uint16_t)(bytes[0] | ((uint16_t)bytes[1] << 8));
+}
+
+void fixpid_record_pack(struct fixpid_record *record,
+                        const struct fixpid_pid_config *config)
+{
+    uint8_t *bytes;
+
+    FIXPID_ASSERT(record != 0);
+    FIXPID_ASSERT(config != 0);
+    bytes = record->bytes;
+    bytes[VERSION_AT] = FIXPID_RECORD_VERSION;
+    put(&bytes[KP_AT], config->gains.kp_q8);
+    put(&bytes[KI_AT], (uint16_t)(config->gains.ki_q24 & 0xFFFFu));
+    put(&bytes[KI_AT + 2u], (uint16_t)(config->gains.ki_q24 >> 16));
+    put(&bytes[KD_AT], config->gains.kd_q8);
+    bytes[FILTER_AT] = config->gains.derivative_filter;
+    put(&bytes[OUTPUT_MIN_AT], (uint16_t)config->output_min);
+    put(&bytes[OUTPUT_MAX_AT], (uint16_t)config->output_max);
+    put(&bytes[INTEGRAL_MIN_AT], (uint16_t)config->integral_min);
+    put(&bytes[INTEGRAL_MAX_AT], (uint16_t)config->integral_max);
+    put(&bytes[WEIGHT_AT], config->setpoint_weight_q8);
+    bytes[OPTIONS_AT] = config->options;
+    put(&bytes[CHECK_AT], check_of(bytes));
+}
+
+bool fixpid_record_unpack(const struct fixpid_record *record,
+                          struct fixpid_pid_config *config)
+{
+    const uint8_t *bytes;
+
+    FIXPID_ASSERT(record != 0);
+    FIXPID_ASSERT(config != 0);
+    bytes = record->bytes;
+    if (bytes[VERSION_AT] != FIXPID_RECORD_VERSION) {
+        return false;
+    }
+    if (get(&bytes[CHECK_AT]) != check_of(bytes)) {
+        return false;
+    }
+    config->gains.kp_q8 = get(&bytes[KP_AT]);
+    config->gains.ki_q24 =
+        get(&bytes[KI_AT]) | ((uint32_t)get(&bytes[KI_AT + 2u]) << 16);
+    config->gains.kd_q8 = get(&bytes[KD_AT]);
+    config->gains.derivative_filter = bytes[FILTER_AT];
+    config->output_min = (int16_t)get(&bytes[OUTPUT_MIN_AT]);
+    config->output_max = (int16_t)get(&bytes[OUTPUT_MAX_AT]);
+    config->integral_min = (int16_t)get(&bytes[INTEGRAL_MIN_AT]);
+    config->integral_max = (int16_t)get(&bytes[INTEGRAL_MAX_AT]);
+    config->setpoint_weight_q8 = get(&bytes[WEIGHT_AT]);
+    config->options = bytes[OPTIONS_AT];
+    return true;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The definitions of fixpid_slew, fixpid_tpo and fixpid_gains in 64-bit
+// arithmetic. Recorded rows, random calls and chips compare with them.
+#ifndef REFERENCE_CONTROL_H
+#define REFERENCE_CONTROL_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fixpid_gains.h"
+#include "fixpid_tpo.h"
+
+struct reference_slew {
+    int64_t value, rise, fall; // x 2^16
+};
+
+void reference_slew_init(struct reference_slew *self, int64_t rise,
+                         int64_t fall);
+void reference_slew_seed(struct reference_slew *self, int64_t value);
+int64_t reference_slew_step(struct reference_slew *self, int64_t target);
+
+// An all-zero one is refused, like the module.
+struct reference_tpo {
+    int64_t full, window, minimum_on, minimum_off;
+    int64_t carry; // duty * steps, from one window to the next
+    int64_t pulse; // on-steps of this window
+    int64_t at;    // steps of this window that are over
+};
+
+bool reference_tpo_init(struct reference_tpo *self,
+                        const struct fixpid_tpo_config *config);
+void reference_tpo_reset(struct reference_tpo *self);
+bool reference_tpo_step(struct reference_tpo *self, int64_t duty);
+
+bool reference_gains_from_milli(struct fixpid_pid_gains *gains,
+                                const struct fixpid_gains_milli *milli,
+                                int64_t rate_milli, int64_t filter);
+bool reference_gains_to_milli(struct fixpid_gains_milli *milli,
+                              const struct fixpid_pid_gains *gains,
+                              int64_t rate_milli);
+
+#endif

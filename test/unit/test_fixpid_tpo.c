@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_tpo.h"
+#include "numbers.h"
+#include "numbers_control.h"
+#include "poison.h"
+#include "reference.h"
+#include "reference_control.h"
+#include "unity.h"
+#include "vectors.h"
+
+TEST_SOURCE_FILE("src/fixpid_tpo.c")
+
+#ifndef TEST_RANDOM_STEPS
+#define TEST_RANDOM_STEPS 1000000
+#endif
+
+#define ROWS 1000
+
+// Columns of tpo.csv.
+enum {
+    RUN,
+    EVENT,
+    ACCEPTED,
+    FULL,
+    WINDOW,
+    MINIMUM_ON,
+    MINIMUM_OFF,
+    DUTY,
+    ON,
+    CARRY
+};
+
+static FIXPID_DATA struct fixpid_tpo tpo;
+static struct reference_tpo reference;
+static struct fixpid_tpo_config config;
+
+void setUp(void)
+{
+    config = (struct fixpid_tpo_config){100, 8, 2, 2};
+}
+
+void tearDown(void)
+{
+}
+
+static bool init(void)
+{
+    const bool accepted = fixpid_tpo_init(&tpo, &config);
+
+    TEST_ASSERT_EQUAL(reference_tpo_init(&reference, &config), accepted);
+    return accepted;
+}
+
+static void reset(void)
+{
+    fixpid_tpo_reset(&tpo);
+    reference_tpo_reset(&reference);
+}
+
+static bool step(int16_t duty)
+{
+    const bool on = fixpid_tpo_step(&tpo, duty);
+
+    if (on != reference_tpo_step(&reference, duty)) {
+        TEST_FAIL_MESSAGE("not as defined");
+    }
+    return on;
+}
+
+// The on-steps of a whole window, all of which come first.
+static unsigned pulse_of(int16_t duty)
+{
+    unsigned pulse = 0;
+
+    for (unsigned at = 0; at < config.window; at++) {
+        if (step(duty)) {
+            TEST_ASSERT_EQUAL_UINT(at, pulse);
+            pulse++;
+        }
+    }
+    return pulse;
+}
+
+static void window_gives(int16_t duty, unsigned pulse, int32_t carry)
+{
+    TEST_ASSERT_EQUAL_UINT(pulse, pulse_of(duty));
+    TEST_ASSERT_EQUAL_INT32(carry, reference.carry);
+}
+
+void test_step_worked_example_carries_what_a_window_cannot_give(void)
+{
+    TEST_ASSERT_TRUE(init());
+    window_gives(10, 0, 80);
+    window_gives(10, 0, 160);
+    window_gives(10, 2, 40);
+    window_gives(80, 6, 80);
+    window_gives(95, 8, 40);
+    window_gives(95, 8, 0);
+}
+
+void test_step_duties_below_0_and_above_full_count_as_those(void)
+{
+    TEST_ASSERT_TRUE(init());
+    window_gives(0, 0, 0);
+    window_gives(-1, 0, 0);
+    window_gives(INT16_MIN, 0, 0);
+    window_gives(100, 8, 0);
+    window_gives(101, 8, 0);
+    window_gives(INT16_MAX, 8, 0);
+}
+
+void test_step_duty_of_the_first_step_counts_for_the_window(void)
+{
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_TRUE(step(50));
+    TEST_ASSERT_TRUE(step(0));
+    TEST_ASSERT_TRUE(step(0));
+    TEST_ASSERT_TRUE(step(100));
+    for (int at = 4; at < 8; at++) {
+        TEST_ASSERT_FALSE(step(100));
+    }
+    TEST_ASSERT_TRUE(step(100));
+}
+
+void test_step_pulse_and_gap_of_just_the_minimum_are_given(void)
+{
+    TEST_ASSERT_TRUE(init());
+    window_gives(25, 2, 0);
+    window_gives(75, 6, 0);
+}
+
+void test_step_minimum_0_and_1_are_the_same(void)
+{
+    for (uint16_t minimum = 0; minimum <= 1; minimum++) {
+        config.minimum_on = minimum;
+        config.minimum_off = minimum;
+        TEST_ASSERT_TRUE(init());
+        window_gives(12, 0, 96);
+        window_gives(13, 2, 0);
+        window_gives(99, 7, 92);
+        window_gives(99, 8, 84);
+    }
+}
+
+void test_step_window_of_1_is_a_sigma_delta_modulator(void)
+{
+    unsigned on = 0;
+
+    config = (struct fixpid_tpo_config){1000, 1, 0, 0};
+    TEST_ASSERT_TRUE(init());
+    for (int n = 0; n < 1000; n++) {
+        on += step(123) ? 1u : 0u;
+    }
+    TEST_ASSERT_EQUAL_UINT(123, on);
+    TEST_ASSERT_EQUAL_INT32(0, reference.carry);
+}
+
+void test_step_constant_duty_is_exact_over_many_windows(void)
+{
+    unsigned on = 0;
+
+    config = (struct fixpid_tpo_config){1000, 50, 0, 0};
+    TEST_ASSERT_TRUE(init());
+    for (int window = 0; window < 1000; window++) {
+        on += pulse_of(3);
+    }
+    TEST_ASSERT_EQUAL_UINT(150, on); // 1000 * 50 * 3 / 1000
+}
+
+void test_step_widest_window_reaches_the_bounds_of_the_credit(void)
+{
+    config = (struct fixpid_tpo_config){32767, 32767, 32767, 0};
+    TEST_ASSERT_TRUE(init());
+    window_gives(32766, 0, INT32_C(32766) * 32767);
+    window_gives(32767, 32767, INT32_C(32766) * 32767);
+    config = (struct fixpid_tpo_config){32767, 32767, 0, 32767};
+    TEST_ASSERT_TRUE(init());
+    window_gives(1, 32767, INT32_C(-32766) * 32767);
+    window_gives(0, 0, INT32_C(-32766) * 32767);
+}
+
+void test_init_ends_of_the_ranges_are_taken(void)
+{
+    config = (struct fixpid_tpo_config){1, 1, 0, 0};
+    TEST_ASSERT_TRUE(init());
+    config = (struct fixpid_tpo_config){1, 1, 1, 0};
+    TEST_ASSERT_TRUE(init());
+    config = (struct fixpid_tpo_config){1, 1, 0, 1};
+    TEST_ASSERT_TRUE(init());
+    config = (struct fixpid_tpo_config){32767, 32767, 16383, 16384};
+    TEST_ASSERT_TRUE(init());
+}
+
+static void is_refused(int16_t full, uint16_t window, uint16_t on, uint16_t off)
+{
+    config = (struct fixpid_tpo_config){100, 8, 2, 2};
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_TRUE(step(100));
+    config = (struct fixpid_tpo_config){full, window, on, off};
+    TEST_ASSERT_FALSE(init());
+    for (int at = 0; at < 20; at++) {
+        TEST_ASSERT_FALSE(step(INT16_MAX));
+    }
+    reset();
+    TEST_ASSERT_FALSE(step(INT16_MAX));
+}
+
+void test_init_beyond_the_ranges_is_refused_and_off(void)
+{
+    is_refused(0, 8, 2, 2);
+    is_refused(-1, 8, 2, 2);
+    is_refused(INT16_MIN, 8, 2, 2);
+    is_refused(100, 0, 0, 0);
+    is_refused(100, 32768, 2, 2);
+    is_refused(100, 65535, 2, 2);
+    is_refused(100, 8, 9, 0);
+    is_refused(100, 8, 0, 9);
+    is_refused(100, 8, 5, 4);
+    is_refused(100, 8, 65535, 2); // would be 1 in 16 bits
+    is_refused(100, 8, 2, 65535);
+}
+
+void test_step_all_zero_object_is_off(void)
+{
+    static FIXPID_DATA struct fixpid_tpo zero;
+
+    TEST_ASSERT_FALSE(fixpid_tpo_step(&zero, INT16_MAX));
+    fixpid_tpo_reset(&zero);
+    TEST_ASSERT_FALSE(fixpid_tpo_step(&zero, INT16_MAX));
+}
+
+void test_reset_begins_a_window_and_forgets_what_is_owed(void)
+{
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_EQUAL_UINT(0, pulse_of(20)); // 160 owed
+    TEST_ASSERT_TRUE(step(100));
+    reset();
+    window_gives(10, 0, 80);
+    window_gives(100, 8, 80);
+    TEST_ASSERT_TRUE(step(100));
+    reset();
+    TEST_ASSERT_FALSE(step(0));
+}
+
+static void init_again(void)
+{
+    TEST_ASSERT_TRUE(init());
+}
+
+void test_init_drops_the_window_of_the_one_before(void)
+{
+    TEST_ASSERT_TRUE(init());
+    TEST_ASSERT_TRUE(step(100));
+    init_again();
+    TEST_ASSERT_FALSE(step(10));
+}
+
+void test_step_recorded_rows_match_the_definition(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    vectors_open("tpo");
+    while (vectors_next(row)) {
+        config.full = (int16_t)row[FULL];
+        config.window = (uint16_t)row[WINDOW];
+        config.minimum_on = (uint16_t)row[MINIMUM_ON];
+        config.minimum_off = (uint16_t)row[MINIMUM_OFF];
+        if (row[EVENT] == 1) {
+            TEST_ASSERT_EQUAL_INT32(row[ACCEPTED], init());
+        } else if (row[EVENT] == 2) {
+            reset();
+        }
+        TEST_ASSERT_EQUAL_INT32(row[ON], step((int16_t)row[DUTY]));
+        TEST_ASSERT_EQUAL_INT32(row[CARRY], reference.carry);
+        rows++;
+    }
+    TEST_ASSERT_EQUAL_UINT(ROWS, rows);
+}
+
+static int64_t at_least_one(int64_t steps)
+{
+    return steps < 1 ? 1 : steps;
+}
+
+// What a window's first step has decided, as the header promises it.
+static void check_window(int16_t duty)
+{
+    const int64_t on = at_least_one(reference.minimum_on);
+    const int64_t off = at_least_one(reference.minimum_off);
+    const int64_t gap = reference.window - reference.pulse;
+
+    if ((reference.pulse != 0 && reference.pulse < on) ||
+        (gap != 0 && gap < off)) {
+        TEST_FAIL_MESSAGE("shorter than its minimum");
+    }
+    if ((duty <= 0 && reference.pulse != 0) ||
+        (duty >= reference.full && gap != 0)) {
+        TEST_FAIL_MESSAGE("a pulse at 0 or a gap at full");
+    }
+    if (reference.carry < -(off - 1) * reference.full ||
+        reference.carry > on * reference.full - 1) {
+        TEST_FAIL_MESSAGE("the carry is out of its bounds");
+    }
+}
+
+void test_step_random_calls_match_the_definition(void)
+{
+    numbers_seed(42);
+    for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
+        int16_t duty;
+
+        if (numbers_one_in(500)) {
+            numbers_tpo_config(&config);
+            (void)init();
+        } else if (numbers_one_in(500)) {
+            reset();
+        }
+        duty = numbers_tpo_duty(config.full);
+        if (reference.full != 0 && reference.at == 0) {
+            (void)step(duty);
+            check_window(duty);
+        } else {
+            (void)step(duty);
+        }
+    }
+}
+
+static void init_good(void)
+{
+    (void)fixpid_tpo_init(&tpo, &config);
+}
+
+static void init_bad(void)
+{
+    struct fixpid_tpo_config bad = config;
+
+    bad.window = 0;
+    (void)fixpid_tpo_init(&tpo, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    const size_t padding = POISON_PADDING(struct fixpid_tpo, whole);
+
+    TEST_ASSERT_EQUAL_UINT(padding, poison_left(&tpo, sizeof tpo, init_good));
+    TEST_ASSERT_EQUAL_UINT(padding, poison_left(&tpo, sizeof tpo, init_bad));
+    TEST_ASSERT_EQUAL_UINT(20, sizeof tpo);
+}

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'meters'
+
+# What stands beside a controller, and its functions that are measured: the
+# program of test/beside makes all recorded and many random calls of them.
+CalledModule = Struct.new(:id, :title, :functions, :object, :columns, :calls, keyword_init: true)
+
+CALLED_MODULES = [
+  CalledModule.new(id: 'slew', title: 'slew', functions: { 'fixpid_slew_step' => 'step' }, object: 'slew', calls: 20_000,
+                   columns: %w[event:uint8_t rise_q16:uint32_t fall_q16:uint32_t seed:int16_t target:int16_t]),
+  CalledModule.new(id: 'tpo', title: 'tpo', functions: { 'fixpid_tpo_step' => 'step' }, object: 'tpo', calls: 20_000,
+                   columns: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t
+                               duty:int16_t]),
+  CalledModule.new(id: 'gains', title: 'gains', calls: 2000,
+                   functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' },
+                   columns: %w[kp_milli:uint32_t ki_milli:uint32_t kd_milli:uint32_t rate_milli:uint32_t
+                               filter:uint8_t])
+].freeze
+
+# One of them in one build on one chip, through a pointer.
+ModuleSubject = Struct.new(:called, :chip, :build) do
+  def key
+    "module-#{called.id}-#{chip.name}-#{build.delete('-')}"
+  end
+
+  def to_s
+    [called.title, chip.title, build].join(', ')
+  end
+
+  def matches?(words)
+    own = [called.id, chip.name, build, chip.kind.to_s]
+    words.empty? || words.group_by { |word| Subject.kind_of_word(word) }
+                         .all? { |_, group| group.any? { |word| own.include?(word) } }
+  end
+
+  def self.all
+    CHIPS.reject { |chip| chip.name == 'pic16f684' }.flat_map do |chip|
+      builds = chip.kind == :pic ? %w[pointer] : chip.builds
+      CALLED_MODULES.product(builds).map { |called, build| new(called, chip, build) }
+    end
+  end
+end
+
+# Figures of one function; flash is that of the whole module, without the
+# compiler's own routines.
+ModuleFigures = Struct.new(:least, :mean, :most, :flash, :instance, keyword_init: true)
+
+# Builds the program of a module and meters its calls.
+class ModuleMeter
+  INCLUDES = %w[include src test/support test/beside].map { |folder| "-I#{folder}" }.freeze
+  MUTEX = Mutex.new
+
+  def self.of(subject)
+    { pic: ModulePicMeter, avr: ModuleAvrMeter, arm: ModuleArmMeter }.fetch(subject.chip.kind).new(subject)
+  end
+
+  def initialize(subject)
+    @subject = subject
+    @called = subject.called
+    @path = "#{Host.folder}/#{subject.key}"
+    @rows = "#{@path}.rows"
+  end
+
+  # By function.
+  def figures
+    FileUtils.mkdir_p(@rows)
+    File.write("#{@rows}/rows_#{@called.id}.h",
+               Host.output('ruby', 'test/beside/rows.rb', "test/vectors/#{@called.id}.csv", *@called.columns))
+    build
+    text = run
+    @called.functions.keys.to_h { |name| [name, figures_of(name, text).to_h] }
+  end
+
+  private
+
+  def figures_of(name, text)
+    calls, least, most, total = text.match(/^#{name} calls (\d+) least (\d+) most (\d+) total (\d+)$/)&.captures
+                                    &.map(&:to_i)
+    raise Host::Failure, "#{@subject}: no figures of #{name}:\n#{text}" unless calls&.positive?
+
+    ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, flash: flash, instance: instance)
+  end
+
+  def source
+    "src/fixpid_#{@called.id}.c"
+  end
+
+  def program
+    ['test/beside/main.c', "test/beside/calls_#{@called.id}.c", 'test/support/numbers.c',
+     'test/support/numbers_control.c']
+  end
+
+  def flags
+    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES]
+  end
+
+  # Builds what several subjects need, once.
+  def shared(path)
+    MUTEX.synchronize do
+      (@@shared ||= {})[path] ||= yield(path) && path # rubocop:disable Style/ClassVars
+    end
+  end
+end
+
+# In gpsim.
+class ModulePicMeter < ModuleMeter
+  private
+
+  def build
+    paths = %W[port port/pic port/pic/#{@subject.chip.name}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build_pic', @subject.chip.name, @path, '-DCALLS_SILENT', *flags, *paths, *program, source)
+  end
+
+  def run
+    harness = shared("#{Host.folder}/calls_pic") do |path|
+      Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/gpsim', 'test/beside/chip.cc',
+                  'build/gpsim/libchip.a', '-lgpsim', '-o', path)
+    end
+    Host.output(harness, "#{@path}.cod", *@called.functions.keys)
+  end
+
+  def flash
+    PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.start_with?("S_fixpid_#{@called.id}__") }
+           .sum(&:bytes)
+  end
+
+  def instance
+    @called.object ? Pic18Code.new(@path).object_size(@called.object) : 0
+  end
+end
+
+# In simavr.
+class ModuleAvrMeter < ModuleMeter
+  private
+
+  def build
+    options = ["-mmcu=#{@subject.chip.name}", @subject.build, *AvrMeter::FLAGS, '-std=gnu99', *Harness::WARNINGS,
+               '-Itest/cost/avr', *flags]
+    Host.output('avr-gcc', *options, '-c', source, '-o', "#{@path}.o")
+    Host.output('avr-gcc', *options, '-DCALLS_SILENT', *program, "#{@path}.o", '-o', "#{@path}.elf")
+  end
+
+  def run
+    meter = shared("#{Host.folder}/calls_avr") do |path|
+      Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, 'test/cost/avr/calls.c', '-lsimavr', '-o', path)
+    end
+    addresses = @called.functions.keys.flat_map { |name| [name, code.symbol(name).to_s(16)] }
+    Host.output(meter, "#{@path}.elf", @subject.chip.name, code.symbol('done').to_s(16), *addresses)
+  end
+
+  def tools
+    'avr'
+  end
+
+  def code
+    @code ||= AvrCode.new("#{@path}.elf")
+  end
+
+  def flash
+    Host.output("#{tools}-size", "#{@path}.o").lines.last.split.first.to_i
+  end
+
+  def instance
+    @called.object ? code.object_size(@called.object) : 0
+  end
+end
+
+# In QEMU.
+class ModuleArmMeter < ModuleAvrMeter
+  private
+
+  def build
+    core = ["-mcpu=#{@subject.chip.name}", *Harness::ARM, *Harness::WARNINGS, *flags, '-Itest/cost/arm']
+    names = @called.functions.keys.zip(%w[FIRST SECOND])
+    Host.output('arm-none-eabi-gcc', *core, @subject.build, '-c', source, '-o', "#{@path}.o")
+    Host.output('arm-none-eabi-gcc', *core, '-O2', '-nostdlib', '-DCALLS_METERED',
+                *names.flat_map { |name, which| ["-D#{which}=\"#{name}\"", "-Wl,--wrap=#{name}"] },
+                *program, 'test/cost/arm/calls.c', 'test/target/arm/start.c', "#{@path}.o",
+                '-T', 'test/target/arm/flash.ld', '-Wl,--gc-sections', '-lgcc', '-o', "#{@path}.elf")
+  end
+
+  def run
+    Host.output('timeout', '300', 'qemu-system-arm', '-M', ArmMeter::BOARDS.fetch(@subject.chip.name), '-nographic',
+                '-semihosting', '-icount', 'shift=10,sleep=off', '-kernel', "#{@path}.elf")
+  end
+
+  def tools
+    'arm-none-eabi'
+  end
+
+  def code
+    @code ||= ArmCode.new("#{@path}.elf")
+  end
+end
