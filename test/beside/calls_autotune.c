@@ -4,7 +4,6 @@
 #include "calls_autotune.h"
 #include "calls.h"
 #include "numbers.h"
-#include "numbers_control.h"
 
 #define DELAY_MAX 16
 #define FULL_SCALE 4095
@@ -28,38 +27,43 @@ static struct {
     bool integrating;
 } plant;
 
+static bool one_in(uint8_t count)
+{
+    return numbers_below(count) == 0u;
+}
+
 static void draw(void)
 {
     config.output_min = 0;
-    config.output_max = numbers_one_in(2) ? 255 : 1000;
-    config.output_rest = numbers_one_in(2) ? 0 : config.output_max / 2;
+    config.output_max = one_in(2) ? 255 : 1000;
+    config.output_rest = one_in(2) ? 0 : config.output_max >> 1;
     config.measurement_min = -1;
     config.measurement_max = FULL_SCALE + 1;
-    config.swing = numbers_one_in(3) ? 0 : (uint16_t)(8u + numbers_below(600));
-    config.timeout_steps = numbers_one_in(8) ? 40 : 4000;
+    config.swing = one_in(3) ? 0 : (uint16_t)(8u + numbers_below(600));
+    config.timeout_steps = one_in(8) ? 40 : 4000;
     config.cycles = (uint8_t)(1u + numbers_below(4));
-    config.options = numbers_one_in(3) ? FIXPID_AUTOTUNE_REVERSE : 0;
+    config.options = one_in(3) ? FIXPID_AUTOTUNE_REVERSE : 0;
     plant.delay = (uint8_t)(1u + numbers_below(DELAY_MAX));
     plant.oldest = 0;
     plant.first_shift = (uint8_t)numbers_below(4);
     plant.second_shift = (uint8_t)(2u + numbers_below(4));
-    plant.noise = (uint8_t)(numbers_one_in(8) ? 200 : numbers_below(5));
-    plant.integrating = numbers_one_in(3);
+    plant.noise = (uint8_t)(one_in(8) ? 200 : numbers_below(5));
+    plant.integrating = one_in(3);
     plant.first = 0;
     plant.second = 0;
     for (uint8_t i = 0; i < DELAY_MAX; i++) {
         plant.line[i] = 0;
     }
     setpoint =
-        (int16_t)(config.output_max / 8 * 3 + (int16_t)numbers_below(100));
-    if (numbers_one_in(16)) {
+        (int16_t)((config.output_max >> 3) * 3 + (int16_t)numbers_below(100));
+    if (one_in(16)) {
         config.cycles = 0;
     }
 }
 
 static int16_t measure(void)
 {
-    int32_t counts = plant.second / 2048;
+    int32_t counts = plant.second >> 11;
 
     if (plant.noise != 0u) {
         counts += (int32_t)numbers_below(plant.noise * 2u + 1u) - plant.noise;
@@ -79,7 +83,7 @@ static void move(int16_t output)
         plant.oldest = 0;
     }
     if (plant.integrating) {
-        driven -= config.output_max / 2;
+        driven -= config.output_max >> 1;
     }
     plant.first += (driven * 4096 - plant.first) >> plant.first_shift;
     if (plant.integrating) {
@@ -125,17 +129,34 @@ static void ask_results(void)
     }
 }
 
+#ifdef CALLS_BY_KIND
+static FIXPID_DATA struct fixpid_autotune before;
+
+// SDCC's pic16 port cannot assign a structure.
+static void copy(FIXPID_DATA struct fixpid_autotune *to,
+                 FIXPID_DATA struct fixpid_autotune *from)
+{
+    FIXPID_DATA uint8_t *const target = (FIXPID_DATA uint8_t *)to;
+    FIXPID_DATA uint8_t *const source = (FIXPID_DATA uint8_t *)from;
+
+    for (uint8_t i = 0; i < sizeof(struct fixpid_autotune); i++) {
+        target[i] = source[i];
+    }
+}
+#endif
+
 // One step, through the function that its kind is metered by: which of them it
 // is, a first try on a copy has told.
 static int16_t step(int16_t target, int16_t measurement)
 {
 #ifdef CALLS_BY_KIND
-    const struct fixpid_autotune before = tuner;
+    const uint8_t seen = tuner.seen;
     bool ends;
 
+    copy(&before, &tuner);
     (void)fixpid_autotune_step(&tuner, target, measurement);
-    ends = tuner.seen != before.seen;
-    tuner = before;
+    ends = tuner.seen != seen;
+    copy(&tuner, &before);
     if (ends) {
         return autotune_cycle_step(&tuner, target, measurement);
     }

@@ -115,6 +115,7 @@ class Cost
     page = "#{Host.root}/docs/cost.md"
     [[page, 'steps', Tables.steps(measured)],
      [page, 'modules', Tables.modules(called)],
+     ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
      [page, 'ratios', Tables.ratios(measured, straight)],
      [page, 'beside', Tables.beside(measured)],
      [page, 'limits', Tables.limits(limits)],

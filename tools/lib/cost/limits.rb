@@ -66,7 +66,15 @@ module Limits
     ['fixpid_gains_to_milli', 'pic18f4520', 'pointer'] => { most: 11_100 },
     ['fixpid_gains_to_milli', 'atmega328p', '-Os'] => { most: 3800 },
     ['fixpid_gains_to_milli', 'cortex-m0', '-O2'] => { most: 915 },
-    ['fixpid_gains_to_milli', 'cortex-m4', '-O2'] => { most: 805 }
+    ['fixpid_gains_to_milli', 'cortex-m4', '-O2'] => { most: 805 },
+    ['pid_change', 'atmega328p', '-Os'] => { most: 225 },
+    ['pid_change', 'cortex-m0', '-O2'] => { most: 94 },
+    ['pid_change', 'pic18f4520', 'pointer'] => { most: 840 },
+    ['fixpid_pid_track', 'atmega328p', '-Os'] => { most: 193 },
+    ['fixpid_pid_track', 'cortex-m0', '-O2'] => { most: 70 },
+    ['fixpid_pid_track', 'pic18f4520', 'pointer'] => { most: 565 },
+    ['autotune_ordinary_step', 'atmega328p', '-Os'] => { most: 523, flash: 7500, instance: 66 },
+    ['autotune_cycle_step', 'atmega328p', '-Os'] => { most: 1655 }
   }.freeze
 
   # Of docs/chips.md, where test/target/run keeps them.

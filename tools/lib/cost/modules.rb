@@ -5,7 +5,26 @@ require_relative 'meters'
 
 # What stands beside a controller, and its functions that are measured: the
 # program of test/beside makes all recorded and many random calls of them.
-CalledModule = Struct.new(:id, :title, :functions, :object, :columns, :calls, keyword_init: true)
+CalledModule = Struct.new(:id, :title, :functions, :object, :columns, :calls, :sources, :program, :flags, :kinds,
+                          keyword_init: true) do
+  # Of the library.
+  def files
+    sources || ["src/fixpid_#{id}.c"]
+  end
+
+  # Whether it is measured on such a chip.
+  def on?(kind)
+    kinds.nil? || kinds.include?(kind)
+  end
+
+  # What makes the calls.
+  def callers
+    program || %w[test/support/numbers_control.c]
+  end
+end
+
+AUTOTUNE_SOURCES = %w[src/fixpid_autotune.c src/fixpid_autotune_cycle.c src/fixpid_autotune_more.c].freeze
+PID_SOURCES = %w[src/fixpid_pid.c src/fixpid_pid_more.c src/fixpid_pid_track.c src/pic18/fixpid_pid_pic18.c].freeze
 
 CALLED_MODULES = [
   CalledModule.new(id: 'slew', title: 'slew', functions: { 'fixpid_slew_step' => 'step' }, object: 'slew', calls: 20_000,
@@ -16,7 +35,18 @@ CALLED_MODULES = [
   CalledModule.new(id: 'gains', title: 'gains', calls: 2000,
                    functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' },
                    columns: %w[kp_milli:uint32_t ki_milli:uint32_t kd_milli:uint32_t rate_milli:uint32_t
-                               filter:uint8_t])
+                               filter:uint8_t]),
+  CalledModule.new(id: 'pid', title: 'pid', object: 'pid', calls: 5000, sources: PID_SOURCES,
+                   functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
+                   program: %w[test/beside/steps_pid.c]),
+  CalledModule.new(id: 'autotune', title: 'autotune', object: 'tuner', calls: 60_000, sources: AUTOTUNE_SOURCES,
+                   kinds: %i[avr arm],
+                   functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
+                   program: %w[test/beside/steps_autotune.c], flags: %w[-DCALLS_BY_KIND]),
+  # It fills a PIC18, and so does not tell the kinds of its steps apart.
+  CalledModule.new(id: 'autotune', title: 'autotune', object: 'tuner', calls: 20_000, sources: AUTOTUNE_SOURCES,
+                   kinds: %i[pic], program: [],
+                   functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' })
 ].freeze
 
 # One of them in one build on one chip, through a pointer.
@@ -38,7 +68,7 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
   def self.all
     CHIPS.reject { |chip| chip.name == 'pic16f684' }.flat_map do |chip|
       builds = chip.kind == :pic ? %w[pointer] : chip.builds
-      CALLED_MODULES.product(builds).map { |called, build| new(called, chip, build) }
+      CALLED_MODULES.select { |called| called.on?(chip.kind) }.product(builds).map { |called, build| new(called, chip, build) }
     end
   end
 end
@@ -66,8 +96,10 @@ class ModuleMeter
   # By function.
   def figures
     FileUtils.mkdir_p(@rows)
-    File.write("#{@rows}/rows_#{@called.id}.h",
-               Host.output('ruby', 'test/beside/rows.rb', "test/vectors/#{@called.id}.csv", *@called.columns))
+    if @called.columns
+      File.write("#{@rows}/rows_#{@called.id}.h",
+                 Host.output('ruby', 'test/beside/rows.rb', "test/vectors/#{@called.id}.csv", *@called.columns))
+    end
     build
     text = run
     @called.functions.keys.to_h { |name| [name, figures_of(name, text).to_h] }
@@ -83,17 +115,21 @@ class ModuleMeter
     ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, flash: flash, instance: instance)
   end
 
-  def source
-    "src/fixpid_#{@called.id}.c"
-  end
-
   def program
-    ['test/beside/main.c', "test/beside/calls_#{@called.id}.c", 'test/support/numbers.c',
-     'test/support/numbers_control.c']
+    ['test/beside/main.c', "test/beside/calls_#{@called.id}.c", 'test/support/numbers.c', *@called.callers]
   end
 
   def flags
-    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES]
+    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES, *@called.flags]
+  end
+
+  # The library's objects, compiled alone.
+  def objects(compiler, *options)
+    @called.files.map do |file|
+      "#{@path}_#{File.basename(file, '.c')}.o".tap do |object|
+        Host.output(compiler, *options, '-c', file, '-o', object)
+      end
+    end
   end
 
   # Builds what several subjects need, once.
@@ -110,7 +146,7 @@ class ModulePicMeter < ModuleMeter
 
   def build
     paths = %W[port port/pic port/pic/#{@subject.chip.name}].map { |folder| "-I#{folder}" }
-    Host.output('tools/lib/build_pic', @subject.chip.name, @path, '-DCALLS_SILENT', *flags, *paths, *program, source)
+    Host.output('tools/lib/build_pic', @subject.chip.name, @path, '-DCALLS_SILENT', *flags, *paths, *program, *@called.files)
   end
 
   def run
@@ -122,7 +158,7 @@ class ModulePicMeter < ModuleMeter
   end
 
   def flash
-    PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.start_with?("S_fixpid_#{@called.id}__") }
+    PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/\AS_fixpid_#{@called.id}_/) }
            .sum(&:bytes)
   end
 
@@ -138,8 +174,8 @@ class ModuleAvrMeter < ModuleMeter
   def build
     options = ["-mmcu=#{@subject.chip.name}", @subject.build, *AvrMeter::FLAGS, '-std=gnu99', *Harness::WARNINGS,
                '-Itest/cost/avr', *flags]
-    Host.output('avr-gcc', *options, '-c', source, '-o', "#{@path}.o")
-    Host.output('avr-gcc', *options, '-DCALLS_SILENT', *program, "#{@path}.o", '-o', "#{@path}.elf")
+    @objects = objects('avr-gcc', *options)
+    Host.output('avr-gcc', *options, '-DCALLS_SILENT', *program, *@objects, '-o', "#{@path}.elf")
   end
 
   def run
@@ -159,7 +195,7 @@ class ModuleAvrMeter < ModuleMeter
   end
 
   def flash
-    Host.output("#{tools}-size", "#{@path}.o").lines.last.split.first.to_i
+    @objects.sum { |object| Host.output("#{tools}-size", object).lines.last.split.first.to_i }
   end
 
   def instance
@@ -174,10 +210,10 @@ class ModuleArmMeter < ModuleAvrMeter
   def build
     core = ["-mcpu=#{@subject.chip.name}", *Harness::ARM, *Harness::WARNINGS, *flags, '-Itest/cost/arm']
     names = @called.functions.keys.zip(%w[FIRST SECOND])
-    Host.output('arm-none-eabi-gcc', *core, @subject.build, '-c', source, '-o', "#{@path}.o")
+    @objects = objects('arm-none-eabi-gcc', *core, @subject.build)
     Host.output('arm-none-eabi-gcc', *core, '-O2', '-nostdlib', '-DCALLS_METERED',
                 *names.flat_map { |name, which| ["-D#{which}=\"#{name}\"", "-Wl,--wrap=#{name}"] },
-                *program, 'test/cost/arm/calls.c', 'test/target/arm/start.c', "#{@path}.o",
+                *program, 'test/cost/arm/calls.c', 'test/target/arm/start.c', *@objects,
                 '-T', 'test/target/arm/flash.ld', '-Wl,--gc-sections', '-lgcc', '-o', "#{@path}.elf")
   end
 

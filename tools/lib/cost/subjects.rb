@@ -32,7 +32,7 @@ CONTROLLERS = [
 ].freeze
 
 # What stands beside them, measured by the program of test/beside: modules.rb.
-MODULES = %w[slew tpo gains].freeze
+MODULES = %w[slew tpo gains autotune].freeze
 
 # The same controller built otherwise, for one chip in its first build:
 # definitions and sources that are added.

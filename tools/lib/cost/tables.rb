@@ -32,6 +32,15 @@ module Tables
       end
     end
 
+    # How long new gains without a bump keep an interrupt waiting.
+    def masked(called)
+      shown = [%w[pic18f4520 pointer], %w[atmega328p -Os], %w[cortex-m0 -O2]]
+      [['chip', 'built', 'worst', 'of']] + shown.map do |chip, build|
+        subject, functions = called.find { |one, all| one.chip.name == chip && one.build == build && all.key?('pid_change') }
+        [subject.chip.title, build, functions['pid_change'].most, subject.chip.cost]
+      end
+    end
+
     # Ours, then the notes' and the others'.
     def beside(measured)
       ours = CONTROLLERS.flat_map { |controller| own_rows(measured, controller) }

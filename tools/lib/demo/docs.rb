@@ -5,7 +5,7 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune others chip]
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune others recipes chip]
              .freeze
 
   # Document, its parts between markers, and what makes each of them.
@@ -13,7 +13,8 @@ module Docs
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
                           'autotune' => :autotune },
     'docs/behaviour.md' => { 'five' => :five, 'bumps' => :bumps,
-                             'drift' => :drift }
+                             'drift' => :drift },
+    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override }
   }.freeze
 
   class << self
