@@ -38,9 +38,13 @@ static int16_t control_without(int16_t setpoint, int16_t slow, int16_t fast)
 static void start(void)
 {
     static const struct fixpid_pid_config slow = {
-        .gains = FIXPID_PID_GAINS(2, 0.02, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(2, 0.02, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
     static const struct fixpid_pid_config fast = {
-        .gains = FIXPID_PID_GAINS(2, 0.1, 0, 1, 0), .output_max = 255};
+        .gains = FIXPID_PID_GAINS(2, 0.1, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 255};
 
     (void)fixpid_pid_init(&outer, &slow);
     (void)fixpid_pid_init(&inner, &fast);

@@ -26,7 +26,9 @@ static int16_t control(uint16_t setpoint, uint16_t reading)
 int main(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(0.03125, 0.001, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(0.03125, 0.001, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
     static const struct plant_counts process = {.gain = 64.0,
                                                 .lag_steps = 50.0,
                                                 .delay_steps = 2,

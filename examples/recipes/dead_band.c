@@ -7,9 +7,10 @@
 #include "plant_counts.h"
 
 #define STEPS 4000
-#define BAND 4
 
 // recipe
+#define BAND 4
+
 static struct fixpid_pid pid;
 
 static int16_t control(int16_t setpoint, int16_t measurement)
@@ -30,7 +31,9 @@ static void run(int16_t (*step)(int16_t, int16_t), double *value,
                 int16_t *output)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1, 0.02, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(1, 0.02, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
     static const struct plant_counts process = {.gain = 1.0,
                                                 .lag_steps = 50.0,
                                                 .delay_steps = 2,

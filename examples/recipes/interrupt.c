@@ -59,7 +59,9 @@ static void change(int16_t new_setpoint, const struct fixpid_pid_gains *gains)
 int main(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1, 0.02, 0, 1, 0), .output_max = 255};
+        .gains = FIXPID_PID_GAINS(1, 0.02, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 255};
     static const struct fixpid_pid_gains faster =
         FIXPID_PID_GAINS(2, 0.05, 0, 1, 0);
     static const struct plant_counts process = {

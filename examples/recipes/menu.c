@@ -9,14 +9,17 @@
 #include "plant_counts.h"
 
 #define STEPS 2000
-#define RATE_MILLI 10000u // 10 steps a second
 
 // recipe
+#define RATE_MILLI 10000u // 10 steps a second
+
 static struct fixpid_pid pid;
 static struct fixpid_record eeprom; // all 0: never written
 
 static struct fixpid_pid_config safe = {
-    .gains = FIXPID_PID_GAINS(0.5, 0.05, 0, 10, 0), .output_max = 255};
+    .gains = FIXPID_PID_GAINS(0.5, 0.05, 0, 10, 0),
+    .output_min = 0,
+    .output_max = 255};
 
 // At power-on. False: nothing good was stored.
 static bool start(void)

@@ -8,12 +8,13 @@
 #include "plant_counts.h"
 
 #define STEPS 4000
-#define FLOW 600
-#define PRESSURE_MAX 700
 #define CLOGGED_FROM 1000
 #define CLOGGED_TO 2500
 
 // recipe
+#define FLOW 600
+#define PRESSURE_MAX 700
+
 static struct fixpid_pid flow_control;
 static struct fixpid_pid pressure_limiter;
 
@@ -42,9 +43,13 @@ static int16_t control_without(int16_t flow, int16_t pressure)
 static void start(void)
 {
     static const struct fixpid_pid_config flow = {
-        .gains = FIXPID_PID_GAINS(0.5, 0.0125, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(0.5, 0.0125, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
     static const struct fixpid_pid_config pressure = {
-        .gains = FIXPID_PID_GAINS(1, 0.0166667, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(1, 0.0166667, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
 
     (void)fixpid_pid_init(&flow_control, &flow);
     (void)fixpid_pid_init(&pressure_limiter, &pressure);

@@ -17,7 +17,9 @@ static struct fixpid_slew valve;
 static void start(int16_t measurement)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1.5, 0.25, 0, 10, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(1.5, 0.25, 0, 10, 0),
+        .output_min = 0,
+        .output_max = 1000};
 
     (void)fixpid_pid_init(&pid, &config);
     fixpid_slew_init(&ramp, FIXPID_SLEW_RATE(2, 10), FIXPID_SLEW_RATE(2, 10));

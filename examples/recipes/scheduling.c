@@ -33,7 +33,9 @@ static int16_t control(int16_t setpoint, int16_t measurement)
 int main(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(4, 0.1, 0, 1, 0), .output_max = 1000};
+        .gains = FIXPID_PID_GAINS(4, 0.1, 0, 1, 0),
+        .output_min = 0,
+        .output_max = 1000};
     struct plant_counts process = {.lag_steps = 40.0,
                                    .delay_steps = 2,
                                    .noise_counts = 1,

@@ -39,7 +39,9 @@ static int16_t control(int16_t setpoint, int16_t reading)
 int main(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(2, 0.05, 0, 10, 0), .output_max = 255};
+        .gains = FIXPID_PID_GAINS(2, 0.05, 0, 10, 0),
+        .output_min = 0,
+        .output_max = 255};
     static const struct plant_counts oven = {.gain = 4.0,
                                              .lag_steps = 400.0,
                                              .delay_steps = 5,

@@ -8,9 +8,10 @@
 #include "plant_counts.h"
 
 #define STEPS 18000 // half an hour, 10 a second
-#define FULL 1000
 
 // recipe
+#define FULL 1000
+
 static struct fixpid_pid pid;
 static struct fixpid_tpo relay;
 
@@ -18,7 +19,10 @@ static void start(void)
 {
     static const struct fixpid_pid_config config = {
         .gains = FIXPID_PID_GAINS(1.5, 0.01875, 0, 10, 0),
+        .output_min = 0,
         .output_max = FULL,
+        .integral_min = 0,
+        .integral_max = 0, // none of its own
         .setpoint_weight_q8 = 180,
     };
     static const struct fixpid_tpo_config windows = {
