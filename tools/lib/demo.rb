@@ -18,6 +18,7 @@ require_relative 'demo/thermostat'
 require_relative 'demo/loops'
 require_relative 'demo/autotune'
 require_relative 'demo/others'
+require_relative 'demo/clouds'
 require_relative 'demo/recipes'
 require_relative 'demo/chip'
 
@@ -37,6 +38,7 @@ LOOPS = {
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
   'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
+  'clouds' => Loop.new('two autotuners on 800 random plants, how good their gains are', -> { clouds }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# Both autotuners on random plants: how good the gains are that they find. The
+# program `clouds` prints a row for each plant, tuner and rule.
+CLOUD_SEEDS = [31, 77].freeze
+CLOUD_PLANTS = 400
+HOLDING_PERCENTS = [3, 10, 15, 50, 85, 95].freeze
+HOLDING_PLANTS = 150
+DANGERS = { 'servo' => 'position servos', 'dead time' => 'dead times' }.freeze
+DANGER_PLANTS = 150
+
+TUNERS = { 'autotune' => 'fixpid_autotune', 'relay' => 'fixpid_relay' }.freeze
+CLOUD_RULES = {
+  'SIMC_PI' => 'SIMC PI', 'AMIGO_PI' => 'AMIGO PI', 'AMIGO_PID' => 'AMIGO PID',
+  'TYREUS_LUYBEN_PI' => 'Tyreus-Luyben PI', 'TYREUS_LUYBEN_PID' => 'Tyreus-Luyben PID',
+  'ZIEGLER_NICHOLS_PI' => 'Ziegler-Nichols PI', 'ZIEGLER_NICHOLS_PID' => 'Ziegler-Nichols PID'
+}.freeze
+
+ROBUST = (1.2..1.8).freeze # Ms of a loop with a margin that is not too calm
+THIN = 2.2 # Ms of one with too little
+
+# What one tuner and rule did on a cloud.
+class Cloud
+  attr_reader :rows, :results
+
+  def initialize(rows)
+    @rows = rows
+    @results = rows.select { |row| row['result'] == '1' }
+  end
+
+  def only(tuner, rule)
+    Cloud.new(@rows.select { |row| row['tuner'] == tuner && row['rule'] == rule })
+  end
+
+  def +(other)
+    Cloud.new(@rows + other.rows)
+  end
+
+  def done
+    @rows.count { |row| row['status'].to_i == DONE }
+  end
+
+  def done_percent
+    percent(done, @rows.size)
+  end
+
+  def hanging
+    @rows.count { |row| row['status'] == '1' }
+  end
+
+  def outside
+    @rows.sum { |row| row['outside'].to_i }
+  end
+
+  def unstable
+    @results.count { |row| row['iae'].to_f.negative? }
+  end
+
+  # Of loops that come to rest; the others have no such number.
+  def sensitivities
+    resting.map { |row| row['ms'].to_f }
+  end
+
+  def errors
+    resting.map { |row| row['iae'].to_f }
+  end
+
+  def lasts
+    @rows.select { |row| row['status'].to_i == DONE }.map { |row| row['lasts'].to_f }
+  end
+
+  def robust_percent
+    percent(sensitivities.count { |ms| ROBUST.cover?(ms) }, @results.size)
+  end
+
+  def thin
+    unstable + sensitivities.count { |ms| ms > THIN }
+  end
+
+  def thin_percent
+    percent(thin, @results.size)
+  end
+
+  def self.quantile(values, share)
+    values.empty? ? 0.0 : values.sort[(share * (values.size - 1)).round]
+  end
+
+  private
+
+  def resting
+    @results.reject { |row| row['iae'].to_f.negative? }
+  end
+
+  def percent(part, whole)
+    100.0 * part / [whole, 1].max
+  end
+end
+
+def cloud(name, *arguments)
+  Cloud.new(Loops.read(Host.print('clouds', "clouds-#{name}.txt", *arguments.map(&:to_s))))
+end
+
+def clouds
+  drawn = CLOUD_SEEDS.to_h { |seed| [seed, cloud(seed, seed, CLOUD_PLANTS)] }
+  loaded = CLOUD_SEEDS.to_h do |seed|
+    [seed, cloud("#{seed}-loaded", seed, CLOUD_PLANTS, 'mixed', 1, 1)]
+  end
+  dangers = DANGERS.keys.to_h do |kind|
+    [kind, cloud(kind.tr(' ', '-'), CLOUD_SEEDS[0], DANGER_PLANTS, kind)]
+  end
+  drawn.each { |seed, all| check_autotune(seed, all.only('autotune', 'SIMC_PI')) }
+  loaded.each { |seed, all| check_loaded(seed, all.only('autotune', 'SIMC_PI')) }
+  check_relay(drawn.transform_keys { |seed| "seed #{seed}" }, dangers)
+  both = drawn.values.reduce(:+)
+  tell_rules(both)
+  tell_holding
+  draw_clouds(both)
+end
+
+# Each seed alone, with the rule that the header calls the default.
+def check_autotune(seed, cloud)
+  what = "seed #{seed}, SIMC PI"
+  Report.at_least("#{what}: experiments DONE", cloud.done_percent, 96.0, '%')
+  Report.at_least("#{what}: Ms within 1.2 to 1.8", cloud.robust_percent, 95.0, '%')
+  Report.at_most("#{what}: Ms above 2.2", cloud.thin, 2)
+  Report.exactly("#{what}: unstable", cloud.unstable, 0)
+  Report.at_most("#{what}: sum of errors over the best, median",
+                 Cloud.quantile(cloud.errors, 0.5), 1.05)
+  Report.at_most("#{what}: and of 90 %", Cloud.quantile(cloud.errors, 0.9), 1.5)
+  check_conduct(what, cloud)
+end
+
+def check_loaded(seed, cloud)
+  what = "seed #{seed}, a load during each experiment"
+  Report.at_least("#{what}: Ms within 1.2 to 1.8", cloud.robust_percent, 90.0, '%')
+  Report.exactly("#{what}: unstable", cloud.unstable, 0)
+  check_conduct(what, cloud)
+end
+
+def check_conduct(what, cloud)
+  Report.exactly("#{what}: outputs outside their range", cloud.outside, 0)
+  Report.exactly("#{what}: experiments without an end", cloud.hanging, 0)
+end
+
+# Of the relay that it ends, and within its range.
+def check_relay(drawn, dangers)
+  drawn.merge(dangers.transform_keys { |kind| DANGERS.fetch(kind) })
+       .each do |name, all|
+    %w[TYREUS_LUYBEN_PI TYREUS_LUYBEN_PID].each do |rule|
+      found = all.only('relay', rule)
+      what = "#{name}, relay, #{CLOUD_RULES.fetch(rule)}"
+      check_conduct(what, found)
+    end
+  end
+end
+
+# The rows of the table in docs/tuning.md.
+def tell_rules(all)
+  pairs = all.rows.map { |row| row.values_at('tuner', 'rule') }.uniq
+  Report.number('rules', pairs.map { |tuner, rule| rule_numbers(all.only(tuner, rule), tuner, rule) })
+end
+
+def rule_numbers(found, tuner, rule)
+  ms = found.sensitivities
+  { 'tuner' => TUNERS.fetch(tuner), 'rule' => CLOUD_RULES.fetch(rule),
+    'done' => found.done, 'results' => found.results.size, 'of' => found.rows.size,
+    'ms' => [0.05, 0.5, 0.95].map { |share| Cloud.quantile(ms, share) },
+    'robust' => found.robust_percent, 'thin' => found.thin, 'unstable' => found.unstable,
+    'iae' => [0.5, 0.9].map { |share| Cloud.quantile(found.errors, share) },
+    'lasts' => [0.5, 0.9].map { |share| Cloud.quantile(found.lasts, share) } }
+end
+
+def tell_holding
+  rows = HOLDING_PERCENTS.map do |percent|
+    all = cloud("holding-#{percent}", CLOUD_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 1,
+                percent / 100.0)
+    autotune = all.only('autotune', 'SIMC_PI')
+    relay = all.only('relay', 'TYREUS_LUYBEN_PI')
+    Report.exactly("held by #{percent} %, SIMC PI: unstable", autotune.unstable, 0)
+    { 'percent' => percent, 'of' => HOLDING_PLANTS, 'autotune' => autotune.results.size,
+      'robust' => autotune.robust_percent, 'thin' => autotune.thin,
+      'relay' => relay.results.size, 'relay_thin' => relay.thin }
+  end
+  Report.number('holding', rows)
+end
+
+# What is beyond the picture is drawn at its edge.
+MS_DRAWN = 3.0
+ERRORS_DRAWN = (0.1..12.0).freeze
+CLOUD_PANELS = { 'relay' => 'TYREUS_LUYBEN_PI', 'autotune' => 'SIMC_PI' }.freeze
+CLOUD_COLORS = { 'relay' => Plot::RED, 'autotune' => Plot::BLUE }.freeze
+
+def draw_clouds(all)
+  plot = Plot.new('clouds', "#{CLOUD_SEEDS.size * CLOUD_PLANTS} random plants, each tuned by an " \
+                            'experiment of its own: a dot is a plant',
+                  height: 560, columns: [1.0, 1.0], gap_x: 0.05,
+                  margins: { left: 0.075, top: 0.83, bottom: 0.11 })
+  CLOUD_PANELS.each_with_index do |(tuner, rule), column|
+    cloud_panel(plot, column, tuner, all.only(tuner, rule))
+  end
+  plot.draw
+end
+
+def cloud_dots(tuner, found)
+  path = "#{Host.folder}/clouds-#{tuner}.csv"
+  lines = found.results.map do |row|
+    ms, errors = row.values_at('ms', 'iae').map(&:to_f)
+    ms, errors = MS_DRAWN, ERRORS_DRAWN.max if errors.negative?
+    "#{[ms, MS_DRAWN].min},#{errors.clamp(ERRORS_DRAWN)}"
+  end
+  File.write(path, "#{lines.join("\n")}\n")
+  path
+end
+
+def cloud_panel(plot, column, tuner, found)
+  dots = "'#{cloud_dots(tuner, found)}' using 1:2 with points pointtype 7 " \
+         "pointsize 0.45 linecolor '#{CLOUD_COLORS.fetch(tuner).sub('#', '#80')}' notitle"
+  title = "set title \"{/:Bold #{TUNERS.fetch(tuner).gsub('_', '\\\\\\_')}}, " \
+          "#{CLOUD_RULES.fetch(CLOUD_PANELS.fetch(tuner))}\\n" \
+          "gains for #{found.results.size} plants, none for " \
+          "#{found.rows.size - found.results.size}\""
+  plot.panel(0, column, [dots, '1 with lines linecolor \'#444444\' dashtype 2 notitle'],
+             [title, 'set key off', *cloud_marks, *cloud_axes(column)])
+end
+
+def cloud_marks
+  low, high = ROBUST.minmax
+  ["set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind " \
+   "fillcolor '#DDF0E4' fillstyle solid noborder",
+   "set object 2 rectangle from #{THIN}, graph 0 to graph 1, graph 1 behind " \
+   "fillcolor '#F9E3DC' fillstyle solid noborder",
+   "set label 'a good margin' at #{(low + high) / 2.0}, graph 0.965 center",
+   "set label 'close to oscillation' at #{(THIN + MS_DRAWN) / 2.0}, graph 0.965 center",
+   "set label 'slower' at 1.03, 1.22", "set label 'quicker' at 1.03, 0.83"]
+end
+
+def cloud_axes(column)
+  ['set logscale y', "set xrange [1:#{MS_DRAWN}]",
+   "set yrange [#{ERRORS_DRAWN.minmax.join(':')}]",
+   'set xtics 0.2', 'set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10)',
+   "set xlabel 'Ms: the most that the loop makes of a disturbance'",
+   *(column.zero? ? ["set ylabel 'sum of errors after a load, 1: gains of the known plant'"] : [])]
+end
