@@ -9,7 +9,7 @@
 
 #define RUNNING ((uint8_t)FIXPID_RELAY_RUNNING)
 #define DONE ((uint8_t)FIXPID_RELAY_DONE)
-#define LAST_RULE ((uint8_t)FIXPID_RELAY_ZIEGLER_NICHOLS_PID)
+#define LAST_RULE ((uint8_t)FIXPID_RELAY_TYREUS_LUYBEN_PID)
 
 #define SIDE_UNKNOWN 0u // before the first step
 #define SIDE_HIGH 1u
@@ -21,6 +21,7 @@
 #define CYCLES_MAX 8u
 #define CYCLES_SEEN_MAX 24u
 #define PERIOD_MIN 6u
+#define PID_PERIOD_MIN 20u
 
 #define FOUR_OVER_PI_Q8 UINT32_C(326)
 #define ULTIMATE_GAIN_MAX UINT32_C(0x7FFFFF)
@@ -28,9 +29,9 @@
 #define RATE_TIME_MAX UINT32_C(0x1FFFF)
 
 struct rule {
-    uint8_t kp_q8;     // of the ultimate gain
-    uint16_t reset_q8; // Tu / Ti
-    uint8_t rate_q8;   // Td / Tu
+    uint8_t kp_q8;    // of the ultimate gain
+    uint8_t reset_q8; // Tu / Ti
+    uint8_t rate_q8;  // Td / Tu
 };
 
 static bool within(uint16_t value, uint16_t least, uint16_t most)
@@ -99,6 +100,9 @@ void fixpid_relay_reset(FIXPID_DATA struct fixpid_relay *self)
     SELF.high_steps = 0;
     SELF.highest = 0;
     SELF.lowest = 0;
+    SELF.highest_at = 0;
+    SELF.lowest_at = 0;
+    SELF.error_sum = 0;
     SELF.period_sum = 0;
     SELF.swing_sum = 0;
     SELF.last_period = 0;
@@ -156,10 +160,10 @@ static uint8_t verdict(FIXPID_DATA const struct fixpid_relay *self)
         return (SELF.seen == CYCLES_SEEN_MAX) ? FIXPID_RELAY_IRREGULAR
                                               : FIXPID_RELAY_RUNNING;
     }
-    if ((SELF.high_steps / 4u) > SELF.elapsed) {
+    if (SELF.high_steps > (4u * (uint32_t)SELF.elapsed)) {
         return FIXPID_RELAY_IRREGULAR;
     }
-    if ((SELF.elapsed / 4u) > SELF.high_steps) {
+    if (SELF.elapsed > (4u * (uint32_t)SELF.high_steps)) {
         return FIXPID_RELAY_IRREGULAR;
     }
     if (SELF.period_sum < (PERIOD_MIN * cycles)) {
@@ -169,6 +173,16 @@ static uint8_t verdict(FIXPID_DATA const struct fixpid_relay *self)
         return FIXPID_RELAY_TOO_SMALL;
     }
     return FIXPID_RELAY_DONE;
+}
+
+static void begin_cycle(FIXPID_DATA struct fixpid_relay *self,
+                        int16_t measurement)
+{
+    SELF.highest = measurement;
+    SELF.lowest = measurement;
+    SELF.highest_at = 0;
+    SELF.lowest_at = 0;
+    SELF.error_sum = 0;
 }
 
 // The error has 17 bits and is not saturated: all that counts is on which side
@@ -190,11 +204,34 @@ static void switch_relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
             add_cycle(self);
             SELF.status = verdict(self);
             SELF.elapsed = 0;
-            SELF.highest = measurement;
-            SELF.lowest = measurement;
+            if (SELF.status == RUNNING) { // the result reads the last cycle
+                begin_cycle(self, measurement);
+            }
         }
     }
     SELF.elapsed++;
+}
+
+// What the result wants to know of the cycle.
+static void watch_cycle(FIXPID_DATA struct fixpid_relay *self, int32_t error,
+                        int16_t measurement)
+{
+    // Each half is shorter than the timeout: at most 2 * 32766
+    uint16_t at = SELF.elapsed;
+
+    if (SELF.side == SIDE_LOW) {
+        at = (uint16_t)(at + SELF.high_steps);
+    }
+    if (measurement > SELF.highest) {
+        SELF.highest = measurement;
+        SELF.highest_at = at;
+    }
+    if (measurement < SELF.lowest) {
+        SELF.lowest = measurement;
+        SELF.lowest_at = at;
+    }
+    // 65535 * 65532 = 4294639620 < 2^32
+    SELF.error_sum += (uint32_t)((error < 0) ? -error : error);
 }
 
 static void relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
@@ -202,15 +239,9 @@ static void relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
 {
     if (SELF.side == SIDE_UNKNOWN) {
         SELF.side = (error >= 0) ? SIDE_HIGH : SIDE_LOW;
-        SELF.highest = measurement;
-        SELF.lowest = measurement;
+        begin_cycle(self, measurement);
     }
-    if (measurement > SELF.highest) {
-        SELF.highest = measurement;
-    }
-    if (measurement < SELF.lowest) {
-        SELF.lowest = measurement;
-    }
+    watch_cycle(self, error, measurement);
     switch_relay(self, error, measurement);
 }
 
@@ -272,21 +303,72 @@ static uint32_t proportional_q16(FIXPID_DATA const struct fixpid_relay *self,
     if (ultimate_gain_q12 > ULTIMATE_GAIN_MAX) {
         return 0;
     }
-    return (ultimate_gain_q12 * kp_q8) / 16u; // 2^23 * 154 < 2^31
+    return (ultimate_gain_q12 * kp_q8) / 16u; // 2^23 * 116 < 2^30
 }
 
-// 16 product / period, of which 16 product would not fit. The period is at
-// least 6 steps, 96 in Q4, so this is at most 4294901760 / 96 * 16 = 715816960,
-// below the largest that fixpid_pid takes.
-static uint32_t integral_q24(uint32_t kp_q16, uint16_t reset_q8,
+// 16 dividend / divisor, of which 16 dividend would not fit. The divisor is
+// below 2^20 here, and so is a remainder of it.
+static uint32_t sixteenfold(uint32_t dividend, uint32_t divisor)
+{
+    return ((dividend / divisor) * 16u) +
+           (((dividend % divisor) * 16u) / divisor);
+}
+
+// The period is at least 6 steps, 96 in Q4, so this is at most
+// 973063680 / 96 * 16 = 162177280, below the largest that fixpid_pid takes.
+static uint32_t integral_q24(uint32_t kp_q16, uint8_t reset_q8,
                              uint32_t period_q4)
 {
-    // 65535 * 256 / 2 = 8388480 is above kp_q16, 8388480 * 512 < 2^32
-    const uint32_t product = kp_q16 * reset_q8;
+    // 65535 * 256 / 2 = 8388480 is above kp_q16, 8388480 * 116 = 973063680
+    return sixteenfold(kp_q16 * reset_q8, period_q4);
+}
 
-    // A remainder is below the period, and that is below 2^20.
-    return ((product / period_q4) * 16u) +
-           (((product % period_q4) * 16u) / period_q4);
+// The mean error of the last cycle against its swing, for the form that it has.
+static bool serves_pi(FIXPID_DATA const struct fixpid_relay *self,
+                      uint16_t turning, uint16_t uneven)
+{
+    const uint16_t period = SELF.last_period;
+    // At least two periods and less than 2^18
+    const uint32_t steps = (2u * (uint32_t)period) + turning + uneven;
+    const int32_t reach =
+        (2 * (int32_t)SELF.last_swing) - (3 * (int32_t)SELF.config.hysteresis);
+
+    if (turning > (uint16_t)((period / 2u) + (period / 16u))) {
+        return true;
+    }
+    // error_sum is at most 65535 times the period: 16 * 65535 / 2 = 524280
+    return (int32_t)sixteenfold(SELF.error_sum, steps) < reach;
+}
+
+static bool serves_pid(uint16_t period, uint16_t turning, uint16_t uneven)
+{
+    if (period < PID_PERIOD_MIN) {
+        return false;
+    }
+    if (uneven >= (period / 3u)) {
+        return false;
+    }
+    return turning < (uint16_t)((period / 2u) - (period / 20u));
+}
+
+// Reads the last cycle: the steps from each switch to the extreme after it,
+// both together, and the difference of its halves. A setpoint that moved may
+// make the first less than nothing: it is kept in 16 bits.
+static bool serves(FIXPID_DATA const struct fixpid_relay *self, uint8_t rule)
+{
+    const uint16_t high_steps = SELF.high_steps;
+    const uint16_t low_steps = (uint16_t)(SELF.last_period - high_steps);
+    const uint16_t turning =
+        (uint16_t)((uint32_t)SELF.highest_at + SELF.lowest_at - high_steps);
+    uint16_t uneven = (uint16_t)(low_steps - high_steps);
+
+    if (high_steps > low_steps) {
+        uneven = (uint16_t)(high_steps - low_steps);
+    }
+    if (rule == (uint8_t)FIXPID_RELAY_TYREUS_LUYBEN_PI) {
+        return serves_pi(self, turning, uneven);
+    }
+    return serves_pid(SELF.last_period, turning, uneven);
 }
 
 static bool tune_derivative(struct fixpid_pid_gains *gains,
@@ -343,8 +425,6 @@ bool fixpid_relay_result(FIXPID_DATA const struct fixpid_relay *self,
     static const struct rule rules[] = {
         {80, 116, 0},   // TYREUS_LUYBEN_PI
         {116, 116, 41}, // TYREUS_LUYBEN_PID
-        {115, 307, 0},  // ZIEGLER_NICHOLS_PI
-        {154, 512, 32}, // ZIEGLER_NICHOLS_PID
     };
     struct fixpid_pid_gains tuned;
 
@@ -354,6 +434,9 @@ bool fixpid_relay_result(FIXPID_DATA const struct fixpid_relay *self,
         return false;
     }
     if (rule > LAST_RULE) {
+        return false;
+    }
+    if (!serves(self, rule)) {
         return false;
     }
     if (!apply(self, &rules[rule], &tuned)) {

@@ -8,15 +8,16 @@
 #define ROBUSTNESS_Q4 16
 #define RUNNING 1 // of both
 
-// The relay has no idea of the noise: three standard deviations and a count.
+// The relay has no idea of the noise: three standard deviations and a count. A
+// swing that the sensor cuts off must end it.
 static void start_relay(struct experiment *self, const struct task *task)
 {
     const struct fixpid_relay_config config = {
         .output_low = 0,
         .output_high = (int16_t)task->output_max,
         .output_rest = 0,
-        .measurement_min = -1,
-        .measurement_max = (int16_t)(task->sensor_max + 1.0),
+        .measurement_min = 0,
+        .measurement_max = (int16_t)task->sensor_max,
         .hysteresis = (uint16_t)(1.0 + (3.0 * task->noise)),
         .timeout_steps = (uint16_t)task->timeout_steps,
         .cycles = CYCLES,

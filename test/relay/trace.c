@@ -189,7 +189,7 @@ static int16_t measure(struct world *world, int16_t output)
 
 static void say_results(void)
 {
-    for (uint8_t rule = 0; rule <= 4; rule++) {
+    for (uint8_t rule = 0; rule <= 2; rule++) {
         struct fixpid_pid_gains gains = {0, 0, 0, 0};
         const bool good = fixpid_relay_result(&tuner, rule, &gains);
         const int32_t values[] = {rule,        good,

@@ -161,8 +161,11 @@ void test_autotune_several_instances_keep_their_own_state(void)
     for (unsigned n = 0; n < 240; n++) {
         for (unsigned i = 0; i < 2; i++) {
             const bool high = n / half_steps[i] % 2u == 0u;
+            const bool switches = n % half_steps[i] == 0u;
+            const int16_t size = switches ? 20 : 0;
 
-            fixpid_relay_step(&experiments[i], 0, high ? -20 : 20);
+            fixpid_relay_step(&experiments[i], 0,
+                              (int16_t)(high ? -size : size));
         }
     }
     for (unsigned i = 0; i < 2; i++) {

@@ -38,7 +38,7 @@ end
 
 # [controller, value, bound, type that holds it]
 def bounds
-  notes_bounds + pid_bounds + autotune_bounds + beside_bounds
+  notes_bounds + pid_bounds + relay_bounds + beside_bounds
 end
 
 def notes_bounds
@@ -94,19 +94,22 @@ def pid_bounds
    ['PID', 'track: 2^16 * d, d above 0', 2**16 * (error - 1), 'int32_t']]
 end
 
-def autotune_bounds
+def relay_bounds
   period = 2 * 32_766
   period_q4 = (16 * 8 * period + 4) / 8
   kp_q16 = (32_768 * 256) - 128
-  [['autotuner', 'period of a cycle', period, 'uint16_t'],
-   ['autotuner', 'R, swing', 65_535, 'uint16_t'],
-   ['autotuner', '326 * 16 * R * N', 326 * 16 * 65_535 * 8, 'uint32_t'],
-   ['autotuner', 'Ku * kp_rule, where Ku is not refused', (2**23 - 1) * 154, 'uint32_t'],
-   ['autotuner', 'k * ki_rule, where kp is not refused', kp_q16 * 512, 'uint32_t'],
-   ['autotuner', 'Tu', period_q4, 'uint32_t'],
-   ['autotuner', '16 * rest', 16 * period_q4, 'uint32_t'],
-   ['autotuner', 'ki', (kp_q16 * 512 / 96 + 1) * 16, 'int32_t'],
-   ['autotuner', 'kp * Td, where neither is refused', 32_767 * 131_071, 'uint32_t']]
+  [['relay', 'period of a cycle', period, 'uint16_t'],
+   ['relay', 'R, swing', 65_535, 'uint16_t'],
+   ['relay', '326 * 16 * R * N', 326 * 16 * 65_535 * 8, 'uint32_t'],
+   ['relay', 'Ku * kp_rule, where Ku is not refused', (2**23 - 1) * 116, 'uint32_t'],
+   ['relay', 'k * ki_rule, where kp is not refused', kp_q16 * 116, 'uint32_t'],
+   ['relay', 'Tu', period_q4, 'uint32_t'],
+   ['relay', '16 * rest', 16 * period_q4, 'uint32_t'],
+   ['relay', 'ki', (kp_q16 * 116 / 96 + 1) * 16, 'int32_t'],
+   ['relay', 'kp * Td, where neither is refused', 32_767 * 131_071, 'uint32_t'],
+   ['relay', 'E', 65_535 * period, 'uint32_t'],
+   ['relay', '2 * P + T + D', 2 * period + 65_535 + period / 2, 'uint32_t'],
+   ['relay', '16 * E / (2 * P + T + D)', 16 * (65_535 * period) / (2 * period), 'int32_t']]
 end
 
 # What stands beside a controller.

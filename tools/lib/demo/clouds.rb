@@ -37,6 +37,11 @@ class Cloud
     Cloud.new(@rows + other.rows)
   end
 
+  # Plants for which a tuner has gains by any rule.
+  def served(tuner)
+    @results.select { |row| row['tuner'] == tuner }.map { |row| row['plant'] }.uniq.size
+  end
+
   def done
     @rows.count { |row| row['status'].to_i == DONE }
   end
@@ -79,7 +84,7 @@ class Cloud
   end
 
   def thin_percent
-    percent(thin, @results.size)
+    percent(thin, done)
   end
 
   def self.quantile(values, share)
@@ -143,15 +148,26 @@ def check_conduct(what, cloud)
   Report.exactly("#{what}: experiments without an end", cloud.hanging, 0)
 end
 
-# Of the relay that it ends, and within its range.
+# The relay may refuse what it cannot tune, and must refuse what is dangerous: by
+# its status, or a rule of it by the result.
 def check_relay(drawn, dangers)
   drawn.merge(dangers.transform_keys { |kind| DANGERS.fetch(kind) })
        .each do |name, all|
     %w[TYREUS_LUYBEN_PI TYREUS_LUYBEN_PID].each do |rule|
       found = all.only('relay', rule)
       what = "#{name}, relay, #{CLOUD_RULES.fetch(rule)}"
+      Report.exactly("#{what}: unstable", found.unstable, 0)
+      Report.at_most("#{what}: Ms above 2.2, of those DONE", found.thin_percent, 2.0, '%')
       check_conduct(what, found)
     end
+  end
+  check_served(drawn)
+end
+
+# Not all that is safe may be refused, either.
+def check_served(drawn)
+  drawn.each do |name, all|
+    Report.at_least("#{name}, relay: plants with gains by a rule", all.served('relay'), 240)
   end
 end
 
@@ -173,14 +189,14 @@ end
 
 def tell_holding
   rows = HOLDING_PERCENTS.map do |percent|
-    all = cloud("holding-#{percent}", CLOUD_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 1,
+    all = cloud("holding-#{percent}", CLOUD_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 2,
                 percent / 100.0)
     autotune = all.only('autotune', 'SIMC_PI')
-    relay = all.only('relay', 'TYREUS_LUYBEN_PI')
+    relay = all.only('relay', 'TYREUS_LUYBEN_PI') + all.only('relay', 'TYREUS_LUYBEN_PID')
     Report.exactly("held by #{percent} %, SIMC PI: unstable", autotune.unstable, 0)
     { 'percent' => percent, 'of' => HOLDING_PLANTS, 'autotune' => autotune.results.size,
       'robust' => autotune.robust_percent, 'thin' => autotune.thin,
-      'relay' => relay.results.size, 'relay_thin' => relay.thin }
+      'relay' => relay.served('relay'), 'relay_thin' => relay.thin }
   end
   Report.number('holding', rows)
 end
