@@ -5,13 +5,14 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune others recipes chip]
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune clouds others recipes chip]
              .freeze
 
   # Document, its parts between markers, and what makes each of them.
   PARTS = {
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
-                          'autotune' => :autotune },
+                          'autotune' => :autotune, 'clouds' => :clouds,
+                          'holding' => :holding },
     'docs/behaviour.md' => { 'five' => :five, 'bumps' => :bumps,
                              'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override }

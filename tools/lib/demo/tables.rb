@@ -31,6 +31,28 @@ module Tables
             'kd', 'overshoot', 'settled after', rows)
     end
 
+    def clouds
+      rows = Report.numbers['clouds']['rules'].map do |row|
+        low, middle, high = row['ms'].map { |ms| format('%.2f', ms) }
+        ["`#{row['tuner']}`", row['rule'], row['results'], "#{low}, #{middle}, #{high}",
+         format('%.1f %%', row['robust']), row['thin'] - row['unstable'], row['unstable'],
+         row['iae'].map { |errors| format('%.2f', errors) }.join(', '),
+         row['lasts'].map { |times| times.round.to_s }.join(', ')]
+      end
+      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'Ms in 1.2 to 1.8',
+            'above 2.2', 'unstable', 'errors: 50, 90 %', 'lasts: 50, 90 %', rows)
+    end
+
+    def holding
+      rows = Report.numbers['clouds']['holding'].map do |row|
+        ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
+         row['relay'], row['relay_thin']]
+      end
+      table('output that holds the setpoint', '`fixpid_autotune`: plants with gains',
+            'Ms in 1.2 to 1.8', 'above 2.2', '`fixpid_relay`: plants with gains',
+            'above 2.2', rows)
+    end
+
     def cascade
       rows = %w[without with].map do |which|
         peak, settled = %w[peak settled].map { |what| Report.numbers['recipes']["cascade_#{which}_#{what}"] }
