@@ -16,41 +16,23 @@ module Tables
               kp, ki, kd, filter = %w[kp ki_per_s kd_s filter].map do |name|
                 Report.numbers['autotune']["#{rule.downcase}_#{name}"]
               end
-              ["Tyreus-Luyben #{rule}", format('%.3f', kp), format('%.4f', ki),
+              [RULE_NAMES[rule], format('%.3f', kp), format('%.4f', ki),
                format('%.3f', kd), filter]
             end)
     end
 
     def autotune
       rows = Report.numbers['autotune']['plants'].map do |row|
-        [row['plant'], row['steps'], row['rule'], format('%.3f', row['kp']),
-         format('%.5f', row['ki']), format('%.2f', row['kd']),
-         format('%.1f %%', row['overshoot']), row['settled']]
+        [row['plant'], row['steps'], *process(row), RULE_NAMES[row['rule']], format('%.3f', row['kp']),
+         format('%.5f', row['ki']), format('%.2f', row['kd']), format('%.1f %%', row['overshoot']), row['settled']]
       end
-      table('plant', 'steps of the experiment', 'rule', 'kp', 'ki per step',
-            'kd', 'overshoot', 'settled after', rows)
+      table('plant', 'steps of the experiment', 'T found', 'L found', 'rule', 'kp', 'ki per step', 'kd', 'overshoot',
+            'settled after', rows)
     end
 
-    def clouds
-      rows = Report.numbers['clouds']['rules'].map do |row|
-        low, middle, high = row['ms'].map { |ms| format('%.2f', ms) }
-        ["`#{row['tuner']}`", row['rule'], row['results'], "#{low}, #{middle}, #{high}",
-         format('%.1f %%', row['robust']), row['thin'] - row['unstable'], row['unstable'],
-         row['iae'].map { |errors| format('%.2f', errors) }.join(', '),
-         row['lasts'].map { |times| times.round.to_s }.join(', ')]
-      end
-      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'Ms in 1.2 to 1.8',
-            'above 2.2', 'unstable', 'errors: 50, 90 %', 'lasts: 50, 90 %', rows)
-    end
-
-    def holding
-      rows = Report.numbers['clouds']['holding'].map do |row|
-        ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
-         row['relay'], row['relay_thin']]
-      end
-      table('output that holds the setpoint', '`fixpid_autotune`: plants with gains',
-            'Ms in 1.2 to 1.8', 'above 2.2', '`fixpid_relay`: plants with gains',
-            'above 2.2', rows)
+    # What the experiment found of a plant.
+    def process(row)
+      [row['t'].to_f.zero? ? '-' : format('%.1f', row['t']), format('%.1f', row['l'])]
     end
 
     def cascade
