@@ -30,9 +30,57 @@ module Tables
             'settled after', rows)
     end
 
-    # What the experiment found of a plant.
-    def process(row)
-      [row['t'].to_f.zero? ? '-' : format('%.1f', row['t']), format('%.1f', row['l'])]
+    def clouds
+      rows = Report.numbers['clouds']['rules'].map do |row|
+        low, middle, high = row['ms'].map { |ms| format('%.2f', ms) }
+        ["`#{row['tuner']}`", row['rule'], row['results'], "#{low}, #{middle}, #{high}",
+         format('%.1f %%', row['robust']), row['thin'] - row['unstable'], row['unstable'],
+         row['iae'].map { |errors| format('%.2f', errors) }.join(', '),
+         row['lasts'].map { |times| times.round.to_s }.join(', ')]
+      end
+      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'Ms in 1.2 to 1.8',
+            'above 2.2', 'unstable', 'errors: 50, 90 %', 'lasts: 50, 90 %', rows)
+    end
+
+    # Plants of one kind, of which a rule may be no good.
+    def dangers
+      numbers = Report.numbers['clouds']
+      rows = numbers[DANGERS.values[0]].zip(numbers[DANGERS.values[1]]).map do |pair|
+        ["`#{pair[0]['tuner']}`", pair[0]['rule'],
+         *pair.flat_map do |row|
+           [row['results'], row['results'].zero? ? '' : format('%.2f', row['ms'][1]),
+            row['thin'] - row['unstable'], row['unstable']]
+         end]
+      end
+      table('tuner', 'rule', *DANGERS.values.flat_map do |kind|
+        ["#{kind} with gains", 'Ms: 50 %', 'above 2.2', 'unstable']
+      end, rows)
+    end
+
+    def holding
+      rows = Report.numbers['clouds']['holding'].map do |row|
+        ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
+         row['relay'], row['relay_thin']]
+      end
+      table('output that holds the setpoint', '`fixpid_autotune`: plants with gains',
+            'Ms in 1.2 to 1.8', 'above 2.2', '`fixpid_relay`: plants with gains',
+            'above 2.2', rows)
+    end
+
+    def cascade
+      rows = %w[without with].map do |which|
+        peak, settled = %w[peak settled].map { |what| Report.numbers['recipes']["cascade_#{which}_#{what}"] }
+        ["#{which} `fixpid_pid_track`", format('%.0f', peak), format('%.0f', settled)]
+      end
+      table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps', rows)
+    end
+
+    def override
+      rows = %w[without with].map do |which|
+        pressure, flow = %w[pressure flow].map { |what| Report.numbers['recipes']["override_#{which}_#{what}"] }
+        ["#{which} `fixpid_pid_track`", format('%.0f', pressure), format('%.0f', flow)]
+      end
+      table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
     end
 
     def cascade
@@ -84,6 +132,11 @@ module Tables
       lines = [head, head.map { '---' }, *rows]
       lines.map { |row| "| #{row.join(' | ')} |\n" }.join
            .gsub(/^\| ---.*/) { |line| line.delete(' ') }
+    end
+
+    # What the experiment found of a plant.
+    def process(row)
+      [row['t'].to_f.zero? ? '-' : format('%.1f', row['t']), format('%.1f', row['l'])]
     end
 
     def loop_row(row)
