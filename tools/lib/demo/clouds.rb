@@ -118,7 +118,8 @@ def clouds
   loaded.each { |seed, all| check_loaded(seed, all.only('autotune', 'SIMC_PI')) }
   check_relay(drawn.transform_keys { |seed| "seed #{seed}" }, dangers)
   both = drawn.values.reduce(:+)
-  tell_rules(both)
+  tell_rules('rules', both)
+  dangers.each { |kind, all| tell_rules(DANGERS.fetch(kind), all) }
   tell_holding
   draw_clouds(both)
 end
@@ -171,10 +172,10 @@ def check_served(drawn)
   end
 end
 
-# The rows of the table in docs/tuning.md.
-def tell_rules(all)
+# The rows of a table in docs/tuning.md.
+def tell_rules(name, all)
   pairs = all.rows.map { |row| row.values_at('tuner', 'rule') }.uniq
-  Report.number('rules', pairs.map { |tuner, rule| rule_numbers(all.only(tuner, rule), tuner, rule) })
+  Report.number(name, pairs.map { |tuner, rule| rule_numbers(all.only(tuner, rule), tuner, rule) })
 end
 
 def rule_numbers(found, tuner, rule)

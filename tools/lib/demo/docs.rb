@@ -12,7 +12,7 @@ module Docs
   PARTS = {
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
                           'autotune' => :autotune, 'clouds' => :clouds,
-                          'holding' => :holding },
+                          'holding' => :holding, 'dangers' => :dangers },
     'docs/behaviour.md' => { 'five' => :five, 'bumps' => :bumps,
                              'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override }

@@ -83,22 +83,6 @@ module Tables
       table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
     end
 
-    def cascade
-      rows = %w[without with].map do |which|
-        peak, settled = %w[peak settled].map { |what| Report.numbers['recipes']["cascade_#{which}_#{what}"] }
-        ["#{which} `fixpid_pid_track`", format('%.0f', peak), format('%.0f', settled)]
-      end
-      table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps', rows)
-    end
-
-    def override
-      rows = %w[without with].map do |which|
-        pressure, flow = %w[pressure flow].map { |what| Report.numbers['recipes']["override_#{which}_#{what}"] }
-        ["#{which} `fixpid_pid_track`", format('%.0f', pressure), format('%.0f', flow)]
-      end
-      table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
-    end
-
     def five
       numbers = Report.numbers['others']
       rows = LOOP_LIMITS.keys.flat_map do |plant|
