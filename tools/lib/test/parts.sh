@@ -104,9 +104,10 @@ part_limits() {
     limits most 30000 255 1023 8191 127
 }
 
-part_relay() {
+part_autotune() {
     need ruby cc:gcc :libc6-dev
     count 'test/relay/run' '^ok ' '^FAILED ' test/relay/run
+    count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
 }
 
 part_avr() {
