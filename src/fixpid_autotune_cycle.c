@@ -126,9 +126,16 @@ static uint32_t amplitude_for(uint16_t wanted_swing, uint16_t swing,
     return amplitude;
 }
 
+// counts * share / 256, to the nearest: 65535 * 255 + 128 < 2^24
+static uint16_t part_of(uint16_t counts, uint8_t share_q8)
+{
+    return (uint16_t)((((uint32_t)counts * share_q8) + 128u) >> 8);
+}
+
 // What a half cycle overshoots is in proportion to the drive that is left on
 // its side. So where the setpoint cuts the swing, the output that holds it cuts
-// the relay: true of every lag with every dead time.
+// the relay: true of every lag with every dead time. The lowest deviation is
+// below 0 and the highest above, as the relay switched on both sides.
 static void recentre(FIXPID_DATA struct fixpid_autotune *self)
 {
     const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
@@ -143,15 +150,10 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
             : (uint16_t)(24u * (uint16_t)fixpid_autotune_hysteresis(self));
     uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
 
-    if (below < swing) {
-        // 65535 * 255 + 128 < 2^24
-        const uint32_t above_low =
-            ((uint32_t)relay_counts * share(below, swing)) + 128u;
-
-        SELF.centre = (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(
-                                              self, SELF.state, SIDE_LOW) +
-                                          (uint16_t)(above_low >> 8));
-    }
+    SELF.centre =
+        (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
+                                                            SIDE_LOW) +
+                            part_of(relay_counts, share(below, swing)));
     if (amplitude > widest) { // or the two relays would not differ
         amplitude = widest;
     }
