@@ -3,8 +3,8 @@
 // files, so that it runs on a chip, too.
 #ifndef AUTOTUNE_PLAYER_H
 #define AUTOTUNE_PLAYER_H
+#include "autotune_plant.h"
 #include "fixpid_autotune.h"
-#include "plant.h"
 
 struct player_row {
     struct fixpid_autotune_config config;

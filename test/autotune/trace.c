@@ -13,9 +13,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "autotune_plant.h"
 #include "fixpid_autotune.h"
 #include "numbers.h"
-#include "plant.h"
 
 // In object mode the library is built for the object of this name.
 FIXPID_DATA struct fixpid_autotune autotune_controller;

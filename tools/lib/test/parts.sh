@@ -24,6 +24,7 @@ $defines
       - FIXPID_AN964_8BIT_OBJECT=an964_8bit_controller
       - FIXPID_PID_OBJECT=pid_controller
       - FIXPID_RELAY_OBJECT=relay_controller
+      - FIXPID_AUTOTUNE_OBJECT=autotune_controller
     '/test_pendulum\\.c/':
       - FIXPID_AN964_OBJECT=pendulum
     'test_pendulum_8bit':

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plant.h"
+#include "autotune_plant.h"
 
 #define INTEGRAL_MAX (INT64_C(1) << 47)
 
