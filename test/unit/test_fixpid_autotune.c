@@ -1120,6 +1120,49 @@ void test_result_a_measurement_that_turns_at_once_has_no_delay_to_turn(void)
                                             507520, 1173, 960, 0, 0, 1});
 }
 
+// Cycles whose halves begin with these deviations, between usual ones.
+static void found_turns(int16_t after_high, int16_t after_low)
+{
+    quiet();
+    usual();
+    usual();
+    usual();
+    usual();
+    for (unsigned i = 0; i < 6; i++) {
+        is(FIXPID_AUTOTUNE_RUNNING);
+        step(after_high);
+        steps(18, -30);
+        step(50);
+        step(after_low);
+        steps(18, 30);
+        step(-50);
+    }
+    is_over(FIXPID_AUTOTUNE_DONE);
+}
+
+static void is_integrator(uint32_t dead_q4, uint32_t slope_q24,
+                          uint32_t ultimate_q8)
+{
+    is_model((struct fixpid_autotune_model){
+        FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, dead_q4,
+        slope_q24, ultimate_q8, 640, 0, 0, 1});
+}
+
+// In each half one turn, of 2047 counts at most.
+void test_model_what_the_hysteresis_takes_is_seen_after_each_switch(void)
+{
+    found_turns(0, 0);
+    is_integrator(176, 1118464, 623);
+    found_turns(1, -1);
+    is_integrator(176, 1118912, 623);
+    found_turns(-3000, 3000);
+    is_integrator(8, 6571264, 211);
+    found_turns(-3000, 30);
+    is_integrator(8, 4394368, 316);
+    found_turns(-30, 3000);
+    is_integrator(8, 4394368, 316);
+}
+
 void test_model_dead_time_is_half_a_step_at_least(void)
 {
     found((struct wave){-5, 7, 10, -12, 6, 4},
@@ -1137,6 +1180,12 @@ void test_model_holding_output_is_within_the_range(void)
     found((struct wave){0, 194, 241, -2, 6, 14},
           (struct wave){-1, 152, 126, -9, 4, 10});
     TEST_ASSERT_EQUAL_INT16(-3, model().holding);
+    config.output_min = -6579;
+    config.output_max = 3;
+    config.output_rest = 3;
+    found((struct wave){-152, 1, 9, -126, 10, 4},
+          (struct wave){-194, 0, 2, -241, 14, 6});
+    TEST_ASSERT_EQUAL_INT16(3, model().holding);
 }
 
 static bool gives_of(int16_t min, int16_t max, uint16_t swing, uint8_t rule,
