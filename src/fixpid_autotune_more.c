@@ -274,7 +274,7 @@ static const struct operation dead_time[] FIXPID_AUTOTUNE_FLASH = {
 };
 
 // LAG = 1 / (SLOPE FLAT), Y = 1 / FLAT
-static const struct operation lag[] FIXPID_AUTOTUNE_FLASH = {
+static const struct operation lag_and_gain[] FIXPID_AUTOTUNE_FLASH = {
     {MULTIPLY, X, SLOPE, FLAT},
     {DIVIDE, LAG, ONE, X},
     {DIVIDE, Y, ONE, FLAT},
@@ -495,7 +495,7 @@ static int32_t output_q8(FIXPID_DATA const struct fixpid_autotune *self,
     FIXPID_DATA const struct fixpid_autotune_sums *const sums =
         &SELF.sums[relay];
 
-    return ((int32_t)fixpid_autotune_level(self, phase, SIDE_LOW) * 256) +
+    return ((int32_t)fixpid_autotune_level(self, phase, AT_LOW) * 256) +
            (int32_t)part_of((uint32_t)relay_counts * sums->on_steps,
                             sums->steps, 256);
 }
@@ -594,7 +594,7 @@ static bool identify(FIXPID_DATA struct sheet *sheet,
     calculate(sheet, expected_round);
     calculate(sheet, dead_time);
     if (!is_zero(sheet, FLAT)) {
-        calculate(sheet, lag);
+        calculate(sheet, lag_and_gain);
     }
     return true;
 }
@@ -676,8 +676,8 @@ static void process_rule(FIXPID_DATA struct sheet *sheet,
     }
 }
 
-static void apply(FIXPID_DATA struct sheet *sheet, uint8_t rule,
-                  uint8_t robustness_q4)
+static void apply_rule(FIXPID_DATA struct sheet *sheet, uint8_t rule,
+                       uint8_t robustness_q4)
 {
     set(sheet, ROBUST, (uint32_t)robustness_q4 + 16u, -4);
     switch (rule) {
@@ -745,7 +745,7 @@ static bool fold(FIXPID_DATA struct sheet *sheet,
     return true;
 }
 
-static bool legal(uint8_t rule, uint8_t robustness_q4)
+static bool rule_legal(uint8_t rule, uint8_t robustness_q4)
 {
     if (rule > (uint8_t)FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID) {
         return false;
@@ -764,13 +764,13 @@ bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    if (!legal(rule, robustness_q4)) {
+    if (!rule_legal(rule, robustness_q4)) {
         return false;
     }
     if (!identify(&sheet, self)) {
         return false;
     }
-    apply(&sheet, rule, robustness_q4);
+    apply_rule(&sheet, rule, robustness_q4);
     if (!fold(&sheet, &config->gains)) {
         return false;
     }
