@@ -1226,6 +1226,27 @@ void test_result_ki_below_8_is_refused(void)
                                (struct wave){-1497, 0, 2, -2079, 10, 9}));
 }
 
+// At most 0x7FFF0000, with the least robustness.
+void test_result_ki_beyond_its_range_is_refused(void)
+{
+    const struct fixpid_pid_gains most = {.kp_q8 = 30635,
+                                          .ki_q24 = 2147418112,
+                                          .kd_q8 = 0,
+                                          .derivative_filter = 0};
+
+    config.output_min = -7722;
+    config.output_max = 32169;
+    config.swing = 300;
+    found((struct wave){-11, 64, 115, -5, 6, 6},
+          (struct wave){0, 39, 85, -30, 5, 6});
+    robust_gains_are(8, FIXPID_AUTOTUNE_SIMC_PI, most, false);
+    config.output_min = -7728;
+    config.output_max = 32733;
+    found((struct wave){-14, 64, 118, -2, 6, 6},
+          (struct wave){0, 37, 85, -30, 5, 6});
+    TEST_ASSERT_FALSE(gives(FIXPID_AUTOTUNE_SIMC_PI, 8));
+}
+
 void test_result_kd_beyond_its_range_is_refused(void)
 {
     const uint8_t rule = FIXPID_AUTOTUNE_AMIGO_PID;
