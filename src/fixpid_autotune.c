@@ -8,7 +8,7 @@
 #define SWING_MAX 16383u
 #define TIMEOUT_MIN 2u
 #define TIMEOUT_MAX 32767u
-#define CYCLES_MAX 4u
+#define AVERAGED_MAX 4u
 
 #define NOISE_FILLED 2u // deviations before the first second difference
 #define NOISE_STEPS 34u
@@ -16,7 +16,7 @@
 #define STEPS_MAX 32767u
 #define TURN_MAX 2047 // 8 cycles of two turns are within 32752
 
-static bool within(uint16_t value, uint16_t least, uint16_t most)
+static bool between(uint16_t value, uint16_t least, uint16_t most)
 {
     if (value < least) {
         return false;
@@ -38,20 +38,20 @@ static bool ranges_legal(const struct fixpid_autotune_config *config)
     return config->output_rest <= config->output_max;
 }
 
-static bool legal(const struct fixpid_autotune_config *config)
+static bool config_legal(const struct fixpid_autotune_config *config)
 {
     if (!ranges_legal(config)) {
         return false;
     }
     if (config->swing != 0u) {
-        if (!within(config->swing, SWING_MIN, SWING_MAX)) {
+        if (!between(config->swing, SWING_MIN, SWING_MAX)) {
             return false;
         }
     }
-    if (!within(config->timeout_steps, TIMEOUT_MIN, TIMEOUT_MAX)) {
+    if (!between(config->timeout_steps, TIMEOUT_MIN, TIMEOUT_MAX)) {
         return false;
     }
-    if (!within(config->cycles, 1u, CYCLES_MAX)) {
+    if (!between(config->cycles, 1u, AVERAGED_MAX)) {
         return false;
     }
     return (config->options & (uint8_t)~FIXPID_AUTOTUNE_REVERSE) == 0u;
@@ -60,10 +60,11 @@ static bool legal(const struct fixpid_autotune_config *config)
 bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
                           const struct fixpid_autotune_config *config)
 {
-    const bool accepted = legal(config);
+    bool accepted;
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
+    accepted = config_legal(config);
     // SDCC's pic16 port cannot assign a structure.
     SELF.config.output_min = config->output_min;
     SELF.config.output_max = config->output_max;
@@ -100,7 +101,7 @@ void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
     SELF.noise = 0;
     SELF.highest = 0;
     SELF.lowest = 0;
-    SELF.side = SIDE_LOW;
+    SELF.side = AT_LOW;
     SELF.seen = 0;
     SELF.averaged = FRESH;
 }
@@ -130,7 +131,7 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
     }
     if (SELF.elapsed == NOISE_STEPS) {
         SELF.state = PHASE_FIND;
-        SELF.side = (deviation <= 0) ? SIDE_HIGH : SIDE_LOW;
+        SELF.side = (deviation <= 0) ? AT_HIGH : AT_LOW;
         SELF.elapsed = 0;
         SELF.highest = deviation;
         SELF.lowest = deviation;
@@ -140,14 +141,15 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
 
 // A deviation counts for the side whose output led to it. The one after a
 // switch is free of the noise that made the relay switch.
-static void add(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
+static void add_deviation(FIXPID_DATA struct fixpid_autotune *self,
+                          int16_t deviation)
 {
     FIXPID_DATA struct fixpid_autotune_sums *const sums =
         fixpid_autotune_sums_of_phase(self);
 
     sums->all += deviation; // within 32767^2
     sums->steps++;
-    if (SELF.side == SIDE_HIGH) {
+    if (SELF.side == AT_HIGH) {
         sums->on += deviation;
         sums->on_steps++;
     }
@@ -160,7 +162,7 @@ static void add(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
         if (turn < -TURN_MAX) {
             turn = -TURN_MAX;
         }
-        if (SELF.side == SIDE_HIGH) {
+        if (SELF.side == AT_HIGH) {
             turn = (int16_t)-turn;
         }
         sums->rise = (int16_t)(sums->rise + turn);
@@ -170,20 +172,20 @@ static void add(FIXPID_DATA struct fixpid_autotune *self, int16_t deviation)
     }
 }
 
-static void switch_relay(FIXPID_DATA struct fixpid_autotune *self,
-                         int16_t deviation)
+static void turn_relay(FIXPID_DATA struct fixpid_autotune *self,
+                       int16_t deviation)
 {
     const int16_t hysteresis = fixpid_autotune_hysteresis(self);
 
-    if (SELF.side == SIDE_HIGH) {
+    if (SELF.side == AT_HIGH) {
         if (deviation > hysteresis) {
-            SELF.side = SIDE_LOW;
+            SELF.side = AT_LOW;
             SELF.elapsed = 0;
             fixpid_autotune_drive(self);
         }
     } else {
         if (deviation < -hysteresis) {
-            SELF.side = SIDE_HIGH;
+            SELF.side = AT_HIGH;
             fixpid_autotune_end_cycle(self, deviation);
         }
     }
@@ -202,11 +204,11 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
     if (SELF.elapsed != 0u) {
         SELF.period++;
         if (SELF.averaged != FRESH) {
-            add(self, deviation);
+            add_deviation(self, deviation);
         }
     }
     if (SELF.state >= PHASE_NOISE) {
-        switch_relay(self, deviation);
+        turn_relay(self, deviation);
     }
     if (SELF.state >= PHASE_CENTRE) {
         if ((SELF.elapsed >> 2) > SELF.last_period) {
@@ -216,8 +218,8 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
 }
 
 // A measurement at its limits says more than a relay that does not switch.
-static void watch_limits(FIXPID_DATA struct fixpid_autotune *self,
-                         int16_t measurement)
+static void watch_ends(FIXPID_DATA struct fixpid_autotune *self,
+                       int16_t measurement)
 {
     if (SELF.elapsed >= SELF.config.timeout_steps) {
         fixpid_autotune_finish(self, FIXPID_AUTOTUNE_NO_OSCILLATION);
@@ -254,7 +256,7 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
 
     FIXPID_ASSERT(VALID(self));
     if (SELF.state >= PHASE_NOISE) {
-        watch_limits(self, measurement);
+        watch_ends(self, measurement);
     }
     if (SELF.state >= PHASE_NOISE) {
         deviation = deviation_from(setpoint, measurement);

@@ -4,9 +4,9 @@
 
 #include "fixpid_autotune_private.h"
 
-#define CYCLES_SEEN_MAX 48u
-#define CYCLES_LOST 8u // so many counts a swing that was lost
-#define PERIOD_MIN 10u
+#define SEEN_MAX 48u
+#define SEEN_LOST 8u // so many counts a swing that was lost
+#define LAST_PERIOD_MIN 10u
 
 // Wide enough for every swing asked for: a swing is at most 65534, and a range
 // at most 65535.
@@ -38,7 +38,7 @@ static uint16_t reach(FIXPID_DATA const struct fixpid_autotune *self,
                       uint8_t phase, uint8_t side)
 {
     const uint8_t wide =
-        (phase == PHASE_SECOND) ? (uint8_t)SIDE_LOW : (uint8_t)SIDE_HIGH;
+        (phase == PHASE_SECOND) ? (uint8_t)AT_LOW : (uint8_t)AT_HIGH;
 
     if (phase == PHASE_CENTRE) {
         return (uint16_t)(SELF.half + (SELF.half >> 1));
@@ -58,7 +58,7 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
     uint16_t room = (uint16_t)(centre - (uint16_t)end);
     uint16_t level = (uint16_t)(centre - distance);
 
-    if (side == SIDE_HIGH) {
+    if (side == AT_HIGH) {
         end = SELF.config.output_max;
         room = (uint16_t)((uint16_t)end - centre);
         level = (uint16_t)(centre + distance);
@@ -72,8 +72,8 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
 uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase)
 {
-    return (uint16_t)((uint16_t)fixpid_autotune_level(self, phase, SIDE_HIGH) -
-                      (uint16_t)fixpid_autotune_level(self, phase, SIDE_LOW));
+    return (uint16_t)((uint16_t)fixpid_autotune_level(self, phase, AT_HIGH) -
+                      (uint16_t)fixpid_autotune_level(self, phase, AT_LOW));
 }
 
 void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self)
@@ -126,9 +126,16 @@ static uint32_t amplitude_for(uint16_t wanted_swing, uint16_t swing,
     return amplitude;
 }
 
+// counts * share / 256, to the nearest: 65535 * 255 + 128 < 2^24
+static uint16_t counts_of(uint16_t counts, uint8_t share_q8)
+{
+    return (uint16_t)((((uint32_t)counts * share_q8) + 128u) >> 8);
+}
+
 // What a half cycle overshoots is in proportion to the drive that is left on
 // its side. So where the setpoint cuts the swing, the output that holds it cuts
-// the relay: true of every lag with every dead time.
+// the relay: true of every lag with every dead time. The lowest deviation is
+// below 0 and the highest above, as the relay switched on both sides.
 static void recentre(FIXPID_DATA struct fixpid_autotune *self)
 {
     const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
@@ -143,15 +150,10 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
             : (uint16_t)(24u * (uint16_t)fixpid_autotune_hysteresis(self));
     uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
 
-    if (below < swing) {
-        // 65535 * 255 + 128 < 2^24
-        const uint32_t above_low =
-            ((uint32_t)relay_counts * share(below, swing)) + 128u;
-
-        SELF.centre = (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(
-                                              self, SELF.state, SIDE_LOW) +
-                                          (uint16_t)(above_low >> 8));
-    }
+    SELF.centre =
+        (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
+                                                            AT_LOW) +
+                            counts_of(relay_counts, share(below, swing)));
     if (amplitude > widest) { // or the two relays would not differ
         amplitude = widest;
     }
@@ -219,7 +221,7 @@ static bool lopsided(FIXPID_DATA const struct fixpid_autotune_sums *sums)
     return (uint16_t)(sums->steps - sums->on_steps) < least;
 }
 
-static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
+static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t swing =
         (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
@@ -230,7 +232,7 @@ static uint8_t verdict(FIXPID_DATA const struct fixpid_autotune *self)
     if (lopsided(&SELF.sums[1])) {
         return FIXPID_AUTOTUNE_IRREGULAR;
     }
-    if (SELF.last_period < PERIOD_MIN) {
+    if (SELF.last_period < LAST_PERIOD_MIN) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
     if (swing < (uint16_t)(4u * (uint16_t)fixpid_autotune_hysteresis(self))) {
@@ -248,7 +250,7 @@ static void average(FIXPID_DATA struct fixpid_autotune *self)
     }
     SELF.averaged = FRESH;
     if (SELF.state == PHASE_THIRD) {
-        fixpid_autotune_finish(self, verdict(self));
+        fixpid_autotune_finish(self, ending(self));
         return;
     }
     if (SELF.state == PHASE_FIRST) {
@@ -275,7 +277,7 @@ static void end_cycle(FIXPID_DATA struct fixpid_autotune *self)
     SELF.last_period = SELF.period;
     SELF.period = 0;
     SELF.seen++;
-    if (SELF.seen >= CYCLES_SEEN_MAX) {
+    if (SELF.seen >= SEEN_MAX) {
         fixpid_autotune_finish(self, FIXPID_AUTOTUNE_IRREGULAR);
     } else if (SELF.averaged == FRESH) {
         SELF.averaged = 0;
@@ -313,6 +315,6 @@ void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self)
     SELF.averaged = FRESH;
     SELF.period = 0;
     SELF.elapsed = 1;
-    SELF.seen = (uint8_t)(SELF.seen + CYCLES_LOST);
+    SELF.seen = (uint8_t)(SELF.seen + SEEN_LOST);
     fixpid_autotune_drive(self);
 }

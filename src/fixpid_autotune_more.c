@@ -14,6 +14,9 @@
 #define KI_MIN 8u
 #define WEIGHT_ONE 256u
 
+// Farther than any two outputs are from each other, in 1/256 of a count.
+#define FAR_Q8 UINT32_C(0x40000000)
+
 enum verb { MULTIPLY, DIVIDE, ADD, SUBTRACT, MINIMUM, MAXIMUM, END };
 
 enum number {
@@ -45,7 +48,7 @@ enum number {
     LIMIT, // of the round that RATIO expects
     RATIO, // MID K / T / 2: 0 integrating, 1 a pure delay
     DEAD,  // L
-    LAG,   // T, 0 if integrating
+    LAG,   // T, unless integrating
     LATER, // what a second lag adds to L
 
     // The gains of a rule.
@@ -84,7 +87,7 @@ enum number {
     C1_04,
     C1_1,
     C2_5,
-    C3_2423,
+    C3_2424,
     C6,
     C7,
     C12,
@@ -119,7 +122,7 @@ static const struct constant {
     {34079u, -15}, // 1.04
     {36045u, -15}, // 1.1
     {40960u, -14}, // 2.5
-    {53124u, -14}, // 32 / pi^2
+    {53124u, -14}, // 3.24243
     {49152u, -13}, // 6
     {57344u, -13}, // 7
     {49152u, -12}, // 12
@@ -139,7 +142,7 @@ struct sheet {
 };
 
 // MID = HIGH_STEPS LOW_STEPS / STEPS / CYCLES
-// ULTIMATE = 32 / pi^2 STEPS RELAY (MID CYCLES / STEPS)^2 / AREA
+// ULTIMATE = 3.24243 STEPS RELAY (MID CYCLES / STEPS)^2 / AREA
 // TURN = RISE / (CYCLES RELAY)
 // SLOPE = X + Y / (X + Y / X), of which the Ys are what the hysteresis takes
 //     from the area: X = 2 AREA / CYCLES / (RELAY MID^2), Y = TURN^2 / MID^2
@@ -154,7 +157,7 @@ static const struct operation relay_numbers[] FIXPID_AUTOTUNE_FLASH = {
     {MULTIPLY, Y, STEPS, RELAY},
     {MULTIPLY, Y, Y, X},
     {DIVIDE, Y, Y, AREA},
-    {MULTIPLY, ULTIMATE, Y, C3_2423},
+    {MULTIPLY, ULTIMATE, Y, C3_2424},
     {MULTIPLY, X, CYCLES, RELAY},
     {DIVIDE, TURN, RISE, X},
     {MULTIPLY, X, MID, MID},
@@ -271,7 +274,7 @@ static const struct operation dead_time[] FIXPID_AUTOTUNE_FLASH = {
 };
 
 // LAG = 1 / (SLOPE FLAT), Y = 1 / FLAT
-static const struct operation lag[] FIXPID_AUTOTUNE_FLASH = {
+static const struct operation lag_and_gain[] FIXPID_AUTOTUNE_FLASH = {
     {MULTIPLY, X, SLOPE, FLAT},
     {DIVIDE, LAG, ONE, X},
     {DIVIDE, Y, ONE, FLAT},
@@ -492,7 +495,7 @@ static int32_t output_q8(FIXPID_DATA const struct fixpid_autotune *self,
     FIXPID_DATA const struct fixpid_autotune_sums *const sums =
         &SELF.sums[relay];
 
-    return ((int32_t)fixpid_autotune_level(self, phase, SIDE_LOW) * 256) +
+    return ((int32_t)fixpid_autotune_level(self, phase, AT_LOW) * 256) +
            (int32_t)part_of((uint32_t)relay_counts * sums->on_steps,
                             sums->steps, 256);
 }
@@ -506,13 +509,7 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
         &SELF.sums[relay];
     int32_t area;
 
-    if (sums->on_steps == 0u) {
-        return false;
-    }
-    if (sums->on_steps >= sums->steps) {
-        return false;
-    }
-    // each within 32767^2, and 16376
+    // Each within 32767^2, and 16376. Each cycle has steps at high and at low.
     area = with_sign_of(sums->all, part_of(magnitude(sums->all), sums->steps,
                                            sums->on_steps)) -
            sums->on - (sums->rise / 2);
@@ -596,9 +593,8 @@ static bool identify(FIXPID_DATA struct sheet *sheet,
     limit_ratio(sheet);
     calculate(sheet, expected_round);
     calculate(sheet, dead_time);
-    set(sheet, LAG, 0, 0);
     if (!is_zero(sheet, FLAT)) {
-        calculate(sheet, lag);
+        calculate(sheet, lag_and_gain);
     }
     return true;
 }
@@ -612,10 +608,15 @@ static int16_t holding(FIXPID_DATA struct sheet *sheet,
     int32_t output =
         floor_shift(output_q8(self, 0), 1) + floor_shift(output_q8(self, 1), 1);
     FIXPID_DATA struct number16 *const part = &sheet->numbers[X];
+    uint32_t taken;
 
     set(sheet, X, magnitude(off), 0);
     multiply(part, &sheet->numbers[FLAT], part);
-    output -= with_sign_of(off, integer(part, 0));
+    taken = integer(part, 0);
+    if (taken > FAR_Q8) {
+        taken = FAR_Q8;
+    }
+    output -= with_sign_of(off, taken);
     output = floor_shift(output + 128, 8);
     if (output < SELF.config.output_min) {
         return SELF.config.output_min;
@@ -675,8 +676,8 @@ static void process_rule(FIXPID_DATA struct sheet *sheet,
     }
 }
 
-static void apply(FIXPID_DATA struct sheet *sheet, uint8_t rule,
-                  uint8_t robustness_q4)
+static void apply_rule(FIXPID_DATA struct sheet *sheet, uint8_t rule,
+                       uint8_t robustness_q4)
 {
     set(sheet, ROBUST, (uint32_t)robustness_q4 + 16u, -4);
     switch (rule) {
@@ -744,7 +745,7 @@ static bool fold(FIXPID_DATA struct sheet *sheet,
     return true;
 }
 
-static bool legal(uint8_t rule, uint8_t robustness_q4)
+static bool rule_legal(uint8_t rule, uint8_t robustness_q4)
 {
     if (rule > (uint8_t)FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID) {
         return false;
@@ -763,13 +764,13 @@ bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    if (!legal(rule, robustness_q4)) {
+    if (!rule_legal(rule, robustness_q4)) {
         return false;
     }
     if (!identify(&sheet, self)) {
         return false;
     }
-    apply(&sheet, rule, robustness_q4);
+    apply_rule(&sheet, rule, robustness_q4);
     if (!fold(&sheet, &config->gains)) {
         return false;
     }

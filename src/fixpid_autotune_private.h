@@ -20,8 +20,8 @@
 #define PHASE_SECOND 20u // one up, two down
 #define PHASE_THIRD 21u  // the first again: is the load the same?
 
-#define SIDE_LOW 0u
-#define SIDE_HIGH 1u
+#define AT_LOW 0u
+#define AT_HIGH 1u
 
 #define FRESH 255u // `averaged`: a relay's first cycle, which never counts
 

@@ -12,6 +12,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
 #include "fixpid_gains.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
@@ -23,7 +24,8 @@ struct fixpid_an937 an937;
 struct fixpid_an964 an964;
 struct fixpid_an964_8bit an964_8bit;
 struct fixpid_pid pid;
-struct fixpid_relay autotune;
+struct fixpid_relay relay;
+struct fixpid_autotune autotune;
 static struct fixpid_slew slew;
 static struct fixpid_tpo tpo;
 
@@ -32,7 +34,8 @@ static struct fixpid_an937 second_an937;
 static struct fixpid_an964 second_an964;
 static struct fixpid_an964_8bit second_an964_8bit;
 static struct fixpid_pid second_pid;
-static struct fixpid_relay second_autotune;
+static struct fixpid_relay second_relay;
+static struct fixpid_autotune second_autotune;
 #define WRONG(controller) (&second_##controller)
 #else
 #define WRONG(controller) NULL
@@ -41,20 +44,24 @@ static struct fixpid_relay second_autotune;
 static const struct fixpid_an937_config config = {96, 80, 16, 4000, 4};
 static const struct fixpid_an964_gains gains = {600, 40, 100};
 static const struct fixpid_an964_8bit_gains gains_8bit = {75, 5, 12};
-static const struct fixpid_relay_config experiment = {0, 255,  0, 0, 1023,
-                                                      4, 1000, 3, 0};
+static const struct fixpid_autotune_config experiment = {0, 255,  0, -1, 1024,
+                                                         0, 1000, 2, 0};
+static struct fixpid_autotune_model model;
+static struct fixpid_pid_config whole;
+static const struct fixpid_relay_config simple = {0, 255,  0, 0, 1023,
+                                                  4, 1000, 3, 0};
 static struct fixpid_pid_gains tuned;
 
 static const struct fixpid_pid_config valve = {
     FIXPID_PID_GAINS(2, 0.5, 0.1, 10, 1), 0, 255, -32767, 32767, 256, 0};
 
-static const struct fixpid_tpo_config relay = {255, 10, 1, 1};
+static const struct fixpid_tpo_config window = {255, 10, 1, 1};
 static const struct fixpid_gains_milli typed = {2000, 500, 100};
 static struct fixpid_gains_milli shown;
 static struct fixpid_record record;
 static struct fixpid_pid_config unpacked;
 
-#define CALLS 76
+#define CALLS 85
 
 static void call(int number, bool wrong)
 {
@@ -62,7 +69,8 @@ static void call(int number, bool wrong)
     struct fixpid_an964 *const b = wrong ? WRONG(an964) : &an964;
     struct fixpid_an964_8bit *const c = wrong ? WRONG(an964_8bit) : &an964_8bit;
     struct fixpid_pid *const d = wrong ? WRONG(pid) : &pid;
-    struct fixpid_relay *const e = wrong ? WRONG(autotune) : &autotune;
+    struct fixpid_relay *const e = wrong ? WRONG(relay) : &relay;
+    struct fixpid_autotune *const h = wrong ? WRONG(autotune) : &autotune;
     struct fixpid_slew *const f = wrong ? NULL : &slew; // no object mode
     struct fixpid_tpo *const g = wrong ? NULL : &tpo;
 
@@ -119,14 +127,14 @@ static void call(int number, bool wrong)
     case 46: fixpid_pid_flags(d); break;
     case 47: fixpid_pid_init(&pid, wrong ? NULL : &valve); break;
     case 48: fixpid_pid_set_gains(&pid, wrong ? NULL : &valve.gains); break;
-    case 49: fixpid_relay_init(e, &experiment); break;
+    case 49: fixpid_relay_init(e, &simple); break;
     case 50: fixpid_relay_reset(e); break;
     case 51: fixpid_relay_step(e, 1, 2); break;
     case 52: fixpid_relay_status(e); break;
     case 53: fixpid_relay_result(e, 0, &tuned); break;
-    case 54: fixpid_relay_init(&autotune, wrong ? NULL : &experiment); break;
+    case 54: fixpid_relay_init(&relay, wrong ? NULL : &simple); break;
     case 55: // nowhere to put the gains
-        fixpid_relay_result(&autotune, 0, wrong ? NULL : &tuned);
+        fixpid_relay_result(&relay, 0, wrong ? NULL : &tuned);
         break;
     case 56: fixpid_pid_track(d, 1, 2); break;
     case 57: fixpid_pid_output(d); break;
@@ -136,8 +144,8 @@ static void call(int number, bool wrong)
     case 61: fixpid_slew_seed(f, 1); break;
     case 62: fixpid_slew_step(f, 1); break;
     case 63: fixpid_slew_value(f); break;
-    case 64: fixpid_tpo_init(g, &relay); break;
-    case 65: fixpid_tpo_init(&tpo, wrong ? NULL : &relay); break;
+    case 64: fixpid_tpo_init(g, &window); break;
+    case 65: fixpid_tpo_init(&tpo, wrong ? NULL : &window); break;
     case 66: fixpid_tpo_reset(g); break;
     case 67: fixpid_tpo_step(g, 1); break;
     case 68:
@@ -156,6 +164,21 @@ static void call(int number, bool wrong)
     case 73: fixpid_record_pack(&record, wrong ? NULL : &valve); break;
     case 74: fixpid_record_unpack(wrong ? NULL : &record, &unpacked); break;
     case 75: fixpid_record_unpack(&record, wrong ? NULL : &unpacked); break;
+    case 76: fixpid_autotune_init(h, &experiment); break;
+    case 77: fixpid_autotune_reset(h); break;
+    case 78: fixpid_autotune_step(h, 1, 2); break;
+    case 79: fixpid_autotune_status(h); break;
+    case 80: fixpid_autotune_model(h, &model); break;
+    case 81: fixpid_autotune_result(h, 0, 16, &whole); break;
+    case 82:
+        fixpid_autotune_init(&autotune, wrong ? NULL : &experiment);
+        break;
+    case 83: // nowhere to put the model
+        fixpid_autotune_model(&autotune, wrong ? NULL : &model);
+        break;
+    case 84:
+        fixpid_autotune_result(&autotune, 0, 16, wrong ? NULL : &whole);
+        break;
     default: exit(1);
     }
     // clang-format on

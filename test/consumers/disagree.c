@@ -4,6 +4,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
 #include "fixpid_relay.h"
 

@@ -3,6 +3,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
 #include "fixpid_pid.h"
 #include "fixpid_relay.h"
 #include "fixpid_slew.h"
@@ -24,6 +25,9 @@ TEST_SOURCE_FILE("src/fixpid_pid.c")
 TEST_SOURCE_FILE("src/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/fixpid_pid_track.c")
 TEST_SOURCE_FILE("src/fixpid_relay.c")
+TEST_SOURCE_FILE("src/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/fixpid_autotune_cycle.c")
+TEST_SOURCE_FILE("src/fixpid_autotune_more.c")
 TEST_SOURCE_FILE("src/fixpid_slew.c")
 TEST_SOURCE_FILE("src/fixpid_tpo.c")
 
@@ -146,7 +150,7 @@ void test_pid_several_instances_keep_their_own_state(void)
 }
 
 // A slow experiment and a fast one, step by step in turn.
-void test_autotune_several_instances_keep_their_own_state(void)
+void test_relay_several_instances_keep_their_own_state(void)
 {
     static const uint16_t half_steps[2] = {30, 7};
     struct fixpid_relay experiments[2];
@@ -220,5 +224,37 @@ void test_tpo_several_instances_keep_their_own_state(void)
 
         TEST_ASSERT_EQUAL(reference_tpo_step(&references[i], duty),
                           fixpid_tpo_step(&tpos[i], duty));
+    }
+}
+
+// A slow experiment and a fast one, step by step in turn. The swing is the
+// same, so the periods alone make the difference.
+void test_autotune_several_instances_keep_their_own_state(void)
+{
+    static const uint16_t half_steps[2] = {30, 10};
+    static const uint32_t period_q4[2] = {960, 320};
+    struct fixpid_autotune experiments[2];
+
+    for (unsigned i = 0; i < 2; i++) {
+        const struct fixpid_autotune_config config = {
+            -300, 300, 0, INT16_MIN, INT16_MAX, 50, 1000, 1, 0};
+
+        TEST_ASSERT_TRUE(fixpid_autotune_init(&experiments[i], &config));
+    }
+    for (unsigned n = 0; n < 700; n++) {
+        for (unsigned i = 0; i < 2; i++) {
+            const bool low = n / half_steps[i] % 2u == 0u;
+
+            fixpid_autotune_step(&experiments[i], 0,
+                                 n < 34 ? 0 : (int16_t)(low ? -50 : 50));
+        }
+    }
+    for (unsigned i = 0; i < 2; i++) {
+        struct fixpid_autotune_model model;
+
+        TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
+                                fixpid_autotune_status(&experiments[i]));
+        TEST_ASSERT_TRUE(fixpid_autotune_model(&experiments[i], &model));
+        TEST_ASSERT_EQUAL_UINT32(period_q4[i], model.period_q4);
     }
 }

@@ -6,6 +6,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
 #include "fixpid_gains.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
@@ -64,6 +65,26 @@ static bool small_ones_work(void)
            gains.kp_q8 == 512;
 }
 
+static bool autotune_works(void)
+{
+    const struct fixpid_autotune_config config = {
+        .output_max = 255,
+        .output_rest = 9,
+        .measurement_min = -1,
+        .measurement_max = 1024,
+        .timeout_steps = 1000,
+        .cycles = 2,
+    };
+    struct fixpid_autotune tuner;
+    struct fixpid_autotune_model model;
+    struct fixpid_pid_config pid;
+
+    return fixpid_autotune_init(&tuner, &config) &&
+           fixpid_autotune_step(&tuner, 60, 10) == 9 &&
+           !fixpid_autotune_model(&tuner, &model) &&
+           !fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_SIMC_PI, 16, &pid);
+}
+
 static bool an964_limits_agree(void)
 {
     const struct fixpid_an964_gains gains = {.kp = 1023, .ki = 16, .kd = 1023};
@@ -110,8 +131,9 @@ int main(void)
     printf("limits %d %d %d %d %d\n", FIXPID_AN964_SUM_LIMIT,
            FIXPID_AN964_TERM_LIMIT, FIXPID_AN964_OUTPUT_LIMIT,
            FIXPID_AN964_8BIT_SUM_LIMIT, FIXPID_AN964_8BIT_TERM_LIMIT);
-    if (!an937_works() || !pid_works() || !small_ones_work() ||
-        !an964_limits_agree() || !an964_8bit_limits_agree()) {
+    if (!an937_works() || !pid_works() || !autotune_works() ||
+        !small_ones_work() || !an964_limits_agree() ||
+        !an964_8bit_limits_agree()) {
         printf("the library is not the one of the header\n");
         return 1;
     }

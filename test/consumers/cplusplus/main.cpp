@@ -6,6 +6,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
+#include "fixpid_autotune.h"
 #include "fixpid_gains.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
@@ -36,13 +37,16 @@ int main()
 {
     const fixpid_an964_gains gains = {1023, 0, 0};
     const fixpid_an964_8bit_gains gains_8bit = {32, 0, 0};
-    const fixpid_relay_config experiment = {0, 255, 0, 0, 1023, 4, 1000, 3, 0};
+    const fixpid_autotune_config experiment = {0, 255,  9, -1, 1024,
+                                               0, 1000, 2, 0};
+    const fixpid_relay_config simple = {0, 255, 0, 0, 1023, 4, 1000, 3, 0};
     fixpid_an937 an937;
     fixpid_an964 an964;
     fixpid_an964_8bit an964_8bit;
     fixpid_pid pid;
-    fixpid_relay autotune;
-    const fixpid_tpo_config relay = {255, 2, 0, 0};
+    fixpid_relay relay;
+    fixpid_autotune autotune;
+    const fixpid_tpo_config window = {255, 2, 0, 0};
     const fixpid_gains_milli typed = {2000, 0, 0};
     fixpid_pid_gains gains_typed;
     fixpid_slew slew;
@@ -56,7 +60,7 @@ int main()
         return 1;
     }
     fixpid_slew_init(&slew, FIXPID_SLEW_RATE(30, 10), 0);
-    if (!fixpid_tpo_init(&tpo, &relay) ||
+    if (!fixpid_tpo_init(&tpo, &window) ||
         !fixpid_gains_from_milli(&gains_typed, &typed, 10000, 0) ||
         gains_typed.kp_q8 != 512) {
         return 1;
@@ -64,8 +68,8 @@ int main()
     if (!fixpid_an937_init(&an937, &motor) ||
         !fixpid_an964_init(&an964, &gains) ||
         !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
-        !fixpid_pid_init(&pid, &valve) ||
-        !fixpid_relay_init(&autotune, &experiment)) {
+        !fixpid_pid_init(&pid, &valve) || !fixpid_relay_init(&relay, &simple) ||
+        !fixpid_autotune_init(&autotune, &experiment)) {
         return 1;
     }
     fixpid_an937_tick(&an937);
@@ -75,7 +79,8 @@ int main()
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
                    fixpid_pid_output(&pid) == 100 &&
-                   fixpid_relay_step(&autotune, 500, 20) == 255 &&
+                   fixpid_relay_step(&relay, 500, 20) == 255 &&
+                   fixpid_autotune_step(&autotune, 500, 20) == 9 &&
                    fixpid_slew_step(&slew, 100) == 3 &&
                    fixpid_tpo_step(&tpo, 200)
                ? 0

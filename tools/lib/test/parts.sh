@@ -24,6 +24,7 @@ $defines
       - FIXPID_AN964_8BIT_OBJECT=an964_8bit_controller
       - FIXPID_PID_OBJECT=pid_controller
       - FIXPID_RELAY_OBJECT=relay_controller
+      - FIXPID_AUTOTUNE_OBJECT=autotune_controller
     '/test_pendulum\\.c/':
       - FIXPID_AN964_OBJECT=pendulum
     'test_pendulum_8bit':
@@ -104,9 +105,10 @@ part_limits() {
     limits most 30000 255 1023 8191 127
 }
 
-part_relay() {
+part_autotune() {
     need ruby cc:gcc :libc6-dev
     count 'test/relay/run' '^ok ' '^FAILED ' test/relay/run
+    count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
 }
 
 part_avr() {
