@@ -40,7 +40,7 @@ uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase);
 
 // Counts on each side of the setpoint within which the relay does not switch:
-// 1..1535.
+// 1..1536.
 int16_t fixpid_autotune_hysteresis(
     FIXPID_DATA const struct fixpid_autotune *self);
 

@@ -12,7 +12,7 @@ struct wide {
 };
 
 // a * b, from products of 16 bits.
-static void multiply(struct wide *product, uint32_t a, uint32_t b)
+static void multiply_wide(struct wide *product, uint32_t a, uint32_t b)
 {
     const uint32_t a_low = a & 0xFFFFu;
     const uint32_t a_high = a >> 16;
@@ -33,7 +33,7 @@ static uint32_t scaled(uint32_t a, uint32_t b, uint32_t divisor)
     struct wide rest; // the quotient's bits enter `low` as the dividend's leave
     uint8_t turn;
 
-    multiply(&rest, a, b);
+    multiply_wide(&rest, a, b);
     if (rest.high >= divisor) {
         return TOO_MUCH;
     }
@@ -121,7 +121,7 @@ bool fixpid_gains_from_milli(struct fixpid_pid_gains *gains,
     return true;
 }
 
-static bool legal(const struct fixpid_pid_gains *gains)
+static bool gains_legal(const struct fixpid_pid_gains *gains)
 {
     if (gains->kp_q8 > FIXPID_PID_KP_MAX) {
         return false;
@@ -147,7 +147,7 @@ bool fixpid_gains_to_milli(struct fixpid_gains_milli *milli,
     if (!is_rate(rate_milli)) {
         return false;
     }
-    if (!legal(gains)) {
+    if (!gains_legal(gains)) {
         return false;
     }
     ki = scaled(gains->ki_q24, rate_milli, UINT32_C(1) << 24);

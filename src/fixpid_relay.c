@@ -42,7 +42,7 @@ static bool within(uint16_t value, uint16_t least, uint16_t most)
     return value <= most;
 }
 
-static bool legal(const struct fixpid_relay_config *config)
+static bool relay_legal(const struct fixpid_relay_config *config)
 {
     if (config->output_low >= config->output_high) {
         return false;
@@ -79,7 +79,7 @@ bool fixpid_relay_init(FIXPID_DATA struct fixpid_relay *self,
     SELF.config.timeout_steps = config->timeout_steps;
     SELF.config.cycles = config->cycles;
     SELF.config.options = config->options;
-    accepted = legal(config);
+    accepted = relay_legal(config);
     if (!accepted) {
         SELF.config.cycles = 0;
         SELF.config.output_rest = 0;
@@ -234,8 +234,8 @@ static void watch_cycle(FIXPID_DATA struct fixpid_relay *self, int32_t error,
     SELF.error_sum += (uint32_t)((error < 0) ? -error : error);
 }
 
-static void relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
-                  int16_t measurement)
+static void run_relay(FIXPID_DATA struct fixpid_relay *self, int32_t error,
+                      int16_t measurement)
 {
     if (SELF.side == SIDE_UNKNOWN) {
         SELF.side = (error >= 0) ? SIDE_HIGH : SIDE_LOW;
@@ -273,7 +273,7 @@ int16_t fixpid_relay_step(FIXPID_DATA struct fixpid_relay *self,
         watch_limits(self, measurement);
     }
     if (SELF.status == RUNNING) {
-        relay(self, error, measurement);
+        run_relay(self, error, measurement);
     }
     if (SELF.status != RUNNING) {
         return SELF.config.output_rest;

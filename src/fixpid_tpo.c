@@ -6,7 +6,7 @@
 
 #define WINDOW_MAX 32767u
 
-static bool legal(const struct fixpid_tpo_config *config)
+static bool window_legal(const struct fixpid_tpo_config *config)
 {
     if (config->full < 1) {
         return false;
@@ -34,7 +34,7 @@ bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
     SELF.full = 0;
     SELF.window = 0;
     fixpid_tpo_reset(self);
-    if (!legal(config)) {
+    if (!window_legal(config)) {
         return false;
     }
     SELF.full = config->full;

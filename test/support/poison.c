@@ -5,7 +5,7 @@
 
 unsigned poison_left(void *object, size_t size, void (*init)(void))
 {
-    static unsigned char after[64];
+    static unsigned char after[96];
     const unsigned char *const bytes = object;
     unsigned left = 0;
 

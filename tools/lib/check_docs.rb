@@ -38,7 +38,7 @@ end
 
 # [controller, value, bound, type that holds it]
 def bounds
-  notes_bounds + pid_bounds + relay_bounds + beside_bounds
+  notes_bounds + pid_bounds + relay_bounds + autotune_bounds + beside_bounds
 end
 
 def notes_bounds
@@ -128,6 +128,25 @@ def beside_bounds
    ['gains', '15625 * 2^filter', 15_625 * 2**7, 'int32_t'],
    ['gains', 'rate_milli + 2^21 - 1', rate_max + 2**21 - 1, 'uint32_t'],
    ['gains', 'kp_q8 * 125 + 16', 32_767 * 125 + 16, 'uint32_t']]
+end
+
+def autotune_bounds
+  deviation = 32_767
+  steps = 32_767
+  noise = 32 * 1023
+  span = 65_535
+  [['autotuner', 'noise and its half, 16', noise + noise / 2 + 16, 'uint16_t'],
+   ['autotuner', '24 * hysteresis', 24 * 1536, 'uint16_t'],
+   ['autotuner', 'period of a cycle', 2 * 32_767, 'uint16_t'],
+   ['autotuner', 'all, on: sums of x', deviation * steps, 'int32_t'],
+   ['autotuner', 'rise: of 8 cycles, two turns each', 8 * 2 * 2047, 'int16_t'],
+   ['autotuner', 'share of the relay', span * 255 + 128, 'uint32_t'],
+   ['autotuner', 'amplitude * share', 131_072 * 255, 'uint32_t'],
+   ['autotuner', '2 half', 2 * (span * 85 / 256), 'uint16_t'],
+   ['autotuner', 'D * high steps', span * steps, 'int32_t'],
+   ['autotuner', 'area: mean - on - rise / 2', 2 * deviation * steps + 8 * 2047, 'int32_t'],
+   ['autotuner', 'product of two mantissas', 65_535**2, 'uint32_t'],
+   ['autotuner', 'sum of two numbers, 15 bits more', 2 * (65_535 << 15), 'uint32_t']]
 end
 
 LIMITS = { '7 bits' => 2**7 - 1, '2^30 - 2^24' => 2**30 - 2**24, '2^14' => 2**14 - 1, 'int16_t' => 2**15 - 1, 'uint16_t' => 2**16 - 1,

@@ -55,6 +55,7 @@ def runs_of(file)
   when 'fixpid_bits', 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
     [Run.new('test_fixpid_pid', Dir['src/fixpid_pid{,_more,_track}.c'], [])]
+  when 'fixpid_autotune_private' then [Run.new('test_fixpid_autotune', Dir['src/fixpid_autotune*.c'].sort, [])]
   when 'fixpid_pid_arith'
     [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
   when /_narrow$/ then [run_of("test_#{noun(name)}_arith", NARROW + EVERY_BIT), run_of("test_#{noun(name)}_arith", NARROW)]
