@@ -90,8 +90,8 @@ void main(void)
     for (;;) {
         turn = 0;
         while (turn == 0u) {
-            PORT_CLEAR_WATCHDOG();
         }
+        PORT_CLEAR_WATCHDOG();
         reply();
     }
 }

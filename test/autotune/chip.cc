@@ -25,6 +25,9 @@ namespace
 constexpr uint64_t cycles_of_an_answer = 2000000; // far more than any takes
 constexpr unsigned poison = 0xA5;
 constexpr unsigned object_size = 66;
+constexpr unsigned answer_size =
+    offsetof(struct answer, model) +
+    offsetof(struct fixpid_autotune_model, hysteresis) + sizeof(uint16_t);
 
 class Remote
 {
@@ -61,7 +64,7 @@ class Remote
         }
         chip.poke(turn, 1);
         wait();
-        for (unsigned at = 0; at <= offsetof(struct answer, status); at++) {
+        for (unsigned at = 0; at < answer_size; at++) {
             answered[at] = static_cast<unsigned char>(chip.peek(exchange + at));
         }
         calls++;

@@ -18,7 +18,6 @@ struct question {
 
 // What a call does not give is 0.
 struct answer {
-    struct fixpid_autotune_model model;
     uint32_t ki_q24;
     uint16_t kp_q8;
     uint16_t kd_q8;
@@ -28,6 +27,7 @@ struct answer {
     uint8_t options;
     uint8_t accepted;
     uint8_t status;
+    struct fixpid_autotune_model model;
 };
 
 union exchange {

@@ -178,6 +178,7 @@ part_target() {
     build_gpsim
     count 'test/target/run' '^ok ' '^FAILED ' test/target/run
     count 'test/relay/chips' '^ok ' '^FAILED ' test/relay/chips
+    count 'test/autotune/chips' '^ok ' '^FAILED ' test/autotune/chips
     count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
 }
 
