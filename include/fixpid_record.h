@@ -11,8 +11,8 @@
 //       18..20   setpoint_weight_q8 2, options 1
 //       21..22   check: CRC-16 of all before it, polynomial 0x1021, from 0xFFFF
 //
-// Any 1, 2 or 3 wrong bits are noticed, and of more, all but about one in 65536.
-// Erased memory, all 0xFF, is no record, nor is memory that is all 0.
+// Any 1, 2 or 3 wrong bits are noticed, and of more, all but about one in
+// 65536. Erased memory, all 0xFF, is no record, nor is memory that is all 0.
 //
 // At power-on: read the bytes, and start with them only if fixpid_record_unpack
 // and then fixpid_pid_init accept them, else with the program's own.

@@ -252,14 +252,13 @@ static int16_t deviation_from(int16_t setpoint, int16_t measurement)
 int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
                              int16_t setpoint, int16_t measurement)
 {
-    int16_t deviation;
-
     FIXPID_ASSERT(VALID(self));
     if (SELF.state >= PHASE_NOISE) {
         watch_ends(self, measurement);
     }
     if (SELF.state >= PHASE_NOISE) {
-        deviation = deviation_from(setpoint, measurement);
+        int16_t deviation = deviation_from(setpoint, measurement);
+
         if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
             deviation = (int16_t)-deviation;
         }

@@ -103,9 +103,11 @@ static void add(FIXPID_DATA struct number16 *result,
                 FIXPID_DATA const struct number16 *a,
                 FIXPID_DATA const struct number16 *b)
 {
-    const int16_t exponent =
-        (a->exponent < b->exponent) ? b->exponent : a->exponent;
+    int16_t exponent = a->exponent;
 
+    if (exponent < b->exponent) {
+        exponent = b->exponent;
+    }
     make(result, aligned(a, exponent) + aligned(b, exponent),
          (int16_t)(exponent - 15));
 }

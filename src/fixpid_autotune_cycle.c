@@ -53,20 +53,23 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase, uint8_t side)
 {
     const uint16_t centre = (uint16_t)SELF.centre;
-    const uint16_t distance = reach(self, phase, side);
+    const uint16_t far = reach(self, phase, side);
     int16_t end = SELF.config.output_min;
     uint16_t room = (uint16_t)(centre - (uint16_t)end);
-    uint16_t level = (uint16_t)(centre - distance);
+    uint16_t level = (uint16_t)(centre - far);
 
     if (side == AT_HIGH) {
         end = SELF.config.output_max;
         room = (uint16_t)((uint16_t)end - centre);
-        level = (uint16_t)(centre + distance);
+        level = (uint16_t)(centre + far);
     }
     if (phase == PHASE_FIND) {
         return end;
     }
-    return (distance >= room) ? end : (int16_t)level;
+    if (far >= room) {
+        return end;
+    }
+    return (int16_t)level;
 }
 
 uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
