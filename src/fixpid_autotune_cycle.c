@@ -3,6 +3,7 @@
 #include "fixpid_autotune.h"
 
 #include "fixpid_autotune_private.h"
+#include "fixpid_bits.h"
 
 #define SEEN_MAX 48u
 #define SEEN_LOST 8u // so many counts a swing that was lost
@@ -144,7 +145,7 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
     const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
     const uint16_t swing =
         (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
-    const uint16_t below = (uint16_t)(0u - (uint16_t)SELF.lowest);
+    const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
     const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
                                        (uint16_t)SELF.config.output_min);
     const uint16_t wanted =

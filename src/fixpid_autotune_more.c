@@ -8,6 +8,7 @@
 
 #include "fixpid_autotune_arith.h"
 #include "fixpid_autotune_private.h"
+#include "fixpid_pid_arith.h"
 
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u
@@ -455,18 +456,11 @@ static bool is_zero(FIXPID_DATA const struct sheet *sheet, uint8_t which)
     return sheet->numbers[which].mantissa == 0u;
 }
 
-// floor(x / 2^n), in offset binary
-static int32_t floor_shift(int32_t x, uint8_t n)
-{
-    const uint32_t offset = 0x80000000u;
-    const uint32_t quotient = (((uint32_t)x ^ offset) >> n) - (offset >> n);
-
-    return (int32_t)quotient;
-}
-
 static uint32_t magnitude(int32_t x)
 {
-    return (x < 0) ? (0u - (uint32_t)x) : (uint32_t)x;
+    const int32_t positive = (x < 0) ? -x : x;
+
+    return (uint32_t)positive;
 }
 
 static int32_t with_sign_of(int32_t sign, uint32_t value)
@@ -605,10 +599,10 @@ static bool identify(FIXPID_DATA struct sheet *sheet,
 static int16_t holding(FIXPID_DATA struct sheet *sheet,
                        FIXPID_DATA const struct fixpid_autotune *self)
 {
-    const int32_t off = floor_shift(deviation_q8(&SELF.sums[0]), 1) +
-                        floor_shift(deviation_q8(&SELF.sums[1]), 1);
-    int32_t output =
-        floor_shift(output_q8(self, 0), 1) + floor_shift(output_q8(self, 1), 1);
+    const int32_t off = shift_right_floor(deviation_q8(&SELF.sums[0]), 1) +
+                        shift_right_floor(deviation_q8(&SELF.sums[1]), 1);
+    int32_t output = shift_right_floor(output_q8(self, 0), 1) +
+                     shift_right_floor(output_q8(self, 1), 1);
     FIXPID_DATA struct number16 *const part = &sheet->numbers[X];
     uint32_t taken;
 
@@ -619,7 +613,7 @@ static int16_t holding(FIXPID_DATA struct sheet *sheet,
         taken = FAR_Q8;
     }
     output -= with_sign_of(off, taken);
-    output = floor_shift(output + 128, 8);
+    output = shift_right_floor(output + 128, 8);
     if (output < SELF.config.output_min) {
         return SELF.config.output_min;
     }
