@@ -14,7 +14,7 @@ REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/mutants/equivalent.txt'.freeze
 UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
-SECONDS_MOST = 5 # no test takes one
+SECONDS_MOST = 3 # no test takes one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
 
@@ -24,7 +24,9 @@ OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <]
               '>>=' => %w[<<=], '<<=' => %w[>>=], '+=' => %w[-=], '-=' => %w[+=], '~' => [''],
               'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
               'kd_q4' => %w[kp_q4], 'left' => %w[right], 'right' => %w[left], 'low' => %w[high], 'high' => %w[low],
-              'true' => %w[false], 'false' => %w[true] }.freeze
+              'true' => %w[false], 'false' => %w[true], 'MULTIPLY' => %w[DIVIDE], 'DIVIDE' => %w[MULTIPLY],
+              'ADD' => %w[SUBTRACT], 'SUBTRACT' => %w[ADD], 'MINIMUM' => %w[MAXIMUM], 'MAXIMUM' => %w[MINIMUM],
+              'X' => %w[Y], 'Y' => %w[X] }.freeze
 TOKEN = %r{//[^\n]*|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d\w*|\n|.}m.freeze
 FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Iinclude -Itest/support].freeze
 
@@ -45,9 +47,15 @@ def run_of(test, options = [])
   Run.new(test, ["test/unit/#{test}.c"], options)
 end
 
+# Of fixpid_autotune also the recorded experiments.
+def autotune_runs(sources)
+  %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources, []) }
+end
+
 # The runs in which a file is compiled, by its name in src/.
 def runs_of(file)
   name = File.basename(file, '.*')
+  return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
   return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
 
   case name
@@ -55,7 +63,7 @@ def runs_of(file)
   when 'fixpid_bits', 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
     [Run.new('test_fixpid_pid', Dir['src/fixpid_pid{,_more,_track}.c'], [])]
-  when 'fixpid_autotune_private' then [Run.new('test_fixpid_autotune', Dir['src/fixpid_autotune*.c'].sort, [])]
+  when 'fixpid_autotune_private' then autotune_runs(Dir['src/fixpid_autotune*.c'].sort)
   when 'fixpid_pid_arith'
     [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
   when /_narrow$/ then [run_of("test_#{noun(name)}_arith", NARROW + EVERY_BIT), run_of("test_#{noun(name)}_arith", NARROW)]
@@ -111,16 +119,20 @@ end
 
 ASSIGNMENT = /[A-Za-z_*.\[\]0-9>-]+ [|&^+-]?= [^;{}\\]+;/.freeze
 CALL = /(?!(?:if|for|while|switch|return|sizeof|FIXPID_ASSERT)\b)\w+\([^;{}\\]*\);/.freeze
+STATEMENT = /^ +(?<what>#{ASSIGNMENT}|#{CALL})$/.freeze
+OPERATION = /(?<what>\{(?!END)[A-Z]+(?:, \w+){3}\},)/.freeze # of a table
 
-# Statements that are left out.
-def dropped(file, text)
-  mutants = []
-  text.scan(/^( +)(#{ASSIGNMENT}|#{CALL})$/) do
+def left_out(file, text, pattern, instead)
+  text.to_enum(:scan, pattern).map do
     match = Regexp.last_match
-    changed = text[0...match.begin(2)] + ';' + text[match.end(2)..]
-    mutants << Mutant.new(file, text[0...match.begin(2)].count("\n") + 1, match[2].gsub(/\s+/, ' '), '', changed)
+    range = match.begin(:what)...match.end(:what)
+    changed = text[0...range.begin] + instead + text[range.end..]
+    Mutant.new(file, text[0...range.begin].count("\n") + 1, match[:what].gsub(/\s+/, ' '), '', changed)
   end
-  mutants
+end
+
+def dropped(file, text)
+  left_out(file, text, STATEMENT, ';') + left_out(file, text, OPERATION, '')
 end
 
 def build_objects
