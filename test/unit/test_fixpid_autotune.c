@@ -497,6 +497,15 @@ void test_step_the_setpoint_cuts_the_swing_like_the_relay(void)
     centres(50, -50, -16318, 16318);
 }
 
+// 257 counts at 127 / 256 are 127.496, 1 / 256 below a half.
+void test_step_the_centre_is_to_the_nearest(void)
+{
+    config.output_min = -128;
+    config.output_max = 129;
+    config.swing = 128;
+    centres(129, -127, -64, 62);
+}
+
 // 24 of 100 counts are 61 / 256: 142 of 600, of which a third is 47.
 void test_step_without_a_wanted_swing_it_is_24_times_the_hysteresis(void)
 {
@@ -515,6 +524,16 @@ void test_step_a_relay_is_never_wider_than_the_range(void)
     config.output_min = INT16_MIN;
     config.output_max = INT16_MAX;
     centres(2, -2, -32638, 32638);
+}
+
+// The swing asked for takes 16384 * 2^12 * 192 / 256 counts, which with the 256
+// are beyond 32 bits; a third of the whole range is 5440.
+void test_step_a_relay_for_any_wanted_swing_is_not_wider_either(void)
+{
+    config.swing = 16383;
+    config.output_min = -8192;
+    config.output_max = 8192;
+    centres(2, -2, -8160, 8160);
 }
 
 // 101 is 50 when halved, half of the swing: the whole of 600 again. 99 of 100
@@ -584,6 +603,20 @@ void test_step_a_swing_may_be_lost_from_the_second_relay_on(void)
     steps(162, 0);
     TEST_ASSERT_EQUAL_INT16(148, autotune_controller.output);
     TEST_ASSERT_EQUAL_INT16(300, step(0));
+}
+
+// The step that found it lost is the first one.
+void test_step_a_swing_that_is_lost_has_timeout_steps_to_be_found(void)
+{
+    config.timeout_steps = 300;
+    begin();
+    lose();
+    step(0);
+    TEST_ASSERT_EQUAL_INT16(300, autotune_controller.output);
+    steps(299, 0);
+    is(FIXPID_AUTOTUNE_RUNNING);
+    step(0);
+    is_over(FIXPID_AUTOTUNE_NO_OSCILLATION);
 }
 
 // Periods in steps: one of the first relay that is not averaged, and the next.
@@ -1104,10 +1137,15 @@ void test_result_unless_done_nothing_is_known(void)
 void test_result_sums_that_make_no_sense_are_refused(void)
 {
     const struct wave wrong = {0, 0, 50, -50, 20, 20};
+    const struct wave flat = {-5, 5, 45, -45, 11, 11}; // it has no area
 
     found(wrong, integrator_down);
     nothing_is_known();
     found(integrator_up, wrong);
+    nothing_is_known();
+    found(flat, integrator_down);
+    nothing_is_known();
+    found(integrator_up, flat);
     nothing_is_known();
 }
 
@@ -1262,6 +1300,154 @@ void test_result_kd_beyond_its_range_is_refused(void)
     TEST_ASSERT_FALSE(gives_of(-48, 17730, 16383, rule,
                                (struct wave){-11, 43, 47, -7, 25, 15},
                                (struct wave){-38, 13, 3, -34, 6, 5}));
+}
+
+// Experiments in which a constant one off in its last place shows, or a limit
+// that is one off. Each stands on its own.
+static const struct exact {
+    int16_t output_min, output_max;
+    uint16_t swing;
+    struct wave first, second;
+    struct fixpid_autotune_model model;
+    uint16_t kp_q8; // of SIMC PI
+    uint32_t ki_q24;
+} exact[] = {
+    // A RATIO made smaller by 15/16, and again.
+    {0,
+     16,
+     58,
+     {-13, 52, 88, -76, 17, 5},
+     {-51, 29, 32, -94, 6, 7},
+     {5647, 68, 57, 87687168, 35, 280, 9, 0, 1},
+     6,
+     93640},
+    // A holding output of a half, which is rounded up, and a bit below one.
+    {-499,
+     63,
+     218,
+     {-9, 19, 58, -47, 10, 9},
+     {-23, 22, 48, -72, 9, 5},
+     {FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, 22, 365456,
+      8267, 264, -178, 0, 1},
+     3113,
+     13512192},
+    {-36,
+     6,
+     114,
+     {-49, 17, 105, -72, 5, 13},
+     {-31, 2, 8, -6, 4, 14},
+     {FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, 25, 8675840,
+      286, 288, -24, 0, 1},
+     121,
+     484496},
+    // Means that differ by less than a 16th of the swing, by just that, and by
+    // more.
+    {-293,
+     206,
+     131,
+     {-16, 19, 28, -37, 9, 8},
+     {-16, 11, 5, -62, 6, 8},
+     {FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, 35, 470192,
+      6160, 248, -52, 0, 1},
+     1715,
+     5276288},
+    {-45,
+     30,
+     161,
+     {-26, 36, 37, -70, 10, 11},
+     {-15, 2, 89, -13, 10, 9},
+     {FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, 43, 3252288,
+      2057, 320, -7, 0, 1},
+     209,
+     542112},
+    {-1564,
+     615,
+     287,
+     {-46, 35, 53, -9, 9, 12},
+     {-53, 51, 105, -59, 12, 10},
+     {12, 2, 182, 6817152, 5802, 344, -491, 0, 1},
+     26,
+     14615808},
+    // Mean outputs that differ by 1/256 of a count.
+    {0,
+     1,
+     55,
+     {-13, 35, 89, -42, 14, 16},
+     {-42, 45, 23, -24, 13, 15},
+     {587776, 1938, 78, 317988864, 5, 464, 0, 0, 1},
+     1,
+     1920},
+    // A RATIO of 1/256, which is an integrator's, and one bit above it.
+    {-10,
+     8,
+     12,
+     {-37, 67, 66, -53, 23, 44},
+     {-53, 37, 2, -47, 27, 13},
+     {FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, 124, 52008960,
+      13, 856, -1, 0, 1},
+     1,
+     59},
+    {-324,
+     626,
+     75,
+     {-25, 49, 42, -19, 26, 54},
+     {-42, 25, 56, -91, 21, 11},
+     {10372, 25358, 131, 428888, 1753, 896, 146, 0, 1},
+     38,
+     2425},
+    // 6, 0.05 and 1.1.
+    {-214,
+     12,
+     232,
+     {-22, 41, 39, -19, 11, 12},
+     {-17, 9, 34, -89, 11, 7},
+     {401, 367, 49, 1147168, 4589, 328, -93, 0, 1},
+     134,
+     383040},
+    {-1787,
+     2335,
+     122,
+     {-32, 35, 58, -37, 8, 11},
+     {-30, 19, 31, -17, 11, 7},
+     {107, 998, 50, 112684, 18615, 296, 331, 0, 1},
+     3477,
+     5196800},
+    {-155,
+     172,
+     73,
+     {-30, 32, 86, -41, 9, 14},
+     {-27, 11, 28, -56, 6, 13},
+     {104, 48, 103, 2295040, 1218, 336, -25, 0, 1},
+     135,
+     2978944},
+};
+
+void test_model_is_exact_in_the_last_place(void)
+{
+    for (unsigned i = 0; i < sizeof exact / sizeof exact[0]; i++) {
+        config.output_min = exact[i].output_min;
+        config.output_max = exact[i].output_max;
+        config.output_rest = exact[i].output_min;
+        config.swing = exact[i].swing;
+        found(exact[i].first, exact[i].second);
+        is_model(exact[i].model);
+        gains_are(FIXPID_AUTOTUNE_SIMC_PI, exact[i].kp_q8, exact[i].ki_q24, 0,
+                  0);
+    }
+}
+
+// The least that is not refused.
+void test_model_of_an_area_of_1_is_one(void)
+{
+    config.output_min = -4401;
+    config.output_max = 23;
+    config.output_rest = 0;
+    config.swing = 196;
+    found((struct wave){-12, 15, 66, -15, 4, 11},
+          (struct wave){-6, 10, 14, -42, 12, 5});
+    is_model((struct fixpid_autotune_model){FIXPID_AUTOTUNE_INTEGRATING,
+                                            FIXPID_AUTOTUNE_INTEGRATING, 8,
+                                            4827, 1938528, 256, -2240, 0, 1});
 }
 
 static uint8_t filter_of(uint16_t high, uint16_t low)
