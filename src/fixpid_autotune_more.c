@@ -8,7 +8,7 @@
 
 #include "fixpid_autotune_arith.h"
 #include "fixpid_autotune_private.h"
-#include "fixpid_pid_arith.h"
+#include "fixpid_bits.h"
 
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u

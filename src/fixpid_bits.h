@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Signed 16-bit values as two's complement patterns in a uint16_t: the sign is
-// one bit to test, comparisons need no sign, and nothing can overflow.
+// one bit to test, comparisons need no sign, and nothing can overflow. And the
+// shift of a negative value.
 #ifndef FIXPID_BITS_H
 #define FIXPID_BITS_H
 #include <stdint.h>
@@ -44,6 +45,22 @@ FIXPID_INLINE uint16_t fixpid_negated(uint16_t bits)
 FIXPID_INLINE uint16_t fixpid_negated(uint16_t bits)
 {
     return (uint16_t)((uint16_t)~bits + 1u);
+}
+#endif
+
+// floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
+// these compilers document it.
+#if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
+FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
+{
+    return x >> n; // Deviation 10.1: as above
+}
+#else
+FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
+{
+    const int32_t power = (int32_t)(UINT32_C(1) << n);
+
+    return (x < 0) ? (-1 - ((-1 - x) / power)) : (x / power);
 }
 #endif
 

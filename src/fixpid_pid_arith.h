@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "fixpid.h"
+#include "fixpid_bits.h"
 
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
@@ -20,22 +21,6 @@ FIXPID_INLINE int32_t clamp32(int32_t value, int32_t low, int32_t high)
     }
     return (value < low) ? low : value;
 }
-
-// floor(x / 2^n). pre: n <= 30. C leaves the shift of a negative value open;
-// these compilers document it.
-#if defined(__GNUC__) || defined(__SDCC) || defined(__XC8)
-FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
-{
-    return x >> n; // Deviation 10.1: as above
-}
-#else
-FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
-{
-    const int32_t power = (int32_t)(UINT32_C(1) << n);
-
-    return (x < 0) ? (-1 - ((-1 - x) / power)) : (x / power);
-}
-#endif
 
 // floor(x / 2^n) with n the low three bits of `options`. Where int has 16 bits,
 // it shifts in steps, because compilers make a loop of a shift by a variable

@@ -12,7 +12,6 @@
 
 #define clamp32(value, low, high)                                              \
     (((value) > (high)) ? (high) : (((value) < (low)) ? (low) : (value)))
-#define shift_right_floor(x, n) ((x) >> (n))
 #define shift_left(x, n) ((int32_t)((uint32_t)(x) << (n)))
 #define is_just(limit, counts, integral, fraction)                             \
     (((uint16_t)((limit) ^ (counts)) | (uint16_t)(integral) | (fraction)) == 0u)
