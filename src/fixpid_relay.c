@@ -358,8 +358,8 @@ static bool serves(FIXPID_DATA const struct fixpid_relay *self, uint8_t rule)
 {
     const uint16_t high_steps = SELF.high_steps;
     const uint16_t low_steps = (uint16_t)(SELF.last_period - high_steps);
-    const int32_t turns =
-        (int32_t)SELF.highest_at + SELF.lowest_at - high_steps;
+    const int32_t turns = (int32_t)SELF.highest_at + (int32_t)SELF.lowest_at -
+                          (int32_t)high_steps;
     const uint16_t turning = (uint16_t)turns;
     uint16_t uneven = (uint16_t)(low_steps - high_steps);
 
