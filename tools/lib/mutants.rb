@@ -59,7 +59,8 @@ def runs_of(file)
 
   case name
   when 'fixpid_self' then []
-  when 'fixpid_bits', 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
+  when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/fixpid_pid_arith.h')] # a shift of the second
+  when 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
     [Run.new('test_fixpid_pid', Dir['src/fixpid_pid{,_more,_track}.c'], [])]
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/fixpid_autotune*.c'].sort)
