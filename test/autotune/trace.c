@@ -7,15 +7,12 @@
 //   s SETPOINT MEASUREMENT OUTPUT STATUS
 //   m ACCEPTED MODEL...                             0 for what was not given
 //   r RULE ROBUSTNESS ACCEPTED KP KI KD FILTER WEIGHT OPTIONS
-//
-// Built with -DTRACE_RUNS=COUNT, for a machine without arguments and files, it
-// prints a digest of all that instead.
-#include <stdio.h>
 #include <string.h>
 
 #include "autotune_plant.h"
 #include "fixpid_autotune.h"
 #include "numbers.h"
+#include "trace_lines.h"
 
 // In object mode the library is built for the object of this name.
 FIXPID_DATA struct fixpid_autotune autotune_controller;
@@ -43,8 +40,6 @@ struct world {
 };
 
 static struct world world;
-
-static void say(char kind, const int32_t values[], uint8_t count);
 
 static uint8_t status(void)
 {
@@ -225,7 +220,7 @@ static void say_model(void)
     values[7] = model.holding;
     values[8] = model.noise_q4;
     values[9] = model.hysteresis;
-    say('m', values, 10);
+    trace_say('m', values, 10);
 }
 
 static void say_result(uint8_t rule, uint8_t robustness_q4)
@@ -245,7 +240,7 @@ static void say_result(uint8_t rule, uint8_t robustness_q4)
     values[6] = config.gains.derivative_filter;
     values[7] = config.setpoint_weight_q8;
     values[8] = (int32_t)(((uint32_t)values[8] << 8) | config.options);
-    say('r', values, 9);
+    trace_say('r', values, 9);
 }
 
 static void say_results(void)
@@ -267,7 +262,7 @@ static void start(const struct fixpid_autotune_config *config)
                               config->timeout_steps,   config->cycles,
                               config->options,         good};
 
-    say('i', values, 10);
+    trace_say('i', values, 10);
 }
 
 static int16_t step(int16_t setpoint, int16_t measurement)
@@ -276,7 +271,7 @@ static int16_t step(int16_t setpoint, int16_t measurement)
         fixpid_autotune_step(&autotune_controller, setpoint, measurement);
     const int32_t values[] = {setpoint, measurement, output, status()};
 
-    say('s', values, 4);
+    trace_say('s', values, 4);
     return output;
 }
 
@@ -286,7 +281,7 @@ static void start_again(void)
 
     fixpid_autotune_reset(&autotune_controller);
     now = status();
-    say('n', &now, 1);
+    trace_say('n', &now, 1);
 }
 
 // The configuration and the world of an experiment; returns its setpoint.
@@ -348,60 +343,10 @@ static void experiment(enum kind kind)
     say_results();
 }
 
-static void experiments(long runs)
+void trace_experiments(long runs)
 {
     numbers_seed(2016);
     for (long run = 0; run < runs; run++) {
         experiment((enum kind)(run % KINDS));
     }
 }
-
-#ifdef TRACE_RUNS
-
-static uint32_t digest = UINT32_C(2166136261);
-
-// FNV-1a over the bytes.
-static void say(char kind, const int32_t values[], uint8_t count)
-{
-    digest = (digest ^ (uint8_t)kind) * UINT32_C(16777619);
-    for (uint8_t at = 0; at < count; at++) {
-        for (uint8_t shift = 0; shift < 32; shift = (uint8_t)(shift + 8u)) {
-            const uint8_t byte = (uint8_t)((uint32_t)values[at] >> shift);
-
-            digest = (digest ^ byte) * UINT32_C(16777619);
-        }
-    }
-}
-
-int main(void)
-{
-    experiments(TRACE_RUNS);
-    for (uint8_t digit = 0; digit < 8u; digit++) {
-        putchar("0123456789abcdef"[(digest >> (28u - 4u * digit)) & 15u]);
-    }
-    putchar('\n');
-    return 0;
-}
-
-#else
-
-#include <stdlib.h>
-
-static void say(char kind, const int32_t values[], uint8_t count)
-{
-    printf("%c", kind);
-    for (uint8_t at = 0; at < count; at++) {
-        printf(" %ld", (long)values[at]);
-    }
-    printf("\n");
-}
-
-int main(int argc, char *argv[])
-{
-    const long runs = argc == 2 ? strtol(argv[1], NULL, 10) : 0;
-
-    experiments(runs);
-    return runs > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
-#endif

@@ -7,12 +7,10 @@
 //   s SETPOINT MEASUREMENT OUTPUT STATUS
 //   r RULE ACCEPTED KP KI KD FILTER                 0 for what was not given
 //
-// Built with -DTRACE_RUNS=COUNT, for a machine without arguments and files, it
-// prints a digest of all that instead.
-#include <stdio.h>
-
+// Or a digest of them: test/support/trace_lines.c.
 #include "fixpid_relay.h"
 #include "numbers.h"
+#include "trace_lines.h"
 
 #define LINE_MAX 16
 
@@ -39,8 +37,6 @@ struct world {
 };
 
 static struct fixpid_relay tuner;
-
-static void say(char kind, const int32_t values[], uint8_t count);
 
 static uint8_t status(void)
 {
@@ -196,7 +192,7 @@ static void say_results(void)
                                   gains.kp_q8, (int32_t)gains.ki_q24,
                                   gains.kd_q8, gains.derivative_filter};
 
-        say('r', values, 6);
+        trace_say('r', values, 6);
     }
 }
 
@@ -209,7 +205,7 @@ static void start(const struct fixpid_relay_config *config)
                               config->timeout_steps,   config->cycles,
                               config->options,         good};
 
-    say('i', values, 10);
+    trace_say('i', values, 10);
 }
 
 static int16_t step(int16_t setpoint, int16_t measurement)
@@ -217,7 +213,7 @@ static int16_t step(int16_t setpoint, int16_t measurement)
     const int16_t output = fixpid_relay_step(&tuner, setpoint, measurement);
     const int32_t values[] = {setpoint, measurement, output, status()};
 
-    say('s', values, 4);
+    trace_say('s', values, 4);
     return output;
 }
 
@@ -227,7 +223,7 @@ static void start_again(void)
 
     fixpid_relay_reset(&tuner);
     now = status();
-    say('n', &now, 1);
+    trace_say('n', &now, 1);
 }
 
 static void experiment(enum kind kind)
@@ -267,60 +263,10 @@ static void experiment(enum kind kind)
     say_results();
 }
 
-static void experiments(long runs)
+void trace_experiments(long runs)
 {
     numbers_seed(1984);
     for (long run = 0; run < runs; run++) {
         experiment((enum kind)(run % KINDS));
     }
 }
-
-#ifdef TRACE_RUNS
-
-static uint32_t digest = UINT32_C(2166136261);
-
-// FNV-1a over the bytes.
-static void say(char kind, const int32_t values[], uint8_t count)
-{
-    digest = (digest ^ (uint8_t)kind) * UINT32_C(16777619);
-    for (uint8_t at = 0; at < count; at++) {
-        for (uint8_t shift = 0; shift < 32; shift = (uint8_t)(shift + 8u)) {
-            const uint8_t byte = (uint8_t)((uint32_t)values[at] >> shift);
-
-            digest = (digest ^ byte) * UINT32_C(16777619);
-        }
-    }
-}
-
-int main(void)
-{
-    experiments(TRACE_RUNS);
-    for (uint8_t digit = 0; digit < 8u; digit++) {
-        putchar("0123456789abcdef"[(digest >> (28u - 4u * digit)) & 15u]);
-    }
-    putchar('\n');
-    return 0;
-}
-
-#else
-
-#include <stdlib.h>
-
-static void say(char kind, const int32_t values[], uint8_t count)
-{
-    printf("%c", kind);
-    for (uint8_t at = 0; at < count; at++) {
-        printf(" %ld", (long)values[at]);
-    }
-    printf("\n");
-}
-
-int main(int argc, char *argv[])
-{
-    const long runs = argc == 2 ? strtol(argv[1], NULL, 10) : 0;
-
-    experiments(runs);
-    return runs > 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}
-
-#endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The trace of random experiments, for a model in Ruby: what trace.c and a
+// program of test/relay or test/autotune have of each other.
+#ifndef TRACE_LINES_H
+#define TRACE_LINES_H
+#include <stdint.h>
+
+// The program's own: that many experiments, each call of which is said.
+void trace_experiments(long runs);
+
+// A line: the kind of the call, what it was given and what it answered.
+void trace_say(char kind, const int32_t values[], uint8_t count);
+
+#endif
