@@ -2,6 +2,7 @@
 # The experiment, the model that it makes of the plant and the tuning rules once
 # more, in integers and fractions without an end, written from the definition and
 # not from src/. Reads what trace.c prints and says where the two differ.
+require_relative '../support/trace_replay'
 
 # A number of 16 significant bits, not negative: everything beyond is cut off.
 class Short
@@ -503,62 +504,33 @@ module Rules
   end
 end
 
-# Replays a trace and stops at the first line on which the two differ.
-class Replay
-  attr_reader :lines, :endings, :results, :models, :answers
+class Replay < TraceReplay
+  attr_reader :models, :answers
 
   def initialize
-    @lines = @answers = 0
-    @endings = Hash.new(0)
-    @results = Hash.new(0)
+    super(Experiment)
+    @answers = 0
     @models = Hash.new(0)
   end
 
-  def read(line)
-    @lines += 1
-    kind, *values = line.split
-    values.map!(&:to_i)
-    expected, found = send(kind, values)
-    abort "line #{@lines}, #{line.chomp}: the model says #{expected.inspect}" unless expected == found
-  end
-
-  def i(values)
-    @experiment = Experiment.new(values.first(Experiment::FIELDS.size))
-    [@experiment.accepted? ? 1 : 0, values.last]
-  end
-
-  def n(values)
-    @experiment.reset
-    [status, values.last]
-  end
-
-  def s(values)
-    output = @experiment.step(values[0], values[1])
-    [[output, status], values.last(2)]
-  end
-
   def m(values)
-    expected = Rules.model(@experiment)
-    @endings[@experiment.status] += 1
+    expected = Rules.model(@model)
+    @endings[@model.status] += 1
     @models[expected[1] == Rules::ENDLESS ? :integrating : :lag] += 1 if expected[0] == 1
-    @models[:none] += 1 if @experiment.status == :done && expected[0].zero?
+    @models[:none] += 1 if @model.status == :done && expected[0].zero?
     [expected, values.map.with_index { |value, at| at == 7 ? value : value % 2**32 }]
   end
 
   def r(values)
     rule, robustness, *found = values
     before = found.last / 256
-    gains = Rules.result(@experiment, rule, robustness)
+    gains = Rules.result(@model, rule, robustness)
     @answers += 1
-    @results[[rule, !gains.nil?]] += 1 if @experiment.status == :done
+    @results[[rule, !gains.nil?]] += 1 if @model.status == :done
     return [[0, 0, 0, 0, 0, 128, before * 257], found] unless gains
 
     options = gains[4] ? before | 0x20 : before & ~0x20
     [[1, *gains.first(4), gains[4] ? 0 : 256, before * 256 + options], found]
-  end
-
-  def status
-    Experiment::STATUS.index(@experiment.status)
   end
 end
 
@@ -568,7 +540,7 @@ def complaints(replay)
                                .map { |status| [replay.endings[status], 4, status] }
   (0..6).each { |rule| [true, false].each { |good| expected << [replay.results[[rule, good]], 25, "rule #{rule}: #{good}"] } }
   { integrating: 40, lag: 40, none: 10 }.each { |model, least| expected << [replay.models[model], least, model] }
-  expected.select { |count, least,| count < least }.map { |count, least, what| "#{what} (#{count}, not #{least})" }
+  TraceReplay.too_few(expected)
 end
 
 if $PROGRAM_NAME == __FILE__

@@ -2,6 +2,8 @@
 # The relay experiment and its tuning rules once more, in integers without an
 # end, written from the definition and not from src/. Reads what trace.c prints
 # and says where the two differ.
+require_relative '../support/trace_replay'
+
 class Model
   STATUS = %i[refused running done no_oscillation saturated irregular too_fast too_small].freeze
   RULES = [[80, 116, 0], [116, 116, 41]].freeze
@@ -161,37 +163,9 @@ class Model
   end
 end
 
-# Replays a trace and stops at the first line on which the two differ.
-class Replay
-  attr_reader :lines, :endings, :results
-
+class Replay < TraceReplay
   def initialize
-    @lines = 0
-    @endings = Hash.new(0)
-    @results = Hash.new(0)
-  end
-
-  def read(line)
-    @lines += 1
-    kind, *values = line.split
-    values.map!(&:to_i)
-    expected, found = send(kind, values)
-    abort "line #{@lines}, #{line.chomp}: the model says #{expected.inspect}" unless expected == found
-  end
-
-  def i(values)
-    @model = Model.new(values.first(Model::FIELDS.size))
-    [@model.accepted? ? 1 : 0, values.last]
-  end
-
-  def n(values)
-    @model.reset
-    [status, values.last]
-  end
-
-  def s(values)
-    output = @model.step(values[0], values[1])
-    [[output, status], values.last(2)]
+    super(Model)
   end
 
   def r(values)
@@ -199,10 +173,6 @@ class Replay
     @endings[@model.status] += 1 if values[0].zero?
     @results[[values[0], !gains.nil?]] += 1
     [[gains ? 1 : 0, *(gains || [0, 0, 0, 0])], values.drop(1)]
-  end
-
-  def status
-    Model::STATUS.index(@model.status)
   end
 end
 
@@ -213,7 +183,7 @@ def complaints(replay)
     [true, false].each { |good| expected << [replay.results[[rule, good]], 300, "rule #{rule}: #{good}"] }
   end
   expected << [replay.results.values.sum, 9000, 'results']
-  expected.select { |count, least,| count < least }.map { |count, least, what| "#{what} (#{count}, not #{least})" }
+  TraceReplay.too_few(expected)
 end
 
 if $PROGRAM_NAME == __FILE__
