@@ -133,8 +133,6 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
         SELF.state = PHASE_FIND;
         SELF.side = (deviation <= 0) ? AT_HIGH : AT_LOW;
         SELF.elapsed = 0;
-        SELF.highest = deviation;
-        SELF.lowest = deviation;
         fixpid_autotune_drive(self);
     }
 }
