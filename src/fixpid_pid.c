@@ -4,16 +4,19 @@
 #include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
-// Private bits of `options`; the lowest three are the derivative filter.
-#define FILTER 0x07u
-#define KI_FINE 0x08u   // ki has 24 fractional bits; neither bit: 16
-#define KI_COARSE 0x10u // ki has 8
-// The setpoint's weight is below 1. Where the caller set the bit, it is 0.
-#define WEIGHTED FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT
-#define PUBLIC_OPTIONS                                                         \
-    (FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR |                     \
-     FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) // a plain PID has none of them
+// The caller's bits of `options`; a plain PID has none of them. The setpoint's
+// weight is below 1 where WEIGHTED is set; where the caller set it, it is 0.
+#define REVERSE (HAS_REVERSE ? FIXPID_PID_REVERSE : 0u)
+#define ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? FIXPID_PID_DERIVATIVE_ON_ERROR : 0u)
+#define WEIGHTED (HAS_WEIGHT ? FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT : 0u)
+#define PUBLIC_OPTIONS (REVERSE | ON_ERROR | WEIGHTED)
 
+// The private ones; the lowest three are the derivative filter.
+#define FILTER (HAS_FILTER ? 0x07u : 0u)
+#define KI_FINE 0x08u // ki has 24 fractional bits; neither bit: 16
+#define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
+
+#define FEEDFORWARD (HAS_FEEDFORWARD ? SELF.feedforward : 0)
 #define WEIGHT_ONE 256u
 #define KI_KEPT_MAX 32767u
 #define KI_MIDDLE_MAX UINT32_C(8388479)    // rounds to 32767 * 256
@@ -68,11 +71,11 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     SELF.kd = kd_q8;
     if (ki <= KI_KEPT_MAX) {
         SELF.options |= KI_FINE;
-    } else if (ki <= KI_MIDDLE_MAX) {
-        ki = (ki + 128u) >> 8;
-    } else {
+    } else if (HAS_COARSE_KI ? (ki > KI_MIDDLE_MAX) : false) {
         ki = (ki + 32768u) >> 16;
         SELF.options |= KI_COARSE;
+    } else {
+        ki = (ki + 128u) >> 8;
     }
     SELF.ki = (uint16_t)ki;
     return true;
@@ -86,7 +89,10 @@ static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
     if (weight_q8 > WEIGHT_ONE) {
         return false;
     }
-    if ((SELF.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u) {
+    if (!HAS_WEIGHT) {
+        return SELF.setpoint_weight == 0u;
+    }
+    if ((SELF.options & WEIGHTED) != 0u) {
         return weight_q8 == 0u;
     }
     if (SELF.setpoint_weight != 0u) { // neither 0 nor WEIGHT_ONE
@@ -147,9 +153,16 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
 
 void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
 {
+    int16_t start = 0; // or the nearest count within the integral's limits
+
     FIXPID_ASSERT(VALID(self));
-    SELF.integral =
-        shift_left(clamp32(0, SELF.integral_min, SELF.integral_max), 16);
+    if (SELF.integral_min > 0) {
+        start = SELF.integral_min;
+    }
+    if (SELF.integral_max < 0) {
+        start = SELF.integral_max;
+    }
+    SELF.integral = shift_left(start, 16);
     SELF.integral_fraction = 0;
     SELF.derivative = 0;
     SELF.previous = 0;
@@ -179,7 +192,7 @@ static void weighted_error(FIXPID_DATA struct fixpid_pid *self,
     const int32_t product = mul16(SELF.setpoint_weight, setpoint) + 128;
     int16_t weighted = (int16_t)shift_right_floor(product, 8);
 
-    if ((SELF.options & FIXPID_PID_REVERSE) != 0u) {
+    if ((SELF.options & REVERSE) != 0u) {
         weighted = complement(weighted);
     }
     SELF.proportional_error = sub16_sat(weighted, SIGNALS.derivative_input);
@@ -195,7 +208,7 @@ static void special_errors(FIXPID_DATA struct fixpid_pid *self,
     int16_t goal = setpoint;
 
     SIGNALS.derivative_input = measurement;
-    if ((SELF.options & FIXPID_PID_REVERSE) != 0u) {
+    if ((SELF.options & REVERSE) != 0u) {
         goal = complement(setpoint);
         SIGNALS.derivative_input = complement(measurement);
     }
@@ -204,7 +217,7 @@ static void special_errors(FIXPID_DATA struct fixpid_pid *self,
     if ((SELF.options & WEIGHTED) != 0u) {
         weighted_error(self, signals, setpoint);
     }
-    if ((SELF.options & FIXPID_PID_DERIVATIVE_ON_ERROR) != 0u) {
+    if ((SELF.options & ON_ERROR) != 0u) {
         SIGNALS.derivative_input = complement(SIGNALS.error);
     }
 }
@@ -354,7 +367,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
     SIGNALS.p_d_ff = mul16(SELF.kp, SELF.proportional_error);
     differentiate(self, signals);
     // within 2^30 - 2^15 + 2^30 - 2^24 + 2^23
-    SIGNALS.p_d_ff += SELF.derivative + shift_left(SELF.feedforward, 8);
+    SIGNALS.p_d_ff += SELF.derivative + shift_left(FEEDFORWARD, 8);
     if ((SELF.status & HELD) == 0u) {
         integrate(self, signals);
     } else if ((SELF.status & FIXPID_PID_MANUAL) == 0u) {

@@ -9,11 +9,8 @@
 // fixpid_pid_set_integral_limits. Each source has its own copy and calls it
 // once. Returns false for an illegal range, and has then changed nothing.
 static bool accept_integral_limits(FIXPID_DATA struct fixpid_pid *self,
-                                   int16_t integral_min, int16_t integral_max)
+                                   int16_t low, int16_t high)
 {
-    int16_t low = integral_min;
-    int16_t high = integral_max;
-
     if ((low | high) == 0) { // no range of its own
         low = -INT16_MAX;
         high = INT16_MAX;

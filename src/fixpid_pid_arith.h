@@ -95,15 +95,18 @@ FIXPID_INLINE int16_t complement(int16_t x)
 #include "avr/fixpid_pid_avr.h" // Deviation 20.1: it builds on the above
 #else
 
-// a - b, saturated, as each core does it best. An ARM with saturating
-// instructions has one for a clamp; others compare once; where int has 16 bits,
-// the check for overflow comes before the subtraction.
-#if defined(__ARM_FEATURE_SAT)
-FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
-{
-    return (int16_t)clamp32((int32_t)a - b, INT16_MIN, INT16_MAX);
-}
+// (Older compilers for ARM say that they have the instructions and do not.)
+#if defined(__ARM_FEATURE_SAT) && !defined(FIXPID_NO_ASSEMBLY) &&              \
+    (!defined(__GNUC__) || defined(__clang__) || (__GNUC__ >= 10))
+#include "arm/fixpid_pid_arm.h" // Deviation 20.1: as above
+#endif
+
+// a - b, saturated. One comparison finds whether the difference fits; where int
+// has 16 bits, it comes before the subtraction.
+//
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
+#if defined(FIXPID_HAS_SUB16_SAT)
+// in the chip's own header
 #elif INT_MAX > 32767
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
@@ -135,7 +138,9 @@ FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 #endif
 
 // a + b, saturated
-#if defined(FIXPID_HAS_ADD_OVERFLOW)
+#if defined(FIXPID_HAS_ADD32_SAT)
+// in the chip's own header
+#elif defined(FIXPID_HAS_ADD_OVERFLOW)
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum;

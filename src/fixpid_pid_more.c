@@ -85,6 +85,7 @@ bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
     return true;
 }
 
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_FEEDFORWARD) != 0
 void fixpid_pid_set_feedforward(FIXPID_DATA struct fixpid_pid *self,
                                 int16_t feedforward)
 {
@@ -93,7 +94,9 @@ void fixpid_pid_set_feedforward(FIXPID_DATA struct fixpid_pid *self,
         SELF.feedforward = feedforward;
     }
 }
+#endif
 
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 void fixpid_pid_set_manual(FIXPID_DATA struct fixpid_pid *self, int16_t output)
 {
     FIXPID_ASSERT(VALID(self));
@@ -118,6 +121,7 @@ void fixpid_pid_seed(FIXPID_DATA struct fixpid_pid *self, int16_t output)
         SELF.status |= FIXPID_PID_SEEDED;
     }
 }
+#endif
 
 int32_t fixpid_pid_proportional(FIXPID_DATA const struct fixpid_pid *self)
 {

@@ -16,12 +16,22 @@
 // The output limits of a refused controller are equal.
 #define REFUSED (SELF.output_min == SELF.output_max)
 
-// Whether steps remember their output.
-#define HAS_TRACK ((FIXPID_PID_FEATURES & FIXPID_PID_HAS_TRACK) != 0u)
+// The features, as constant conditions. A mask that needs a missing one is 0,
+// and the compiler drops what asks for its bits.
+#define FEATURES ((unsigned)FIXPID_PID_FEATURES)
+#define HAS_FILTER ((FEATURES & FIXPID_PID_HAS_FILTER) != 0u)
+#define HAS_WEIGHT ((FEATURES & FIXPID_PID_HAS_WEIGHT) != 0u)
+#define HAS_REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) != 0u)
+#define HAS_DERIVATIVE_ON_ERROR                                                \
+    ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) != 0u)
+#define HAS_FEEDFORWARD ((FEATURES & FIXPID_PID_HAS_FEEDFORWARD) != 0u)
+#define HAS_MANUAL ((FEATURES & FIXPID_PID_HAS_MANUAL) != 0u)
+#define HAS_COARSE_KI ((FEATURES & FIXPID_PID_HAS_COARSE_KI) != 0u)
+#define HAS_TRACK ((FEATURES & FIXPID_PID_HAS_TRACK) != 0u)
 
 // Bits of `status` under which `integral` holds the output to return instead of
 // an integral.
-#define HELD (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL)
+#define HELD (HAS_MANUAL ? (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL) : 0u)
 
 // The largest number of counts that 16 bits can hold, in 1/256.
 #define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)

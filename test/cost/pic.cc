@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a step costs on a PIC in gpsim, in instruction cycles:
 //
-//   pic FIRMWARE.cod CONTROLLER STEP RANDOM DIRECTED OUTPUTS_ONLY PLAIN
+//   pic FIRMWARE.cod CONTROLLER STEP RANDOM DIRECTED OUTPUTS_ONLY QUESTIONS
 //
 // The firmware is test/target/driver_main.c with the controller's driver.
 // Prints the lines of search.h and
@@ -112,7 +112,7 @@ int main(int argc, char *argv[])
     try {
         if (argc != 8) {
             throw ChipError("usage: pic FIRMWARE.cod CONTROLLER STEP RANDOM "
-                            "DIRECTED OUTPUTS_ONLY PLAIN");
+                            "DIRECTED OUTPUTS_ONLY QUESTIONS");
         }
         const controller &which = find_controller(argv[2]);
         Steps all(argv[1], which, argv[3]);

@@ -27,22 +27,24 @@ struct segment {
 };
 
 // Where each controller's question has its `calls`, in bytes, which of their
-// bits the controller knows, and what makes a question a plain one.
+// bits the controller knows, and what makes a question one of those.
 struct layout {
     const char *controller;
     uint8_t calls;
     uint8_t calls_size;
     uint8_t known[2];
-    void (*make_plain)(union question *question);
+    void (*restrict_to)(uint8_t questions, union question *question);
 };
 
 // Proportional, integral and derivative, with limits. The integral's gain is
-// one of 2^-16, as others have it.
-static void make_pid_plain(union question *question)
+// one of 2^-16, as others have it, in plain questions.
+static void restrict_pid_to(uint8_t questions, union question *question)
 {
     struct pid_question *const asked = &question->pid;
 
-    asked->ki_q24 = (asked->ki_q24 & 0x7FFFu) << 8;
+    if (questions == QUESTIONS_PLAIN || asked->ki_q24 > 0x7FFF7Fu) {
+        asked->ki_q24 = (asked->ki_q24 & 0x7FFFu) << 8;
+    }
     asked->setpoint_weight_q8 = 256;
     asked->derivative_filter = 0;
     asked->options = 0;
@@ -62,7 +64,7 @@ static const struct layout layouts[] = {
      offsetof(struct pid_question, calls),
      2,
      {0xFF, 0x01},
-     make_pid_plain},
+     restrict_pid_to},
 };
 
 static const struct search_plan *plan;
@@ -75,6 +77,13 @@ static uint8_t *calls_of(union question *question)
 }
 
 // ---- One question ----
+
+static void restrict_question(union question *question)
+{
+    if (plan->questions != QUESTIONS_ALL) {
+        layout->restrict_to(plan->questions, question);
+    }
+}
 
 static void begin(uint32_t seed)
 {
@@ -127,9 +136,7 @@ static uint32_t measure_defined(union question *question)
     const uint32_t different = figures.different;
     uint32_t cost;
 
-    if (plan->plain != 0u) {
-        layout->make_plain(question);
-    }
+    restrict_question(question);
     memset(&expected, 0, sizeof expected);
     plan->controller->define(question, &expected);
     cost = measure(question, &expected);
@@ -141,7 +148,7 @@ static uint32_t measure_defined(union question *question)
 
 // ---- Rows and random questions ----
 
-// The answers to plain rows were not recorded.
+// The answers to restricted rows were not recorded.
 static void rows(void)
 {
     int32_t columns[VECTORS_COLUMNS_MAX];
@@ -156,13 +163,11 @@ static void rows(void)
             memset(&question, 0, sizeof question);
             memset(&expected, 0, sizeof expected);
             from->row(columns, &question, &expected);
-            if (plan->plain != 0u) {
-                layout->make_plain(&question);
-            }
+            restrict_question(&question);
             (void)measure(&question, &expected);
         }
     }
-    if (plan->plain != 0u) {
+    if (plan->questions != QUESTIONS_ALL) {
         figures.different = 0;
     }
 }

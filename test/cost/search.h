@@ -13,6 +13,13 @@
 typedef uint32_t (*search_step)(const union question *question,
                                 union answer *answer);
 
+// Which questions are asked of a controller that has features.
+enum search_questions {
+    QUESTIONS_ALL,
+    QUESTIONS_PLAIN,   // without what fewer users want
+    QUESTIONS_TYPICAL, // without what FIXPID_PID_FEATURES can leave out
+};
+
 struct search_plan {
     const struct controller *controller;
     search_step step;
@@ -20,9 +27,7 @@ struct search_plan {
     uint32_t directed_steps;
     // Outputs of the rows only: what a comparison with another form can ask.
     uint8_t outputs_only;
-    // Without the features that fewer users want, where the controller has
-    // some.
-    uint8_t plain;
+    uint8_t questions; // of enum search_questions
 };
 
 // Prints one line for the rows, the random questions and the search:

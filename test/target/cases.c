@@ -437,6 +437,25 @@ static int16_t any_applied(void)
     return (int16_t)(numbers_below(2) == 0u ? applied : applied / 128);
 }
 
+// The calls of features that are left out, by FIXPID_PID_FEATURES.
+static uint16_t missing_calls(void)
+{
+    const unsigned missing = ~(unsigned)FIXPID_PID_FEATURES;
+    unsigned calls = 0;
+
+    if ((missing & FIXPID_PID_HAS_FEEDFORWARD) != 0u) {
+        calls |= CALL_SET_FEEDFORWARD;
+    }
+    if ((missing & FIXPID_PID_HAS_MANUAL) != 0u) {
+        calls |= CALL_SET_MANUAL | CALL_SET_AUTO | CALL_SEED |
+                 CALL_SET_MANUAL_AFTER | CALL_SET_AUTO_AFTER | CALL_SEED_AFTER;
+    }
+    if ((missing & FIXPID_PID_HAS_TRACK) != 0u) {
+        calls |= CALL_TRACK | CALL_TRACK_AFTER;
+    }
+    return (uint16_t)calls;
+}
+
 // One call before most of the steps that have any, and often only tracking.
 static uint16_t any_pid_calls(void)
 {
@@ -472,7 +491,7 @@ static void pid_ask(union question *question)
     asked->integral_max = config.integral_max;
     asked->setpoint_weight_q8 = config.setpoint_weight_q8;
     asked->options = config.options;
-    asked->calls = any_pid_calls();
+    asked->calls = (uint16_t)(any_pid_calls() & ~missing_calls());
     asked->value = numbers_int16();
     asked->value_after = numbers_int16();
     asked->applied = any_applied();
@@ -483,7 +502,8 @@ static void pid_ask(union question *question)
     asked->setpoint = setpoint;
 }
 
-static void pid_start(const struct pid_question *asked, uint8_t *accepted)
+static struct fixpid_pid_config pid_configuration(
+    const struct pid_question *asked)
 {
     const struct fixpid_pid_config config = {
         .gains = {.ki_q24 = asked->ki_q24,
@@ -497,6 +517,13 @@ static void pid_start(const struct pid_question *asked, uint8_t *accepted)
         .setpoint_weight_q8 = asked->setpoint_weight_q8,
         .options = asked->options,
     };
+
+    return config;
+}
+
+static void pid_start(const struct pid_question *asked, uint8_t *accepted)
+{
+    const struct fixpid_pid_config config = pid_configuration(asked);
 
     if ((asked->calls & CALL_INIT) != 0u && reference_pid_init(&pid, &config)) {
         *accepted |= CALL_INIT;
@@ -576,6 +603,28 @@ static void pid_define(const union question *question, union answer *answer)
     expected->flags = reference_pid_flags(&pid);
 }
 
+// Leaves out of a row's question the calls of missing features. Returns whether
+// what was recorded holds: not from such a call on, nor after gains that need
+// such a feature, until the next init.
+static bool recording_holds(struct pid_question *asked)
+{
+    static bool holds;
+    const struct fixpid_pid_config config = pid_configuration(asked);
+    unsigned missing = asked->calls & missing_calls();
+
+    if ((asked->calls & CALL_INIT) != 0u) {
+        holds = true;
+        missing |= reference_pid_needs(&config) & ~FIXPID_PID_FEATURES;
+    }
+    if ((asked->calls & CALL_SET_GAINS) != 0u) {
+        missing |=
+            reference_pid_gains_need(&config.gains) & ~FIXPID_PID_FEATURES;
+    }
+    asked->calls &= (uint16_t)~missing_calls();
+    holds = holds && missing == 0u;
+    return holds;
+}
+
 // Columns: run, kp_q8, ki_q24, kd_q8, filter, output_min, output_max,
 // integral_min, integral_max, weight_q8, options, event, value, setpoint,
 // measurement, output, p_q8, i_q16, d_q8, status. The event is 0, or the number
@@ -583,7 +632,7 @@ static void pid_define(const union question *question, union answer *answer)
 static void pid_row(const int32_t columns[], union question *question,
                     union answer *answer)
 {
-    const struct pid_question asked = {
+    struct pid_question asked = {
         .ki_q24 = (uint32_t)columns[2],
         .kp_q8 = (uint16_t)columns[1],
         .kd_q8 = (uint16_t)columns[3],
@@ -600,8 +649,13 @@ static void pid_row(const int32_t columns[], union question *question,
         .options = vectors_pid_options(columns[10], columns[9]),
     };
 
+    const bool holds = recording_holds(&asked);
+
     question->pid = asked;
     pid_define(question, answer); // what was accepted is not recorded
+    if (!holds) {
+        return;
+    }
     answer->pid.output = (int16_t)columns[15];
     answer->pid.proportional = columns[16];
     answer->pid.integral = columns[17];
@@ -629,7 +683,7 @@ static void track_row(const int32_t columns[], union question *question,
                                            CALL_SEED_AFTER};
     const bool outputs = columns[11] == 4;
     const bool integrals = columns[11] == 5;
-    const struct pid_question asked = {
+    struct pid_question asked = {
         .ki_q24 = (uint32_t)columns[2],
         .kp_q8 = (uint16_t)columns[1],
         .kd_q8 = (uint16_t)columns[3],
@@ -651,10 +705,14 @@ static void track_row(const int32_t columns[], union question *question,
         .shift_before = (uint8_t)columns[13],
         .shift = (uint8_t)columns[22],
     };
+    const bool holds = recording_holds(&asked);
     const uint8_t before = (uint8_t)(asked.calls & 0x1Fu);
 
     question->pid = asked;
     pid_define(question, answer);
+    if (!holds) {
+        return;
+    }
     // An event that has a result is one of these.
     if ((before & (CALL_INIT | CALL_SET_GAINS | CALL_SET_LIMITS |
                    CALL_SET_INTEGRAL_LIMITS)) != 0u) {

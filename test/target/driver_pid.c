@@ -16,6 +16,9 @@ static struct fixpid_pid_config config;
 
 static uint8_t accepted;
 
+// Whether the library has a feature: its functions have no declaration else.
+#define WITH(feature) ((FIXPID_PID_FEATURES & (feature)) != 0)
+
 static bool called(uint16_t call)
 {
     return (QUESTION.calls & call) != 0u;
@@ -72,11 +75,20 @@ static void set(void)
                                               QUESTION.integral_max),
                CALL_SET_INTEGRAL_LIMITS);
     }
+}
+
+#if WITH(FIXPID_PID_HAS_FEEDFORWARD)
+static void feed_forward(void)
+{
     if (called(CALL_SET_FEEDFORWARD)) {
         fixpid_pid_set_feedforward(&pid_controller, QUESTION.value);
     }
 }
+#else
+#define feed_forward() ((void)0)
+#endif
 
+#if WITH(FIXPID_PID_HAS_MANUAL)
 static void choose_mode(void)
 {
     if (called(CALL_SET_MANUAL)) {
@@ -88,17 +100,10 @@ static void choose_mode(void)
     if (called(CALL_SEED)) {
         fixpid_pid_seed(&pid_controller, QUESTION.value);
     }
-    if (called(CALL_TRACK)) {
-        fixpid_pid_track(&pid_controller, QUESTION.value,
-                         QUESTION.shift_before);
-    }
 }
 
-static void call_after(void)
+static void choose_mode_after(void)
 {
-    if (called(CALL_RESET_AFTER)) {
-        fixpid_pid_reset(&pid_controller);
-    }
     if (called(CALL_SET_MANUAL_AFTER)) {
         fixpid_pid_set_manual(&pid_controller, QUESTION.value_after);
     }
@@ -108,24 +113,59 @@ static void call_after(void)
     if (called(CALL_SEED_AFTER)) {
         fixpid_pid_seed(&pid_controller, QUESTION.value_after);
     }
+}
+#else
+#define choose_mode() ((void)0)
+#define choose_mode_after() ((void)0)
+#endif
+
+#if WITH(FIXPID_PID_HAS_TRACK)
+static void track(void)
+{
+    if (called(CALL_TRACK)) {
+        fixpid_pid_track(&pid_controller, QUESTION.value,
+                         QUESTION.shift_before);
+    }
+}
+
+static int16_t track_after(int16_t output)
+{
+    (void)output;
     if (called(CALL_TRACK_AFTER)) {
         fixpid_pid_track(&pid_controller, QUESTION.applied, QUESTION.shift);
     }
+    return fixpid_pid_output(&pid_controller);
 }
+#else
+#define track() ((void)0)
+
+// What the controller would remember.
+static int16_t track_after(int16_t output)
+{
+    return called(CALL_RESET_AFTER) ? 0 : output;
+}
+#endif
 
 // The question ends where the answer begins: after the last call.
 void pid_reply(void)
 {
     int16_t output;
+    int16_t last_output;
 
     start();
     set();
+    feed_forward();
     choose_mode();
+    track();
     output = fixpid_pid_step(&pid_controller, QUESTION.setpoint,
                              QUESTION.measurement);
-    call_after();
+    if (called(CALL_RESET_AFTER)) {
+        fixpid_pid_reset(&pid_controller);
+    }
+    choose_mode_after();
+    last_output = track_after(output);
     ANSWER.output = output;
-    ANSWER.last_output = fixpid_pid_output(&pid_controller);
+    ANSWER.last_output = last_output;
     ANSWER.unused = 0;
     ANSWER.accepted = accepted;
     ANSWER.proportional = fixpid_pid_proportional(&pid_controller);

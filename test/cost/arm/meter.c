@@ -33,7 +33,7 @@ int main(void)
                                      RANDOM_STEPS,
                                      DIRECTED_STEPS,
                                      OUTPUTS_ONLY,
-                                     PLAIN};
+                                     QUESTIONS};
 
     calibrate();
     return search_run(&plan) == 0u ? 0 : 1;

@@ -2,7 +2,7 @@
 // What a step costs on an AVR in simavr, in cycles:
 //
 //   meter FIRMWARE.elf MCU CONTROLLER MAIN STEP TURN EXCHANGE RANDOM DIRECTED
-//         OUTPUTS_ONLY PLAIN
+//         OUTPUTS_ONLY QUESTIONS
 //
 // The firmware is test/target/driver_main.c with the controller's driver; MAIN,
 // STEP, TURN and EXCHANGE are the addresses of its symbols, in hexadecimal.

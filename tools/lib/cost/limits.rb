@@ -112,7 +112,7 @@ module Limits
     # Of the worst found; the largest is in the table of limits. What plain
     # questions find is no measure of the code's longest path.
     def bounds(measured)
-      subject, figures = measured.reject { |one, _| one.controller.plain }.max_by { |_, one| one.bound.fdiv(one.most) }
+      subject, figures = measured.reject { |one, _| one.controller.questions == 'PLAIN' }.max_by { |_, one| one.bound.fdiv(one.most) }
       [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
     end
 

@@ -7,6 +7,7 @@ require_relative 'pic_code'
 
 RANDOM_STEPS = 20_000
 DIRECTED_STEPS = 100_000
+QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
 
 # What one subject costs; `most` is over all questions, `mean` over the
 # recorded rows, `bound` from the code. Flash of the step, of all functions that
@@ -168,7 +169,7 @@ class Meter
   # A straightforward form has neither flags nor refusals: only the outputs of
   # the rows are compared.
   def numbers
-    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0, @controller.plain ? 1 : 0].map(&:to_s)
+    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
   end
 
   def needed(code)
@@ -302,11 +303,11 @@ class ArmMeter < AvrMeter
   end
 
   def definitions
-    random, directed, outputs, plain = numbers
+    random, directed, outputs, questions = numbers
     ["-DCONTROLLER=\"#{@controller.name}\"", "-DREPLY=#{@controller.name}_reply",
      "-DEXCHANGE=#{@controller.name}_exchange", "-DSTEP=\"#{@step}\"",
      "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}",
-     "-DPLAIN=#{plain}"]
+     "-DQUESTIONS=#{questions}"]
   end
 
   # Its note about a timer that is off is not ours.

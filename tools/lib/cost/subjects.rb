@@ -5,11 +5,12 @@
 # controller takes an entry in CONTROLLERS, a driver in test/target/, with its
 # questions in cases.c, and test/cost/bare_NAME.c.
 
-# `calls` are the functions that every application has; `plain` measures only
-# questions without the rarer features. `straight` says that there is
-# test/cost/straight_NAME.c. `turns` are those of loops that count no constant
-# down, by function.
-Controller = Struct.new(:id, :name, :title, :pics, :calls, :plain, :straight, :turns, keyword_init: true) do
+# `calls` are the functions that every application has; `questions` says that
+# only some are measured, as in search.h, and `defines` how all of it is built.
+# `straight` says that there is test/cost/straight_NAME.c. `turns` are those of
+# loops that count no constant down, by function.
+Controller = Struct.new(:id, :name, :title, :pics, :calls, :questions, :defines, :straight, :turns,
+                        keyword_init: true) do
   def function(verb)
     "fixpid_#{name}_#{verb}"
   end
@@ -25,8 +26,10 @@ CONTROLLERS = [
                  straight: true),
   Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
                  calls: %w[init step], straight: true),
+  Controller.new(id: 'pid_typical', name: 'pid', title: 'PID, typical', pics: %w[pic18f4520], calls: %w[init step],
+                 questions: 'TYPICAL', defines: %w[FIXPID_PID_FEATURES=0x00]),
   Controller.new(id: 'pid_plain', name: 'pid', title: 'PID, plain', pics: %w[pic18f4520], calls: %w[init step],
-                 plain: true, turns: FILTER_TURNS),
+                 questions: 'PLAIN', turns: FILTER_TURNS),
   Controller.new(id: 'pid', name: 'pid', title: 'PID', pics: %w[pic18f4520], calls: %w[init step],
                  turns: FILTER_TURNS)
 ].freeze
@@ -117,7 +120,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   def defines
     object = chip.kind == :pic && build == 'object'
     mode = object ? ["-DFIXPID_#{controller.name.upcase}_OBJECT=#{controller.name}_controller"] : []
-    mode + (variant ? variant.defines.map { |define| "-D#{define}" } : [])
+    mode + (controller.defines.to_a + (variant ? variant.defines : [])).map { |define| "-D#{define}" }
   end
 
   # What every application needs, and with what only some do.
