@@ -34,7 +34,8 @@ static bool gains_are_legal(const struct fixpid_pid_gains *gains)
 {
     return gains->kp_q8 <= 32767 && gains->kd_q8 <= 32255 &&
            gains->ki_q24 <= 0x7FFF0000u && gains->derivative_filter <= 7 &&
-           (reference_pid_gains_need(gains) & ~FIXPID_PID_FEATURES) == 0;
+           (reference_pid_gains_need(gains) & ~(unsigned)FIXPID_PID_FEATURES) ==
+               0;
 }
 
 static void take_gains(struct reference_pid *self,
@@ -71,7 +72,7 @@ bool reference_pid_init(struct reference_pid *self,
     memset(self, 0, sizeof *self);
     self->accepted =
         gains_are_legal(&config->gains) &&
-        (reference_pid_needs(config) & ~FIXPID_PID_FEATURES) == 0 &&
+        (reference_pid_needs(config) & ~(unsigned)FIXPID_PID_FEATURES) == 0 &&
         config->output_min < config->output_max &&
         config->integral_min >= -32767 &&
         config->integral_min <= config->integral_max &&

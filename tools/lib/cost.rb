@@ -15,6 +15,7 @@ require_relative 'cost/picture'
 require_relative 'cost/firmware'
 require_relative 'cost/memory'
 require_relative 'cost/modules'
+require_relative 'cost/features'
 
 Encoding.default_external = 'UTF-8'
 
@@ -87,6 +88,14 @@ class Cost
     found.transform_values { |figures| ModuleFigures.new(**figures.transform_keys(&:to_sym)) }
   end
 
+  # What each feature of fixpid_pid costs.
+  def prices
+    @prices ||= begin
+      all = Features.all
+      all.zip(Host.in_parallel(all) { |one| @memory.of(one) { Meter.of(one.subject).of_code } }).to_h
+    end
+  end
+
   def straight
     @straight ||= begin
       subjects = @subjects.select(&:has_straight?)
@@ -116,6 +125,7 @@ class Cost
     [[page, 'steps', Tables.steps(measured)],
      [page, 'modules', Tables.modules(called)],
      ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
+     ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
      [page, 'ratios', Tables.ratios(measured, straight)],
      [page, 'beside', Tables.beside(measured)],
      [page, 'limits', Tables.limits(limits)],

@@ -41,12 +41,16 @@ module Limits
     ['pid_plain', 'pic18f4520', 'object', 'access-RAM'] => { most: 800 },
     ['pid_plain', 'atmega328p', '-O2', nil] => { most: 347 },
     ['pid_plain', 'cortex-m0', '-O2', nil] => { most: 108 },
-    ['pid_plain', 'cortex-m4', '-O2', nil] => { most: 78 },
+    ['pid_plain', 'cortex-m4', '-O2', nil] => { most: 75 },
     ['pid', 'pic18f4520', 'object', nil] => { most: 1305, linked: 5090 },
     ['pid', 'atmega328p', '-O2', nil] => { most: 512 },
     ['pid', 'atmega328p', '-Os', nil] => { needed: 1800 },
     ['pid', 'cortex-m0', '-O2', nil] => { most: 157, needed: 950 },
-    ['pid', 'cortex-m4', '-O2', nil] => { most: 114 }
+    ['pid', 'cortex-m4', '-O2', nil] => { most: 112 },
+    ['pid_typical', 'pic18f4520', 'object', 'access-RAM'] => { most: 705, bound: 745, needed: 2950 },
+    ['pid_typical', 'atmega328p', '-O2', nil] => { most: 300, bound: 320, needed: 900 },
+    ['pid_typical', 'cortex-m0', '-O2', nil] => { most: 90, bound: 95, needed: 500 },
+    ['pid_typical', 'cortex-m4', '-O2', nil] => { most: 62, bound: 64, needed: 450 }
   }.freeze
 
   # What stands beside a controller: function, chip, build.
@@ -86,7 +90,7 @@ module Limits
     ['motor, PIC18F4520', 'interrupt'] => [18, 'cycles']
   }.freeze
 
-  WORDS = { most: 'worst', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
+  WORDS = { most: 'worst', bound: 'bound', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
             ram: 'RAM in all' }.freeze
 
   CALLED_WORDS = { most: 'worst', flash: 'flash', instance: 'RAM each' }.freeze
@@ -128,7 +132,7 @@ module Limits
 
     def step(subject, figures, figure, most)
       now = figure == :ram ? figures.instance + figures.fixed : figures[figure]
-      unit = { most: subject.chip.cost, step_variables: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
+      unit = { most: subject.chip.cost, bound: subject.chip.cost, step_variables: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
       Limit.new("#{subject}, #{WORDS.fetch(figure)}", most, now, unit)
     end
 

@@ -134,6 +134,14 @@ class Meter
     @step = subject.step
   end
 
+  # Without a run: the longest path of a step, and the flash with init.
+  def of_code
+    Harness.build(@subject.chip.kind)
+    build
+    code = read_code
+    [LongestPath.new(code, @controller.turns || {}).function(code.entry(@step)).cost, needed(code)]
+  end
+
   # The worst step and no more.
   def most
     Harness.build(@subject.chip.kind)
@@ -186,11 +194,14 @@ end
 class PicMeter < Meter
   private
 
-  # Besides the firmware that is run, two for the sizes: one with only the calls
-  # that every application has, and one with none.
   def build
     link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver,
          *@subject.all_sources)
+  end
+
+  # Two more for the sizes: one with only the calls that every application has,
+  # and one with none.
+  def build_for_sizes
     link("#{@path}-bare", *together("test/cost/bare_#{@controller.name}.c", *@subject.sources))
     link("#{@path}-nothing", *together('test/cost/bare_nothing.c'))
   end
@@ -229,6 +240,7 @@ class PicMeter < Meter
 
   # What a firmware grows by.
   def sizes(_code)
+    build_for_sizes
     bare = code_of("#{@path}-bare")
     nothing = code_of("#{@path}-nothing")
     instance = bare.object_size("#{@controller.name}_controller")
