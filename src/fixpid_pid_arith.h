@@ -103,10 +103,9 @@ FIXPID_INLINE int16_t complement(int16_t x)
 
 // a - b, saturated. One comparison finds whether the difference fits; where int
 // has 16 bits, it comes before the subtraction.
-//
-// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if defined(FIXPID_HAS_SUB16_SAT)
 // in the chip's own header
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #elif INT_MAX > 32767
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {

@@ -51,10 +51,17 @@ def autotune_runs(sources)
   %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources, []) }
 end
 
+# Of fixpid_pid with all features and with none.
+def pid_runs(sources)
+  [Run.new('test_fixpid_pid', sources, []),
+   Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
+end
+
 # The runs in which a file is compiled, by its name in src/.
 def runs_of(file)
   name = File.basename(file, '.*')
   return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
+  return pid_runs([file]) if file.match?(/fixpid_pid\w*\.c\z/)
   return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
 
   case name
@@ -62,7 +69,7 @@ def runs_of(file)
   when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/fixpid_pid_arith.h')] # a shift of the second
   when 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
-    [Run.new('test_fixpid_pid', Dir['src/fixpid_pid{,_more,_track}.c'], [])]
+    pid_runs(Dir['src/fixpid_pid{,_more,_track}.c'])
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/fixpid_autotune*.c'].sort)
   when 'fixpid_pid_arith'
     [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
