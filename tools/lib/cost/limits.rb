@@ -46,7 +46,16 @@ module Limits
     ['pid', 'atmega328p', '-O2', nil] => { most: 512 },
     ['pid', 'atmega328p', '-Os', nil] => { needed: 1800 },
     ['pid', 'cortex-m0', '-O2', nil] => { most: 157, needed: 950 },
-    ['pid', 'cortex-m4', '-O2', nil] => { most: 114 }
+    ['pid', 'cortex-m4', '-O2', nil] => { most: 114 },
+    ['an937', 'rv32imc', '-O2', nil] => { most: 47 },
+    ['an964', 'rv32imc', '-O2', nil] => { most: 93 },
+    ['an964_8bit', 'rv32imc', '-O2', nil] => { most: 95 },
+    ['pid_plain', 'rv32imc', '-O2', nil] => { most: 88 },
+    ['pid', 'rv32imc', '-O2', nil] => { most: 131, needed: 1050 },
+    ['an937', 'rv32ec', '-Os', nil] => { most: 455, needed: 690 },
+    ['an964', 'rv32ec', '-Os', nil] => { most: 232, needed: 910 },
+    ['an964_8bit', 'rv32ec', '-Os', nil] => { most: 186, needed: 750 },
+    ['pid', 'rv32ec', '-Os', nil] => { most: 930, needed: 1070 }
   }.freeze
 
   # What stands beside a controller: function, chip, build.
