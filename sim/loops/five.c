@@ -60,7 +60,8 @@ static void print_row(const struct trial *trial, const char *controller,
                  quality->iae_after);
 }
 
-void print_five(void)
+// fixpid_pid, the law, and the law without a feature.
+static void print_all(const struct trial *trial)
 {
     static const char *const names[] = {
         "law",
@@ -74,15 +75,46 @@ void print_five(void)
         LAW_SIGN_BLIND,
         LAW_INTEGRAL_CLAMPED,
     };
+    const struct quality fixed = run(trial, true, LAW_WHOLE);
 
+    print_row(trial, "fixpid_pid", &fixed);
+    for (size_t i = 0; i < sizeof(withouts) / sizeof(withouts[0]); i++) {
+        const struct quality law = run(trial, false, withouts[i]);
+        print_row(trial, names[i], &law);
+    }
+}
+
+static void print_head(void)
+{
     (void)printf("plant;controller;overshoot;settled;steady;iae;iae_after\n");
+}
+
+void print_five(void)
+{
+    print_head();
     for (int i = 0; i < TRIALS; i++) {
-        const struct quality fixed = run(&trials[i], true, LAW_WHOLE);
-        print_row(&trials[i], "fixpid_pid", &fixed);
-        for (size_t j = 0; j < sizeof(withouts) / sizeof(withouts[0]); j++) {
-            const struct quality law = run(&trials[i], false, withouts[j]);
-            print_row(&trials[i], names[j], &law);
-        }
+        print_all(&trials[i]);
+    }
+}
+
+// A reset time kp / ki of three lags and more, and one that is right.
+void print_slow(void)
+{
+    static const struct {
+        const char *name;
+        double ki;
+    } cases[] = {{"lag 3000, reset time 10000", 0.0001},
+                 {"lag 3000, reset time 3000", 1.0 / 3000.0}};
+    struct trial trial = trials[0];
+
+    print_head();
+    trial.plant.lag_steps = 3000.0;
+    trial.gains.kp = 1.0;
+    trial.steps = 40000;
+    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
+        trial.plant.name = cases[i].name;
+        trial.gains.ki = cases[i].ki;
+        print_all(&trial);
     }
 }
 

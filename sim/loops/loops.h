@@ -32,6 +32,7 @@ void loop_set_manual(struct loop *self, double output);
 void loop_set_auto(struct loop *self);
 
 void print_five(void);      // fixpid_pid against the law on five plants
+void print_slow(void);      // where the integral is far too slow
 void print_agreement(void); // step by step, on the same readings
 void print_bumps(void);
 void print_drift(void);

@@ -12,9 +12,10 @@ int main(int count, char **arguments)
         const char *name;
         void (*print)(void);
     } tables[] = {
-        {"five", print_five},         {"agreement", print_agreement},
-        {"bumps", print_bumps},       {"drift", print_drift},
-        {"autotune", print_autotune}, {"failures", print_failures},
+        {"five", print_five},           {"slow", print_slow},
+        {"agreement", print_agreement}, {"bumps", print_bumps},
+        {"drift", print_drift},         {"autotune", print_autotune},
+        {"failures", print_failures},
     };
 
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {

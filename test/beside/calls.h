@@ -16,7 +16,7 @@ void calls_random(uint32_t count);
 void calls_answer(uint32_t given, uint32_t defined);
 
 // Before the first call and after the last, in a program that is built with
-// -DCALLS_METERED: test/cost/arm/calls.c.
+// -DCALLS_METERED: test/cost/qemu/calls.c.
 void calls_begin(void);
 void calls_end(void);
 

@@ -128,6 +128,8 @@ class Cost
      ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
      [page, 'ratios', Tables.ratios(measured, straight)],
      [page, 'beside', Tables.beside(measured)],
+     [page, 'pics', Tables.beside_pics(measured)],
+     [page, 'quality', Tables.quality],
      [page, 'limits', Tables.limits(limits)],
      ["#{Host.root}/README.md", 'cost', Tables.readme(measured)]]
   end

@@ -41,6 +41,11 @@ class Code
     nil
   end
 
+  # Of the compiler's own routines: how often their loops turn at most.
+  def turns
+    {}
+  end
+
   private
 
   def plain(at, bytes, cost)

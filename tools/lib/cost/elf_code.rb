@@ -36,6 +36,13 @@ class ElfCode < Code
     `#{@tools}-size #{objects.join(' ')}`.lines.drop(1).sum { |line| line.split[1, 2].sum(&:to_i) }
   end
 
+  # Bytes that a function and its callees push at most.
+  def stack(entry, path)
+    pushed = path.function(entry).addresses.group_by { |at| name(at) }
+    pushed.transform_values! { |addresses| addresses.sum { |at| pushed_by(*line(at)) } }
+    deepest(entry, pushed, path)
+  end
+
   private
 
   def line(at)
@@ -44,6 +51,12 @@ class ElfCode < Code
 
   def mask
     -1
+  end
+
+  def deepest(entry, pushed, path)
+    own = name(entry)
+    callees = path.function(entry).addresses.select { |at| name(at) == own }.map { |at| at(at).call }.compact.uniq
+    pushed.fetch(own, 0) + (callees.map { |callee| deepest(callee, pushed, path) }.max || 0)
   end
 end
 
@@ -121,13 +134,6 @@ class ArmCode < ElfCode
     super(path, 'arm-none-eabi')
   end
 
-  # Bytes that a function and its callees push at most.
-  def stack(entry, path)
-    pushed = path.function(entry).addresses.group_by { |at| name(at) }
-    pushed.transform_values! { |addresses| addresses.sum { |at| pushed_by(*line(at)) } }
-    deepest(entry, pushed, path)
-  end
-
   private
 
   def mask
@@ -176,10 +182,51 @@ class ArmCode < ElfCode
       last ? last - first + 1 : 1
     end
   end
+end
 
-  def deepest(entry, pushed, path)
-    own = name(entry)
-    callees = path.function(entry).addresses.select { |at| name(at) == own }.map { |at| at(at).call }.compact.uniq
-    pushed.fetch(own, 0) + (callees.map { |callee| deepest(callee, pushed, path) }.max || 0)
+# A RISC-V: each instruction costs one.
+class RiscvCode < ElfCode
+  def initialize(path)
+    super(path, 'riscv64-unknown-elf')
+  end
+
+  # A product by shift and add: a turn for each bit of a factor.
+  def turns
+    { '__mulsi3' => 32 }
+  end
+
+  private
+
+  def decode(at)
+    bytes, mnemonic, operands = line(at)
+    case mnemonic
+    when 'ret' then Instruction.new([], nil, 1, bytes)
+    when 'jal' then Instruction.new([[at + bytes, 1]], target(operands), nil, bytes)
+    when 'j' then Instruction.new([[target(operands), 1]], nil, nil, bytes)
+    when /\Ab/ then Instruction.new([[at + bytes, 1], [target(operands), 1]], nil, nil, bytes)
+    when /\Aj|\Ae(?:break|call)\z/ then opaque("#{mnemonic} #{operands}")
+    else plain(at, bytes, 1)
+    end
+  end
+
+  # Without a register before it, that is not the return address's.
+  def target(operands)
+    operands[/(?:\A|,)(\h{8})\z/, 1].hex
+  end
+
+  def pushed_by(_bytes, mnemonic, operands)
+    mnemonic == 'add' ? operands[/\Asp,sp,-(\d+)\z/, 1].to_i : 0
+  end
+end
+
+# With 16 registers, which QEMU does not refuse to exceed.
+class Rv32eCode < RiscvCode
+  BEYOND = /\b(?:a[67]|s[2-9]|s1[01]|t[3-6])\b/.freeze
+
+  private
+
+  def decode(at)
+    missing(at, 'a register that RV32E has not') if line(at).last.match?(BEYOND)
+    super
   end
 end

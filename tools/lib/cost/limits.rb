@@ -50,7 +50,17 @@ module Limits
     ['pid_typical', 'pic18f4520', 'object', 'access-RAM'] => { most: 705, bound: 745, needed: 2950 },
     ['pid_typical', 'atmega328p', '-O2', nil] => { most: 300, bound: 320, needed: 900 },
     ['pid_typical', 'cortex-m0', '-O2', nil] => { most: 90, bound: 95, needed: 500 },
-    ['pid_typical', 'cortex-m4', '-O2', nil] => { most: 62, bound: 64, needed: 450 }
+    ['pid_typical', 'cortex-m4', '-O2', nil] => { most: 62, bound: 64, needed: 450 },
+    ['pid_typical', 'rv32imc', '-O2', nil] => { most: 58 },
+    ['an937', 'rv32imc', '-O2', nil] => { most: 47 },
+    ['an964', 'rv32imc', '-O2', nil] => { most: 93 },
+    ['an964_8bit', 'rv32imc', '-O2', nil] => { most: 95 },
+    ['pid_plain', 'rv32imc', '-O2', nil] => { most: 88 },
+    ['pid', 'rv32imc', '-O2', nil] => { most: 131, needed: 1050 },
+    ['an937', 'rv32ec', '-Os', nil] => { most: 455, needed: 690 },
+    ['an964', 'rv32ec', '-Os', nil] => { most: 232, needed: 910 },
+    ['an964_8bit', 'rv32ec', '-Os', nil] => { most: 186, needed: 750 },
+    ['pid', 'rv32ec', '-Os', nil] => { most: 930, needed: 1070 }
   }.freeze
 
   # What stands beside a controller: function, chip, build.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'cores'
 require_relative 'elf_code'
 require_relative 'longest_path'
 require_relative 'pic_code'
@@ -54,7 +55,6 @@ module Harness
               test/support/numbers.c test/support/numbers_pid.c].freeze
   INCLUDES = %w[include src test/support test/target test/cost].map { |folder| "-I#{folder}" }.freeze
   WARNINGS = %w[-Wall -Wextra -Werror].freeze
-  ARM = %w[-mthumb -std=c99 -ffreestanding -ffunction-sections -Itest/target/arm -Itest/target/shim].freeze
 
   @mutex = Mutex.new
   @built = {}
@@ -64,7 +64,7 @@ module Harness
     def build(kind)
       @mutex.synchronize do
         @built[kind] ||= begin
-          { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table } }[kind].call
+          { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table }, riscv: -> { vectors_table } }[kind].call
           true
         end
       end
@@ -76,11 +76,11 @@ module Harness
     end
 
     # Objects that all programs of a core share.
-    def arm_objects(core)
-      files = SHARED + %w[test/target/arm/start.c] + ["#{Host.folder}/vectors_table.c"]
+    def objects_of(core)
+      files = SHARED + CORES.fetch(core).sources + ["#{Host.folder}/vectors_table.c"]
       files.map do |file|
         object = "#{Host.folder}/#{core}-#{File.basename(file, '.c')}.o"
-        Host.output('arm-none-eabi-gcc', "-mcpu=#{core}", *ARM, '-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
+        CORES.fetch(core).compile('-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
         object
       end
     end
@@ -124,7 +124,7 @@ end
 # Builds a subject and measures it.
 class Meter
   def self.of(subject)
-    { pic: PicMeter, avr: AvrMeter, arm: ArmMeter }.fetch(subject.chip.kind).new(subject)
+    { pic: PicMeter, avr: AvrMeter, arm: QemuMeter, riscv: QemuMeter }.fetch(subject.chip.kind).new(subject)
   end
 
   def initialize(subject)
@@ -154,7 +154,7 @@ class Meter
     build
     answers = Answers.new(run, @subject)
     code = read_code
-    longest = LongestPath.new(code, @controller.turns || {})
+    longest = LongestPath.new(code, code.turns.merge(@controller.turns || {}))
     step = longest.function(code.entry(@step))
     check_bound(answers.most, step.cost)
     Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
@@ -293,25 +293,27 @@ class AvrMeter < Meter
 end
 
 # In QEMU.
-class ArmMeter < AvrMeter
-  BOARDS = { 'cortex-m0' => 'microbit', 'cortex-m4' => 'mps2-an386' }.freeze
-  SHARED = Hash.new { |all, core| all[core] = Harness.arm_objects(core) }
+class QemuMeter < AvrMeter
+  CODES = { 'cortex-m0' => ArmCode, 'cortex-m4' => ArmCode, 'rv32imc' => RiscvCode, 'rv32ec' => Rv32eCode }.freeze
+  SHARED = Hash.new { |all, core| all[core] = Harness.objects_of(core) }
   MUTEX = Mutex.new
 
   private
 
+  def core
+    CORES.fetch(@subject.chip.name)
+  end
+
   def build
-    core = @subject.chip.name
-    shared = MUTEX.synchronize { SHARED[core] }
-    flags = ["-mcpu=#{core}", *Harness::ARM, @subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
+    shared = MUTEX.synchronize { SHARED[@subject.chip.name] }
+    flags = [@subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
     @objects = @subject.all_sources.map do |file|
       object = "#{@path}-#{File.basename(file, '.*')}.o"
-      Host.output('arm-none-eabi-gcc', *flags, '-c', file, '-o', object)
+      core.compile(*flags, '-c', file, '-o', object)
       object
     end
-    Host.output('arm-none-eabi-gcc', *flags, '-nostdlib', *definitions, "-Wl,--wrap=#{@step}",
-                'test/cost/arm/meter.c', driver, *@objects, *shared,
-                '-T', 'test/target/arm/flash.ld', '-Wl,--gc-sections', '-lgcc', '-o', "#{@path}.elf")
+    core.link("#{@path}.elf", *flags, *definitions, "-Wl,--wrap=#{@step}", 'test/cost/qemu/meter.c', driver,
+              *@objects, *shared)
   end
 
   def definitions
@@ -322,14 +324,12 @@ class ArmMeter < AvrMeter
      "-DQUESTIONS=#{questions}"]
   end
 
-  # Its note about a timer that is off is not ours.
   def run
-    Host.output('timeout', '300', 'qemu-system-arm', '-M', BOARDS.fetch(@subject.chip.name), '-nographic',
-                '-semihosting', '-icount', 'shift=10,sleep=off', '-kernel', "#{@path}.elf")
+    core.run("#{@path}.elf")
   end
 
   def read_code
-    @read_code ||= ArmCode.new("#{@path}.elf")
+    @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
   end
 
   def stack(_answers, code, longest)

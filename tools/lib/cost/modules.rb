@@ -66,7 +66,7 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
   end
 
   def self.all
-    CHIPS.reject { |chip| chip.name == 'pic16f684' }.flat_map do |chip|
+    CHIPS.reject { |chip| chip.name == 'pic16f684' || chip.kind == :riscv }.flat_map do |chip|
       builds = chip.kind == :pic ? %w[pointer] : chip.builds
       CALLED_MODULES.select { |called| called.on?(chip.kind) }.product(builds).map { |called, build| new(called, chip, build) }
     end
@@ -207,23 +207,25 @@ end
 class ModuleArmMeter < ModuleAvrMeter
   private
 
+  def core
+    CORES.fetch(@subject.chip.name)
+  end
+
   def build
-    core = ["-mcpu=#{@subject.chip.name}", *Harness::ARM, *Harness::WARNINGS, *flags, '-Itest/cost/arm']
+    options = [*Harness::WARNINGS, *flags]
     names = @called.functions.keys.zip(%w[FIRST SECOND])
-    @objects = objects('arm-none-eabi-gcc', *core, @subject.build)
-    Host.output('arm-none-eabi-gcc', *core, '-O2', '-nostdlib', '-DCALLS_METERED',
-                *names.flat_map { |name, which| ["-D#{which}=\"#{name}\"", "-Wl,--wrap=#{name}"] },
-                *program, 'test/cost/arm/calls.c', 'test/target/arm/start.c', *@objects,
-                '-T', 'test/target/arm/flash.ld', '-Wl,--gc-sections', '-lgcc', '-o', "#{@path}.elf")
+    @objects = objects("#{tools}-gcc", *core.options, *Core::OPTIONS, *options, @subject.build)
+    core.link("#{@path}.elf", *options, '-O2', '-DCALLS_METERED',
+              *names.flat_map { |name, which| ["-D#{which}=\"#{name}\"", "-Wl,--wrap=#{name}"] },
+              *program, 'test/cost/qemu/calls.c', *core.sources, *@objects)
   end
 
   def run
-    Host.output('timeout', '300', 'qemu-system-arm', '-M', ArmMeter::BOARDS.fetch(@subject.chip.name), '-nographic',
-                '-semihosting', '-icount', 'shift=10,sleep=off', '-kernel', "#{@path}.elf")
+    core.run("#{@path}.elf")
   end
 
   def tools
-    'arm-none-eabi'
+    core.tools
   end
 
   def code

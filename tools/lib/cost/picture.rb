@@ -13,10 +13,11 @@ class Picture
   NOTE = Plot::RED
   PEER = '#555555'
   # Columns of panels: chip, build, and its title.
-  COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles']],
+  COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles'],
+              ['rv32imc', '-O2', 'RV32IMC, -O2, instructions']],
              [['atmega328p', '-O2', 'ATmega328P, -O2, cycles'],
-              ['cortex-m0', '-Os', 'Cortex-M0, -Os, instructions'],
-              ['cortex-m4', '-Os', 'Cortex-M4, -Os, instructions']]].freeze
+              ['cortex-m0', '-O2', 'Cortex-M0, -O2, instructions'],
+              ['cortex-m4', '-O2', 'Cortex-M4, -O2, instructions']]].freeze
   # From where to where the axes of a column go; its names are on their left.
   PLACES = [[0.245, 0.485], [0.7, 0.94]].freeze
   ROW = 18 # pixels
@@ -52,7 +53,7 @@ class Picture
   end
 
   def others(list, chip, build, kind)
-    list.map { |other| Dot.new(other.title, other.costs["#{chip}#{build}"], nil, kind) }.select(&:worst)
+    list.map { |other| Dot.new(other.title, other.worst("#{chip}#{build}"), nil, kind) }.select(&:worst)
   end
 
   # In the plot's own rows, so that a row is as high in each panel.
@@ -118,7 +119,7 @@ class Picture
   def key(plot, top)
     entries = [["pointtype 7 linecolor '#{OURS}'", 'fixpid, the worst step found'],
                ["pointtype '|' linecolor '#{OURS}'", 'and the bound of its code'],
-               [STYLES[:note], 'the notes\' own firmware'], [STYLES[:peer], 'other libraries']]
+               [STYLES[:note], 'the notes\' own firmware'], [STYLES[:peer], 'other libraries, the worst of a trace']]
     curves = entries.map { |style, title| "keyentry with points pointsize 1.1 #{style} title \"#{title}\"" }
     plot.panel_at([PLACES[0][0], 0.55], [1.0 - (top + KEY - 30).fdiv(@height), 1.0 - (top - 10).fdiv(@height)],
                   ['-1 notitle', *curves],

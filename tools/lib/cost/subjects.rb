@@ -19,9 +19,12 @@ end
 # The derivative filter shifts by 0 to 7, tested once more than it shifts.
 FILTER_TURNS = { 'fixpid_pid_step' => 8, 'differentiate' => 8 }.freeze
 
+# Without a multiplier AN937's products are those of two bytes.
+BYTE_TURNS = { '__mulsi3' => 8 }.freeze
+
 CONTROLLERS = [
   Controller.new(id: 'an937', name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step],
-                 straight: true),
+                 straight: true, turns: BYTE_TURNS),
   Controller.new(id: 'an964', name: 'an964', title: 'AN964', pics: %w[pic16f684 pic18f4520], calls: %w[init step],
                  straight: true),
   Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
@@ -63,7 +66,9 @@ CHIPS = [
   Chip.new(name: 'pic18f4520', title: 'PIC18F4520', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'atmega328p', title: 'ATmega328P', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
-  Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes')
+  Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
+  Chip.new(name: 'rv32imc', title: 'RV32IMC', kind: :riscv, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
+  Chip.new(name: 'rv32ec', title: 'RV32EC', kind: :riscv, builds: OPTIONS, cost: 'instructions', flash: 'bytes')
 ].freeze
 
 # src/ has a folder for each: a source that is not meant for a chip is empty.
@@ -79,7 +84,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
 
   # A PIC is not compared: nobody writes 32-bit products for it.
   def has_straight?
-    controller.straight && chip.kind != :pic && variant.nil?
+    controller.straight && %i[avr arm].include?(chip.kind) && variant.nil?
   end
 
   def straight

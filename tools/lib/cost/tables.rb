@@ -7,13 +7,16 @@ require_relative 'published'
 module Tables
   HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'flash of the step', 'with init', 'linked',
           'RAM each', 'RAM once', 'stack'].freeze
-  # Of the comparison with others.
-  COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p-O2' => 'ATmega328P -O2',
-              'atmega328p-Os' => 'ATmega328P -Os', 'cortex-m0-Os' => 'Cortex-M0 -Os',
-              'cortex-m4-Os' => 'Cortex-M4 -Os' }.freeze
+  # Of the comparisons with others.
+  COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
+              'cortex-m0-O2' => 'Cortex-M0 -O2', 'cortex-m4-O2' => 'Cortex-M4 -O2',
+              'rv32imc-O2' => 'RV32IMC -O2' }.freeze
+  PIC_COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520' }.freeze
+  QUALITY_HEAD = ['', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
+                  'sum until then', 'error left, low gains'].freeze
   # Of README.md: what one would build.
   BEST = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2',
-           'cortex-m4' => '-O2' }.freeze
+           'cortex-m4' => '-O2', 'rv32imc' => '-O2', 'rv32ec' => '-O2' }.freeze
 
   class << self
     def steps(measured)
@@ -41,14 +44,24 @@ module Tables
       end
     end
 
-    # Ours, then the notes' and the others'.
+    # Ours, then the others'.
     def beside(measured)
-      ours = CONTROLLERS.flat_map { |controller| own_rows(measured, controller) }
-      others = (NOTES + PEERS).map do |other|
-        [other.title, *COLUMNS.keys.map { |column| other.costs.fetch(column, '-') }, other.flash || '-',
-         other.ram || '-']
+      ours = own_rows(measured, COLUMNS).map do |controller, name, cells|
+        small = find(measured, controller.id, 'atmega328p', '-Os', name)
+        [*cells, small&.needed || '-', small&.instance || '-']
       end
+      others = other_rows(PEERS, COLUMNS).map { |other, cells| [*cells, other.flash || '-', other.ram || '-'] }
       [['', *COLUMNS.values, 'flash, ATmega328P -Os', 'RAM']] + ours + others
+    end
+
+    # The same on the PICs, with the notes' own programs.
+    def beside_pics(measured)
+      ours = own_rows(measured, PIC_COLUMNS).map(&:last)
+      [['', *PIC_COLUMNS.values]] + ours + other_rows(NOTES + PEERS, PIC_COLUMNS).map(&:last)
+    end
+
+    def quality
+      [QUALITY_HEAD] + QUALITY
     end
 
     # Against the straightforward form: { subject => its worst }.
@@ -112,15 +125,25 @@ module Tables
       [nil] + own.map { |subject| subject.variant&.name }.compact.uniq
     end
 
-    def own_rows(measured, controller)
-      variants(measured, controller).map do |name|
-        costs = COLUMNS.keys.map do |column|
-          chip, option = column.split(/(?=-O)/)
-          find(measured, controller.id, chip, option || 'object', name)&.most || '-'
-        end
-        small = find(measured, controller.id, 'atmega328p', '-Os', name)
-        ["fixpid #{[controller.title, name].compact.join(', ')}", *costs, small&.needed || '-', small&.instance || '-']
+    # [controller, variant, cells] of what has a cell in these columns.
+    def own_rows(measured, columns)
+      rows = CONTROLLERS.flat_map { |one| variants(measured, one).map { |name| [one, name] } }
+      rows.map { |controller, name| [controller, name, own_cells(measured, controller, name, columns)] }
+          .select { |_, _, cells| (cells.drop(1) - ['-']).any? }
+    end
+
+    def own_cells(measured, controller, name, columns)
+      costs = columns.keys.map do |column|
+        chip, option = column.split(/(?=-O)/)
+        figures = find(measured, controller.id, chip, option || 'object', name)
+        figures ? "#{figures.mean.round} / #{figures.most}" : '-'
       end
+      ["fixpid #{[controller.title, name].compact.join(', ')}", *costs]
+    end
+
+    def other_rows(others, columns)
+      others.select { |other| (columns.keys & other.costs.keys).any? }
+            .map { |other| [other, [other.title, *columns.keys.map { |column| other.shown(column) }]] }
     end
 
     def short(measured, controller, chip, build, name)

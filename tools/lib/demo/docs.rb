@@ -13,8 +13,8 @@ module Docs
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
                           'autotune' => :autotune, 'clouds' => :clouds,
                           'holding' => :holding, 'dangers' => :dangers },
-    'docs/behaviour.md' => { 'five' => :five, 'bumps' => :bumps,
-                             'drift' => :drift },
+    'docs/behaviour.md' => { 'five' => :five, 'slow' => :slow,
+                             'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override }
   }.freeze
 

@@ -52,6 +52,7 @@ BUMP_LIMITS = {
 def others
   five = Loops.table('five').group_by { |row| row['plant'] }
   five.each { |plant, rows| check_plant(plant, rows) }
+  check_slow(Loops.table('slow'))
   Loops.table('agreement').each { |row| check_agreement(row) }
   check_bumps(Loops.table('bumps'))
   check_drift(Loops.table('drift'))
@@ -83,6 +84,19 @@ def check_precision(plant, ours, law)
   %w[iae iae_after].each do |name|
     Report.at_most("#{plant}: #{WHAT[name]}, off double precision by",
                    percent[name].abs, 1.0, '%')
+  end
+end
+
+# Sum of errors by that of an integral that is clamped, with one that is far too
+# slow and with one that is not.
+CLAMPED_LIMITS = { 'lag 3000, reset time 10000' => 1.45, 'lag 3000, reset time 3000' => 1.08 }.freeze
+
+def check_slow(rows)
+  Report.number('slow', rows)
+  rows.group_by { |row| row['plant'] }.each do |plant, own|
+    ours, law, *, clamped = own.map { |row| row['iae'].to_f }
+    Report.at_most("#{plant}: sum of errors, off double precision by", 100.0 * (ours / law - 1.0).abs, 1.0, '%')
+    Report.at_most("#{plant}: sum of errors, by that of a clamped integral", ours / clamped, CLAMPED_LIMITS.fetch(plant))
   end
 end
 

@@ -88,8 +88,12 @@ module Tables
       rows = LOOP_LIMITS.keys.flat_map do |plant|
         numbers[plant].map { |row| loop_row(row) }
       end
-      table('plant', 'controller', 'overshoot', 'settled after',
-            'sum of errors', 'and after the large setpoint', rows)
+      loops(rows)
+    end
+
+    # Where another rule does better.
+    def slow
+      loops(Report.numbers['others']['slow'].map { |row| loop_row(row) })
     end
 
     def bumps
@@ -111,6 +115,11 @@ module Tables
     end
 
     private
+
+    def loops(rows)
+      table('plant', 'controller', 'overshoot', 'settled after',
+            'sum of errors', 'and after the large setpoint', rows)
+    end
 
     def table(*head, rows)
       lines = [head, head.map { '---' }, *rows]

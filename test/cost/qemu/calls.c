@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the calls of a program of test/beside cost on a Cortex-M in QEMU. Build
+// What the calls of a program of test/beside cost on a core in QEMU. Build
 // with -DCALLS_METERED and
 //
 //   -DFIRST="fixpid_slew_step" -Wl,--wrap=fixpid_slew_step

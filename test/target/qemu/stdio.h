@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests use of the C library; start.c has it.
+// What the tests use of the C library; runtime.c has it.
 #ifndef STDIO_H
 #define STDIO_H
 

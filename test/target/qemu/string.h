@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests use of the C library; start.c has it.
+// What the tests use of the C library; runtime.c has it.
 #ifndef STRING_H
 #define STRING_H
 #include <stddef.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a step costs on a Cortex-M in QEMU, in instructions.
+// What a step costs on a core in QEMU, in instructions.
 //
 // Build with the driver of a controller and
 //
