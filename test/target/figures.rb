@@ -12,7 +12,7 @@ NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(
 PROCESSORS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
 POINTER_AND_OBJECT = MODES.reverse.freeze
 MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3',
-             'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
+             'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000 }.freeze
 
