@@ -7,11 +7,19 @@
 #include <arm_acle.h>
 #include <stdint.h>
 
+// GCC's __ssat is a macro, in which an unsigned int becomes an int32_t.
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#endif
 #define FIXPID_HAS_SUB16_SAT
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
     return (int16_t)__ssat((int32_t)a - b, 16);
 }
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 
 #if defined(__ARM_FEATURE_DSP)
 #define FIXPID_HAS_ADD32_SAT
