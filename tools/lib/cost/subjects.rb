@@ -46,7 +46,10 @@ VARIANTS = [
   Variant.new('pid', 'pic18f4520', 'access-RAM',
               %w[FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
                  FIXPID_PID_OPERANDS_PLACE=__at(0x4C)],
-              [])
+              []),
+  Variant.new('an937', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an964', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an964_8bit', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], [])
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.
