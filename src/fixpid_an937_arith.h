@@ -79,7 +79,7 @@ FIXPID_INLINE int32_t fixpid_number_term(
 #if !defined(fixpid_an937_output)
 
 #if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
-#include "avr/fixpid_an937_avr.h"
+#include "avr/fixpid_an937_avr.h" // Deviation 20.1: it builds on the above
 #else
 
 // sum + gain * number. pre: the result is within +-2^26
