@@ -32,7 +32,7 @@ fixpid_sum_with_term(int32_t sum, uint8_t gain,
             "and %1, %3\n\t"
             "sub %C0, %1\n\t"
             "sbc %D0, r1"
-            : "+r"(sum), "+r"(sign), "=&r"(upper)
+            : "+&r"(sum), "+&r"(sign), "=&r"(upper)
             : "r"(gain), "r"(number->parts.magnitude));
     return sum;
 }

@@ -25,7 +25,7 @@ FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
             "ror %A0\n\t"
             "lsr %B0\n\t"
             "ror %A0"
-            : "=&r"(quotient), "+d"(round_up)
+            : "=&r"(quotient), "+&d"(round_up)
             : "r"(x), "r"(k));
     return (quotient > limit) ? limit : quotient;
 }

@@ -24,7 +24,7 @@ FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
             "add %A0, r1\n\t"
             "clr r1\n\t"
             "adc %B0, r1"
-            : "=&r"(quotient), "+d"(x)
+            : "=&r"(quotient), "+&d"(x)
             : "r"(k));
     return quotient;
 }
@@ -49,7 +49,7 @@ FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
             "adc %A0, r1\n\t"
             "clr r1\n\t"
             "adc %B0, r1"
-            : "=&r"(quotient), "+r"(x)
+            : "=&r"(quotient), "+&r"(x)
             : "r"(k), "r"(round_up));
     return (quotient > limit) ? limit : quotient;
 }
