@@ -100,12 +100,8 @@ struct fixpid_an937 {
 #define FIXPID_AN937_D_ERR_Z 0x04u // stat2: delta is zero
 
 // Object mode, for firmware with one controller: compile the application and
-// the sources of fixpid_an937 with -DFIXPID_AN937_OBJECT=name, and define that
-// object at file scope, not static. Calls stay as they are; the pointer is
-// ignored. FIXPID_AN937_PLACE, in the definition, too, puts it at an address:
-// in a PIC18's access RAM a step is a little faster. The application then says
-// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`, and each file is
-// compiled with -DFIXPID_AN937_PLACE='__at(0x20)'.
+// fixpid_an937*.c with -DFIXPID_AN937_OBJECT=name, and define that object at
+// file scope, not static. Calls stay as they are; the pointer is ignored.
 //
 // Sources that disagree about the object or whether it has a place do not link:
 // they call `init` by different names.
@@ -121,6 +117,21 @@ extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
     FIXPID_MARKED(FIXPID_JOINED(fixpid_an937_init, FIXPID_AN937_NAMED))
 #else
 #define fixpid_an937_init FIXPID_MARKED(fixpid_an937_init)
+#endif
+
+// Addresses for SDCC, where the application has the room: in a PIC18's access
+// RAM a step is a seventh faster. Compile the application and fixpid_an937*.c
+// with
+//   -DFIXPID_AN937_PLACE='__at(0x20)'          the object, 24 bytes
+//   -DFIXPID_AN937_SIGNALS_PLACE='__at(0x38)'  what a step works on, 2 bytes
+// or one of them, and define the object as
+// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`. At 0x48 or below
+// it also has faster products. What a step works on has a place in pointer
+// mode, too.
+#ifdef FIXPID_AN937_SIGNALS_PLACE
+#define FIXPID_AN937_SIGNALS_PLACED
+#else
+#define FIXPID_AN937_SIGNALS_PLACE
 #endif
 
 // Starts from rest: no accumulated error, no pending tick, and the first tick

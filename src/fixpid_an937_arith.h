@@ -78,6 +78,26 @@ FIXPID_INLINE int32_t fixpid_number_term(
 
 #if !defined(fixpid_an937_output)
 
+#if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "avr/fixpid_an937_avr.h" // Deviation 20.1: it builds on the above
+#else
+
+// sum + gain * number. pre: the result is within +-2^26
+FIXPID_INLINE int32_t
+fixpid_sum_with_term(int32_t sum, uint8_t gain,
+                     FIXPID_DATA const union fixpid_an937_number *number)
+{
+    return sum + fixpid_number_term(gain, number);
+}
+
+// floor(x / 16). pre: x < 2^24
+FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
+{
+    return x >> 4;
+}
+
+#endif
+
 #define FIXPID_AN937_SUM_MAX INT32_C(0xFFFFFF) // 24 bits
 
 // Equation 4: the sum of the three terms, limited to a 24-bit magnitude and
@@ -86,10 +106,10 @@ FIXPID_INLINE int32_t
 fixpid_an937_output(FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
 {
     // |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
-    int32_t sum = fixpid_number_term(self->kp_q4, &self->error) +
-                  fixpid_number_term(self->ki_q4, &self->accumulated_error) +
-                  fixpid_number_term(self->kd_q4, &self->delta);
+    int32_t sum = fixpid_sum_with_term(0, self->kp_q4, &self->error);
 
+    sum = fixpid_sum_with_term(sum, self->ki_q4, &self->accumulated_error);
+    sum = fixpid_sum_with_term(sum, self->kd_q4, &self->delta);
     if (sum < 0) {
         *flags |= FIXPID_AN937_SUM_NEGATIVE;
         sum = -sum;
@@ -98,7 +118,7 @@ fixpid_an937_output(FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
         *flags |= FIXPID_AN937_SUM_SATURATED;
         sum = FIXPID_AN937_SUM_MAX;
     }
-    sum = (int32_t)((uint32_t)sum >> 4);
+    sum = (int32_t)fixpid_sixteenth((uint32_t)sum);
     return ((*flags & FIXPID_AN937_SUM_NEGATIVE) != 0u) ? -sum : sum;
 }
 

@@ -14,6 +14,8 @@
 #include "pic14/fixpid_an964_8bit_pic14.h"
 #elif defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_an964_8bit_pic18.h"
+#elif defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "avr/fixpid_an964_8bit_avr.h"
 #elif FIXPID_MULTIPLIER_BITS < 8
 #include "fixpid_an964_8bit_narrow.h"
 #else

@@ -15,8 +15,10 @@
 #include "pic14/fixpid_an964_pic14.h"
 #elif defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_an964_pic18.h"
-// (An AVR with a multiplier has the narrow one a sixth faster, and a quarter
-// larger.)
+#elif defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "avr/fixpid_an964_avr.h"
+// (In C, an AVR with a multiplier has the narrow one a sixth faster, and a
+// quarter larger.)
 #elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR_HAVE_MUL__)
 #include "fixpid_an964_narrow.h"
 #else

@@ -8,6 +8,9 @@
 #include "../fixpid_an937_arith.h"
 
 FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
+#ifdef FIXPID_AN937_SIGNALS_PLACED
+FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
+#endif
 
 // The layout that the products rely on: each member is where they look.
 // Deviation 20.10: the compiler's message shall name the member.
@@ -21,6 +24,11 @@ CHECK_OFFSET(kp_q4, 12);
 CHECK_OFFSET(ki_q4, 16);
 CHECK_OFFSET(kd_q4, 20);
 
+// fixpid_an937.h tells the object's size, for who gives it a place.
+#define OBJECT_BYTES 24u
+typedef char fixpid_object_has_another_size
+    [(sizeof(struct fixpid_an937) == OBJECT_BYTES) ? 1 : -1];
+
 #if !defined(FIXPID_NO_ASSEMBLY)
 
 #define FSR0H 0xFEA
@@ -32,14 +40,26 @@ CHECK_OFFSET(kd_q4, 20);
 
 // clang-format off
 
+// The addresses of the operands' members.
+#define SUM _fixpid_an937_operands
+#define LOW _fixpid_an937_operands + 4
+
 // Points FSR0 at the first number.
 #ifdef FIXPID_AN937_OBJECT
 #define ERROR FIXPID_JOINED(, FIXPID_AN937_OBJECT)
 #define POINT_AT_ERROR_LOW lfsr 0, ERROR
 #define POINT_AT_ERROR_HIGH
 #else
-#define POINT_AT_ERROR_LOW movff _fixpid_an937_operands + 4, FSR0L
-#define POINT_AT_ERROR_HIGH movff _fixpid_an937_operands + 5, FSR0H
+#define POINT_AT_ERROR_LOW movff LOW, FSR0L
+#define POINT_AT_ERROR_HIGH movff LOW + 1, FSR0H
+#endif
+
+// An object in access RAM has products of its own, below, which go on in the
+// middle of this function.
+#if defined(FIXPID_AN937_OBJECT) && defined(FIXPID_AN937_IN_ACCESS_RAM)
+#define DIVIDED_SUM fixpid_an937_divided_sum_by_fsr0
+#else
+#define DIVIDED_SUM fixpid_an937_divided_sum
 #endif
 
 // sum = 0, then three times sum += gain * number. A number is its magnitude, low
@@ -50,102 +70,103 @@ CHECK_OFFSET(kd_q4, 20);
 // (0x80). A negative sum is rounded toward zero by adding 15; it is limited if its
 // uppermost byte is below 0xFF, or the others are 0.
 // Deviation 40 lines: each is one instruction
-uint8_t fixpid_an937_divided_sum(void) __naked
+uint8_t DIVIDED_SUM(void) __naked
 {
     __asm
-    banksel _fixpid_an937_operands
+    banksel SUM
     POINT_AT_ERROR_LOW
     POINT_AT_ERROR_HIGH
-    clrf    _fixpid_an937_operands, b
-    clrf    _fixpid_an937_operands + 1, b
-    clrf    _fixpid_an937_operands + 2, b
-    clrf    _fixpid_an937_operands + 3, b
+    clrf    SUM, b
+    clrf    SUM + 1, b
+    clrf    SUM + 2, b
+    clrf    SUM + 3, b
     rcall   fixpid_add_product
     rcall   fixpid_add_product
     rcall   fixpid_add_product
-    btfsc   _fixpid_an937_operands + 3, 7, b
+fixpid_divide:
+    btfsc   SUM + 3, 7, b
     bra     fixpid_negative
-    movf    _fixpid_an937_operands + 3, w, b
+    movf    SUM + 3, w, b
     bz      fixpid_shift
 fixpid_highest:
-    setf    _fixpid_an937_operands, b       ; (2^24 - 1) / 16
-    setf    _fixpid_an937_operands + 1, b
+    setf    SUM, b       ; (2^24 - 1) / 16
+    setf    SUM + 1, b
     movlw   0x0F
-    movwf   _fixpid_an937_operands + 2, b
-    clrf    _fixpid_an937_operands + 3, b
+    movwf   SUM + 2, b
+    clrf    SUM + 3, b
     retlw   0x01
 fixpid_lowest:
     rcall   fixpid_highest
-    negf    _fixpid_an937_operands, b
-    comf    _fixpid_an937_operands + 1, f, b
-    comf    _fixpid_an937_operands + 2, f, b
-    setf    _fixpid_an937_operands + 3, b
+    negf    SUM, b
+    comf    SUM + 1, f, b
+    comf    SUM + 2, f, b
+    setf    SUM + 3, b
     retlw   0x81
 fixpid_negative:
-    incfsz  _fixpid_an937_operands + 3, w, b
+    incfsz  SUM + 3, w, b
     bra     fixpid_lowest
-    movf    _fixpid_an937_operands, w, b
-    iorwf   _fixpid_an937_operands + 1, w, b
-    iorwf   _fixpid_an937_operands + 2, w, b
+    movf    SUM, w, b
+    iorwf   SUM + 1, w, b
+    iorwf   SUM + 2, w, b
     bz      fixpid_lowest
     movlw   15
-    addwf   _fixpid_an937_operands, f, b
+    addwf   SUM, f, b
     movlw   0
-    addwfc  _fixpid_an937_operands + 1, f, b
-    addwfc  _fixpid_an937_operands + 2, f, b
-    addwfc  _fixpid_an937_operands + 3, f, b
+    addwfc  SUM + 1, f, b
+    addwfc  SUM + 2, f, b
+    addwfc  SUM + 3, f, b
     rcall   fixpid_shift
     retlw   0x80
 fixpid_shift:
-    swapf   _fixpid_an937_operands, f, b
-    swapf   _fixpid_an937_operands + 1, w, b
-    xorwf   _fixpid_an937_operands, w, b
+    swapf   SUM, f, b
+    swapf   SUM + 1, w, b
+    xorwf   SUM, w, b
     andlw   0xF0
-    xorwf   _fixpid_an937_operands, f, b
-    swapf   _fixpid_an937_operands + 1, f, b
-    swapf   _fixpid_an937_operands + 2, w, b
-    xorwf   _fixpid_an937_operands + 1, w, b
+    xorwf   SUM, f, b
+    swapf   SUM + 1, f, b
+    swapf   SUM + 2, w, b
+    xorwf   SUM + 1, w, b
     andlw   0xF0
-    xorwf   _fixpid_an937_operands + 1, f, b
-    swapf   _fixpid_an937_operands + 2, w, b
+    xorwf   SUM + 1, f, b
+    swapf   SUM + 2, w, b
     andlw   0x0F
-    btfsc   _fixpid_an937_operands + 3, 7, b
+    btfsc   SUM + 3, 7, b
     iorlw   0xF0
-    movwf   _fixpid_an937_operands + 2, b
+    movwf   SUM + 2, b
     retlw   0
 fixpid_add_product:
     movlw   12
     movf    PLUSW0, w, a                ; gain
     mulwf   POSTINC0, a                 ; low byte
-    movff   PRODL, _fixpid_an937_operands + 4
-    movff   PRODH, _fixpid_an937_operands + 5
+    movff   PRODL, LOW
+    movff   PRODH, LOW + 1
     mulwf   POSTINC0, a                 ; high byte
-    movf    _fixpid_an937_operands + 5, w, b
+    movf    LOW + 1, w, b
     addwf   PRODL, f, a
     movlw   0
     addwfc  PRODH, f, a
     tstfsz  POSTINC0, a                 ; sign
     bra     fixpid_subtract
     movf    POSTINC0, w, a              ; padding
-    movf    _fixpid_an937_operands + 4, w, b
-    addwf   _fixpid_an937_operands, f, b
+    movf    LOW, w, b
+    addwf   SUM, f, b
     movf    PRODL, w, a
-    addwfc  _fixpid_an937_operands + 1, f, b
+    addwfc  SUM + 1, f, b
     movf    PRODH, w, a
-    addwfc  _fixpid_an937_operands + 2, f, b
+    addwfc  SUM + 2, f, b
     movlw   0
-    addwfc  _fixpid_an937_operands + 3, f, b
+    addwfc  SUM + 3, f, b
     return
 fixpid_subtract:
     movf    POSTINC0, w, a              ; padding
-    movf    _fixpid_an937_operands + 4, w, b
-    subwf   _fixpid_an937_operands, f, b
+    movf    LOW, w, b
+    subwf   SUM, f, b
     movf    PRODL, w, a
-    subwfb  _fixpid_an937_operands + 1, f, b
+    subwfb  SUM + 1, f, b
     movf    PRODH, w, a
-    subwfb  _fixpid_an937_operands + 2, f, b
+    subwfb  SUM + 2, f, b
     movlw   0
-    subwfb  _fixpid_an937_operands + 3, f, b
+    subwfb  SUM + 3, f, b
     return
     __endasm;
 }
@@ -153,16 +174,137 @@ fixpid_subtract:
 void fixpid_an937_product(void) __naked
 {
     __asm
-    banksel _fixpid_an937_operands
-    movff   _fixpid_an937_operands + 4, FSR0L
-    movff   _fixpid_an937_operands + 5, FSR0H
-    clrf    _fixpid_an937_operands, b
-    clrf    _fixpid_an937_operands + 1, b
-    clrf    _fixpid_an937_operands + 2, b
-    clrf    _fixpid_an937_operands + 3, b
+    banksel SUM
+    movff   LOW, FSR0L
+    movff   LOW + 1, FSR0H
+    clrf    SUM, b
+    clrf    SUM + 1, b
+    clrf    SUM + 2, b
+    clrf    SUM + 3, b
     goto    fixpid_add_product
     __endasm;
 }
+
+#if defined(FIXPID_AN937_OBJECT) && defined(FIXPID_AN937_IN_ACCESS_RAM)
+
+#define ACCUMULATED ERROR + 4
+#define DELTA ERROR + 8
+#define KP ERROR + 12
+#define KI ERROR + 16
+#define KD ERROR + 20
+
+// The sum is assigned the first product, which has 24 bits, and negated where the
+// error is negative. The others are added or subtracted, low byte first.
+// Deviation 40 lines: each is one instruction
+uint8_t fixpid_an937_divided_sum(void) __naked
+{
+    __asm
+    banksel SUM
+    movf    KP, w, a
+    mulwf   ERROR, a
+    movff   PRODL, SUM
+    movff   PRODH, SUM + 1
+    mulwf   ERROR + 1, a
+    movf    PRODL, w, a
+    addwf   SUM + 1, f, b
+    movlw   0
+    addwfc  PRODH, w, a
+    movwf   SUM + 2, b
+    clrf    SUM + 3, b
+    btfss   ERROR + 2, 0, a
+    bra     fixpid_error_end
+    comf    SUM + 1, f, b
+    comf    SUM + 2, f, b
+    comf    SUM + 3, f, b
+    negf    SUM, b
+    movlw   0
+    addwfc  SUM + 1, f, b
+    addwfc  SUM + 2, f, b
+    addwfc  SUM + 3, f, b
+fixpid_error_end:
+    btfsc   ACCUMULATED + 2, 0, a
+    bra     fixpid_subtract_accumulated
+    movf    KI, w, a
+    mulwf   ACCUMULATED, a
+    movf    PRODL, w, a
+    addwf   SUM, f, b
+    movf    PRODH, w, a
+    addwfc  SUM + 1, f, b
+    movlw   0
+    addwfc  SUM + 2, f, b
+    addwfc  SUM + 3, f, b
+    movf    KI, w, a
+    mulwf   ACCUMULATED + 1, a
+    movf    PRODL, w, a
+    addwf   SUM + 1, f, b
+    movf    PRODH, w, a
+    addwfc  SUM + 2, f, b
+    movlw   0
+    addwfc  SUM + 3, f, b
+    bra     fixpid_accumulated_end
+fixpid_subtract_accumulated:
+    movf    KI, w, a
+    mulwf   ACCUMULATED, a
+    movf    PRODL, w, a
+    subwf   SUM, f, b
+    movf    PRODH, w, a
+    subwfb  SUM + 1, f, b
+    movlw   0
+    subwfb  SUM + 2, f, b
+    subwfb  SUM + 3, f, b
+    movf    KI, w, a
+    mulwf   ACCUMULATED + 1, a
+    movf    PRODL, w, a
+    subwf   SUM + 1, f, b
+    movf    PRODH, w, a
+    subwfb  SUM + 2, f, b
+    movlw   0
+    subwfb  SUM + 3, f, b
+fixpid_accumulated_end:
+    btfsc   DELTA + 2, 0, a
+    bra     fixpid_subtract_delta
+    movf    KD, w, a
+    mulwf   DELTA, a
+    movf    PRODL, w, a
+    addwf   SUM, f, b
+    movf    PRODH, w, a
+    addwfc  SUM + 1, f, b
+    movlw   0
+    addwfc  SUM + 2, f, b
+    addwfc  SUM + 3, f, b
+    movf    KD, w, a
+    mulwf   DELTA + 1, a
+    movf    PRODL, w, a
+    addwf   SUM + 1, f, b
+    movf    PRODH, w, a
+    addwfc  SUM + 2, f, b
+    movlw   0
+    addwfc  SUM + 3, f, b
+    bra     fixpid_delta_end
+fixpid_subtract_delta:
+    movf    KD, w, a
+    mulwf   DELTA, a
+    movf    PRODL, w, a
+    subwf   SUM, f, b
+    movf    PRODH, w, a
+    subwfb  SUM + 1, f, b
+    movlw   0
+    subwfb  SUM + 2, f, b
+    subwfb  SUM + 3, f, b
+    movf    KD, w, a
+    mulwf   DELTA + 1, a
+    movf    PRODL, w, a
+    subwf   SUM + 1, f, b
+    movf    PRODH, w, a
+    subwfb  SUM + 2, f, b
+    movlw   0
+    subwfb  SUM + 3, f, b
+fixpid_delta_end:
+    goto    fixpid_divide
+    __endasm;
+}
+
+#endif
 
 // clang-format on
 

@@ -12,15 +12,24 @@
 
 #include "fixpid_an937.h"
 
+// What a step works on: a local variable, or one that has a place, which SDCC
+// need not save.
+#ifdef FIXPID_AN937_SIGNALS_PLACED
+extern FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
+#define FIXPID_AN937_WORD fixpid_an937_word
+#else
+#define FIXPID_AN937_WORD uint16_t fixpid_an937_word
+#endif
+
 #define fixpid_number_set(number, from)                                        \
     do {                                                                       \
-        uint16_t magnitude_ = (uint16_t)(from);                                \
+        FIXPID_AN937_WORD = (uint16_t)(from);                                  \
         (number)->parts.negative = 0;                                          \
-        if (((uint8_t)(magnitude_ >> 8) & 0x80u) != 0u) {                      \
+        if (((uint8_t)(fixpid_an937_word >> 8) & 0x80u) != 0u) {               \
             (number)->parts.negative = 1;                                      \
-            magnitude_ = fixpid_negated(magnitude_);                           \
+            fixpid_an937_word = fixpid_negated(fixpid_an937_word);             \
         }                                                                      \
-        (number)->parts.magnitude = magnitude_;                                \
+        (number)->parts.magnitude = fixpid_an937_word;                         \
     } while (0)
 
 #define fixpid_number_value(number)                                            \
@@ -29,35 +38,38 @@
 
 #define fixpid_number_difference(number, left, right)                          \
     do {                                                                       \
-        uint16_t difference_ = (uint16_t)((left) - (right));                   \
+        FIXPID_AN937_WORD = (uint16_t)((left) - (right));                      \
         (number)->parts.negative = 0;                                          \
         if ((left) < (right)) {                                                \
             (number)->parts.negative = 1;                                      \
-            difference_ = fixpid_negated(difference_);                         \
+            fixpid_an937_word = fixpid_negated(fixpid_an937_word);             \
         }                                                                      \
-        (number)->parts.magnitude = difference_;                               \
+        (number)->parts.magnitude = fixpid_an937_word;                         \
     } while (0)
 
 #define fixpid_number_add(number, addend, limit, flags)                        \
     do {                                                                       \
-        uint16_t sum_ = (number)->parts.magnitude;                             \
+        FIXPID_AN937_WORD = (number)->parts.magnitude;                         \
         if ((number)->parts.negative == (addend)->parts.negative) {            \
-            sum_ = (uint16_t)(sum_ + (addend)->parts.magnitude);               \
-            if (sum_ < (addend)->parts.magnitude) {                            \
-                sum_ = UINT16_MAX;                                             \
+            fixpid_an937_word =                                                \
+                (uint16_t)(fixpid_an937_word + (addend)->parts.magnitude);     \
+            if (fixpid_an937_word < (addend)->parts.magnitude) {               \
+                fixpid_an937_word = UINT16_MAX;                                \
                 *(flags) = FIXPID_AN937_ACCUMULATED_ERROR_LIMITED;             \
             }                                                                  \
-        } else if (sum_ >= (addend)->parts.magnitude) {                        \
-            sum_ = (uint16_t)(sum_ - (addend)->parts.magnitude);               \
+        } else if (fixpid_an937_word >= (addend)->parts.magnitude) {           \
+            fixpid_an937_word =                                                \
+                (uint16_t)(fixpid_an937_word - (addend)->parts.magnitude);     \
         } else {                                                               \
-            sum_ = (uint16_t)((addend)->parts.magnitude - sum_);               \
+            fixpid_an937_word =                                                \
+                (uint16_t)((addend)->parts.magnitude - fixpid_an937_word);     \
             (number)->parts.negative ^= 1u;                                    \
         }                                                                      \
-        if (sum_ > (limit)) {                                                  \
-            sum_ = (limit);                                                    \
+        if (fixpid_an937_word > (limit)) {                                     \
+            fixpid_an937_word = (limit);                                       \
             *(flags) = FIXPID_AN937_ACCUMULATED_ERROR_LIMITED;                 \
         }                                                                      \
-        (number)->parts.magnitude = sum_;                                      \
+        (number)->parts.magnitude = fixpid_an937_word;                         \
     } while (0)
 
 // The operands of the products, and of the sum that they make.
@@ -76,13 +88,25 @@ void fixpid_an937_product(void);
     (fixpid_an937_operands.at.number = (factor), fixpid_an937_product(),       \
      fixpid_an937_operands.sum)
 
+// The address of an object at `__at(address)`, and one beyond all where it has
+// no place. The smallest access RAM of a PIC18 ends at 0x5F, and the object has
+// 24 bytes.
+#define FIXPID_ADDRESS_OF___at(address) (address)
+#define FIXPID_ADDRESS_OF_ 0xFFFF
+#if FIXPID_JOINED(FIXPID_ADDRESS_OF, FIXPID_AN937_PLACE) <= 0x48
+#define FIXPID_AN937_SUM_OF fixpid_an937_divided_sum_in_access_ram_of
+#define FIXPID_AN937_IN_ACCESS_RAM
+#else
+#define FIXPID_AN937_SUM_OF fixpid_an937_divided_sum_of
+#endif
+
 // sum = the three terms of the object, or of the controller whose first number
 // `number` points at, limited and divided by 16. Returns SUM_SATURATED and
-// SUM_NEGATIVE. The function's name has the object's, so that the sources link
-// only if they agree.
+// SUM_NEGATIVE. The function's name has the object's, and says whether that is
+// in access RAM, so that the sources link only if they agree.
 #ifdef FIXPID_AN937_OBJECT
 #define fixpid_an937_divided_sum                                               \
-    FIXPID_JOINED(fixpid_an937_divided_sum_of, FIXPID_AN937_OBJECT)
+    FIXPID_JOINED(FIXPID_AN937_SUM_OF, FIXPID_AN937_OBJECT)
 #define fixpid_an937_point_at(self) ((void)(self))
 #else
 #define fixpid_an937_point_at(self)                                            \

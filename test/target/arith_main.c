@@ -1,21 +1,43 @@
 // SPDX-License-Identifier: MIT
-// The digests of pid_arith on a machine whose program can print: each line is
-// of a sixteenth of the rows.
+// The digests of all arithmetic on a machine whose program can print: each line
+// is of a sixteenth of a controller's rows.
 #include <stdio.h>
 
 #include "arith.h"
 
-int main(void)
-{
-    uint32_t digest = 0;
+static uint32_t digest;
 
-    for (arith_row = 0; arith_row < 256u; arith_row++) {
-        pid_arith();
-        digest = digest * UINT32_C(16777619) + arith_digest;
-        if (arith_row % 16u == 15u) {
-            printf("rows to %u digest %08lx\n", (unsigned)arith_row,
-                   (unsigned long)digest);
+static void add_row(void (*arith)(void), uint16_t row)
+{
+    arith_row = row;
+    arith();
+    digest = digest * UINT32_C(16777619) + arith_digest;
+}
+
+static void print_digest(const char *name)
+{
+    printf("%s rows to %u digest %08lx\n", name, (unsigned)arith_row,
+           (unsigned long)digest);
+}
+
+static void all_rows(const char *name, void (*arith)(void), uint16_t rows)
+{
+    digest = 0;
+    for (uint16_t row = 0; row < rows; row++) {
+        add_row(arith, row);
+        if ((row + 1u) % (rows / 16u) == 0u) {
+            print_digest(name);
         }
     }
+}
+
+int main(void)
+{
+    all_rows("an937", an937_arith, 256);
+    add_row(an937_arith, 256 + 255); // of all magnitudes
+    print_digest("an937");
+    all_rows("an964", an964_arith, 1024);
+    all_rows("an964_8bit", an964_8bit_arith, 128);
+    all_rows("pid", pid_arith, 256);
     return 0;
 }

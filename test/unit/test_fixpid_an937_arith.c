@@ -182,6 +182,45 @@ void test_number_term_every_gain_and_magnitude(void)
     TEST_ASSERT_EQUAL_UINT32(0, wrong);
 }
 
+// Sums from which a carry or a borrow goes far, and that of two largest terms.
+void test_sum_with_term_every_gain_and_nasty_sums_and_numbers(void)
+{
+    static const int32_t sums[] = {0,          1,        -1,       255,
+                                   -256,       65535,    -65536,   0xFFFFFF,
+                                   -0x1000000, 33422850, -33422850};
+    static const int32_t values[] = {0,      1,     -1,     255,   -255,
+                                     256,    -256,  257,    32767, -32768,
+                                     -65281, 65280, -65280, 65535, -65535};
+    uint32_t wrong = 0;
+
+    for (unsigned gain = 0; gain <= 255u; gain++) {
+        for (unsigned i = 0; i < sizeof sums / sizeof sums[0]; i++) {
+            for (unsigned j = 0; j < sizeof values / sizeof values[0]; j++) {
+                const union fixpid_an937_number number = number_of(values[j]);
+
+                wrong +=
+                    (fixpid_sum_with_term(sums[i], (uint8_t)gain, &number) !=
+                     sums[i] + (int32_t)gain * values[j])
+                        ? 1u
+                        : 0u;
+            }
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_sixteenth_every_sum(void)
+{
+    const uint32_t most = UINT32_C(0xFFFFFF);
+    uint32_t wrong = 0;
+
+    for (uint32_t sum = 0; sum <= most; sum += TEST_STRIDE) {
+        wrong += (fixpid_sixteenth(sum) != sum / 16u) ? 1u : 0u;
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+    TEST_ASSERT_EQUAL_UINT32(most / 16u, fixpid_sixteenth(most));
+}
+
 static void check_output(const struct fixpid_an937 *self)
 {
     const int64_t sum =

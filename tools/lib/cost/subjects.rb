@@ -48,11 +48,15 @@ VARIANTS = [
   Variant.new('an964', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
   Variant.new('an964_8bit', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
   Variant.new('an937', 'pic18f4520', 'C', %w[FIXPID_NO_ASSEMBLY], []),
-  Variant.new('an937', 'pic18f4520', 'access-RAM', %w[FIXPID_AN937_PLACE=__at(0x20)], []),
+  Variant.new('an937', 'pic18f4520', 'access-RAM',
+              %w[FIXPID_AN937_PLACE=__at(0x20) FIXPID_AN937_SIGNALS_PLACE=__at(0x38)], []),
   Variant.new('pid', 'pic18f4520', 'access-RAM',
               %w[FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
                  FIXPID_PID_OPERANDS_PLACE=__at(0x4C)],
-              [])
+              []),
+  Variant.new('an937', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an964', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  Variant.new('an964_8bit', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], [])
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.

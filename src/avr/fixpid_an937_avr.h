@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// fixpid_sum_with_term and fixpid_sixteenth of fixpid_an937_arith.h for an AVR
+// with a multiplier: 8 x 8 products, and nibbles that change places.
+//
+// gcc keeps r1 at 0 and does not mind r0. `andi` wants the upper registers.
+#ifndef FIXPID_AN937_AVR_H
+#define FIXPID_AN937_AVR_H
+#include <stdint.h>
+
+#include "fixpid_an937.h"
+
+// The product of the number's lower 16 bits is added, from its second byte on
+// in `upper`. `sign` is the number's third byte, 0 or, of a negative one, 0xFF:
+// the lower 16 bits are then 2^16 too much. 15 cycles.
+FIXPID_INLINE int32_t
+fixpid_sum_with_term(int32_t sum, uint8_t gain,
+                     FIXPID_DATA const union fixpid_an937_number *number)
+{
+    uint8_t sign = number->parts.negative;
+    uint16_t upper;
+
+    __asm__("mul %3, %B4\n\t"
+            "movw %A2, r0\n\t"
+            "mul %3, %A4\n\t"
+            "add %A0, r0\n\t"
+            "adc %A2, r1\n\t"
+            "clr r1\n\t"
+            "adc %B2, r1\n\t"
+            "add %B0, %A2\n\t"
+            "adc %C0, %B2\n\t"
+            "adc %D0, r1\n\t"
+            "and %1, %3\n\t"
+            "sub %C0, %1\n\t"
+            "sbc %D0, r1"
+            : "+&r"(sum), "+&r"(sign), "=&r"(upper)
+            : "r"(gain), "r"(number->parts.magnitude));
+    return sum;
+}
+
+// 10 cycles: each nibble moves one place, that of the byte above comes in.
+FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
+{
+    __asm__("swap %A0\n\t"
+            "swap %B0\n\t"
+            "swap %C0\n\t"
+            "eor %A0, %B0\n\t"
+            "andi %A0, 0x0F\n\t"
+            "eor %A0, %B0\n\t"
+            "eor %B0, %C0\n\t"
+            "andi %B0, 0x0F\n\t"
+            "eor %B0, %C0\n\t"
+            "andi %C0, 0x0F"
+            : "+d"(x));
+    return x;
+}
+
+#endif
