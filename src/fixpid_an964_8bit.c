@@ -70,7 +70,7 @@ FIXPID_INLINE uint16_t integral_byte(FIXPID_DATA struct fixpid_an964_8bit *self,
 {
     uint16_t sum = (uint16_t)(SELF.sum + e); // |sum| <= 8191 + 128
     uint16_t integral;
-    uint8_t negative = 0;
+    uint8_t negative;
 
     if ((sum & FIXPID_SIGN_BIT) != 0u) {
         if (sum < BYTE_SUM_MIN) {
@@ -81,6 +81,7 @@ FIXPID_INLINE uint16_t integral_byte(FIXPID_DATA struct fixpid_an964_8bit *self,
         sum = fixpid_negated(sum);
         negative = 1;
     } else {
+        negative = 0;
         if (sum > BYTE_SUM_MAX) {
             sum = BYTE_SUM_MAX;
             SELF.sum_limited = FIXPID_AN964_8BIT_SUM_LIMITED;
@@ -103,11 +104,12 @@ derivative_byte(FIXPID_DATA struct fixpid_an964_8bit *self, uint8_t e)
 {
     uint8_t now = (uint8_t)(e ^ 0x80u);
     uint8_t change = (uint8_t)(SELF.error[2] ^ 0x80u);
-    uint8_t negative = 0;
+    uint8_t negative;
     uint16_t derivative;
 
     if (now >= change) {
         change = (uint8_t)(now - change);
+        negative = 0;
     } else {
         change = (uint8_t)(change - now);
         negative = 0xFFu;
@@ -131,6 +133,7 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
     const uint16_t e = (uint16_t)error;
     uint16_t sum_of_terms;
     uint16_t output;
+    uint16_t result;
     uint8_t negative = 0;
 
     FIXPID_ASSERT(VALID(self));
@@ -152,8 +155,10 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
         SELF.output_limited = FIXPID_AN964_8BIT_OUTPUT_LIMITED;
     }
     output = fixpid_7x7_div32(SELF.gains.kp, (uint8_t)sum_of_terms);
-    if ((negative & 1u) != 0u) {
-        output = fixpid_negated(output);
+    // Negated in any case: SDCC copies a variable that is changed under an if.
+    result = fixpid_negated(output);
+    if ((negative & 1u) == 0u) {
+        result = output;
     }
-    return (int16_t)output;
+    return (int16_t)result;
 }

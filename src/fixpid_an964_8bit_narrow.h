@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_8bit_arith.h by shift and add, for chips without
 // a multiplier. A byte moves right once per bit of k, which divides it; where
-// all divisions are done, x moves left instead.
+// all divisions are done, x moves left instead, in a word that it is in from
+// the start, as SDCC widens it dearly later.
 #ifndef FIXPID_AN964_8BIT_NARROW_H
 #define FIXPID_AN964_8BIT_NARROW_H
 #include <stdint.h>
@@ -29,7 +30,7 @@ FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
                                       uint8_t limit)
 {
     uint8_t low = (uint8_t)(round_up & 3u);
-    uint16_t word;
+    uint16_t word = x;
     uint16_t sum;
 
     fixpid_add_byte_if(&low, x, k & 1u);
@@ -38,7 +39,7 @@ FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
     low >>= 1;
     fixpid_add_byte_if(&low, x, k & 4u);
     sum = low;
-    word = (uint16_t)((uint16_t)x << 1);
+    word = (uint16_t)(word + word);
     fixpid_add_word_if(&sum, word, k & 8u);
     word = (uint16_t)(word + word);
     fixpid_add_word_if(&sum, word, k & 16u);
@@ -51,20 +52,20 @@ FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
 
 FIXPID_INLINE uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 {
-    uint8_t low = x >> 1; // the first bit
-    uint16_t word;
+    uint16_t word = x;
+    uint8_t low = (uint8_t)word >> 1; // the first bit
     uint16_t sum;
 
     if ((k & 1u) == 0u) {
         low = 0;
     }
-    fixpid_add_byte_if(&low, x, k & 2u);
+    fixpid_add_byte_if(&low, (uint8_t)word, k & 2u);
     low >>= 1;
-    fixpid_add_byte_if(&low, x, k & 4u);
+    fixpid_add_byte_if(&low, (uint8_t)word, k & 4u);
     low >>= 1;
-    fixpid_add_byte_if(&low, x, k & 8u);
+    fixpid_add_byte_if(&low, (uint8_t)word, k & 8u);
     sum = low;
-    word = (uint16_t)((uint16_t)x << 1);
+    word = (uint16_t)(word + word);
     fixpid_add_word_if(&sum, word, k & 16u);
     word = (uint16_t)(word + word);
     fixpid_add_word_if(&sum, word, k & 32u);
@@ -78,8 +79,8 @@ FIXPID_INLINE uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 
 FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
 {
+    uint16_t word = x;
     uint8_t low = x >> 1; // the first bit
-    uint16_t word;
     uint16_t sum;
 
     if ((k & 1u) == 0u) {
@@ -95,7 +96,7 @@ FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
     low >>= 1;
     fixpid_add_byte_if(&low, x, k & 32u);
     sum = low;
-    word = (uint16_t)((uint16_t)x << 1);
+    word = (uint16_t)(word + word);
     fixpid_add_word_if(&sum, word, k & 64u);
     return sum;
 }

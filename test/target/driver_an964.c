@@ -8,7 +8,7 @@
 // In object mode the library is built for the object of this name.
 FIXPID_DATA struct fixpid_an964 an964_controller;
 
-union an964_exchange an964_exchange;
+union an964_exchange EXCHANGE_PLACE an964_exchange;
 
 // The question ends where the answer begins: `calls` is where `accepted` will
 // be, and keeps what was. One function, because a PIC16F684 in pointer mode has

@@ -8,7 +8,7 @@
 // In object mode the library is built for the object of this name.
 FIXPID_DATA struct fixpid_an964_8bit an964_8bit_controller;
 
-union an964_8bit_exchange an964_8bit_exchange;
+union an964_8bit_exchange EXCHANGE_PLACE an964_8bit_exchange;
 
 static uint8_t calls_before_the_step(void)
 {

@@ -120,6 +120,16 @@ struct pid_answer {
     uint16_t unused;
 };
 
+// Where what asks has its variables: on a PIC16 in bank 1, since the
+// controllers fill bank 0.
+#if defined(__SDCC_pic14)
+#define EXCHANGE_PLACE __at(0xA0)
+#define TICKS_TOLD_PLACE __at(0xB0)
+#else
+#define EXCHANGE_PLACE
+#define TICKS_TOLD_PLACE
+#endif
+
 // A driver calls it before init, which must set every member of the object. On
 // a PIC the harness fills it from outside: there is no room for a loop.
 #if defined(__SDCC)
@@ -149,8 +159,8 @@ union pid_exchange {
 };
 
 extern union an937_exchange an937_exchange;
-extern union an964_exchange an964_exchange;
-extern union an964_8bit_exchange an964_8bit_exchange;
+extern union an964_exchange EXCHANGE_PLACE an964_exchange;
+extern union an964_8bit_exchange EXCHANGE_PLACE an964_8bit_exchange;
 extern union pid_exchange pid_exchange;
 
 // The drivers: they answer the question with the library's controller.

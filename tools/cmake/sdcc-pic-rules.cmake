@@ -17,3 +17,18 @@ endif()
 string(CONCAT CMAKE_C_LINK_EXECUTABLE
               "\"${GPLINK}\" -m${SDCC_LINK_FOLDERS} -o <TARGET> <LINK_FLAGS>"
               " <OBJECTS> ${sdcc_start} <LINK_LIBRARIES> libsdcc.lib")
+
+if(SDCC_ONE_BANK)
+  string(CONCAT CMAKE_C_COMPILE_OBJECT
+                "\"${SDCC_ONE_BANK_TOOL}\" compile \"${SDCC_ONE_BANK_FOLDER}\""
+                " <SOURCE> <OBJECT> <CMAKE_C_COMPILER> <DEFINES>"
+                " <INCLUDES> <FLAGS>")
+  string(CONCAT CMAKE_C_LINK_EXECUTABLE
+                "\"${GPLINK}\" -m -s"
+                " \"${SDCC_ONE_BANK_FOLDER}/${SDCC_CHIP}.lkr\""
+                "${SDCC_LINK_FOLDERS} -o <TARGET> <LINK_FLAGS> <OBJECTS>"
+                " \"${SDCC_ONE_BANK_FOLDER}/one_bank.o\" <LINK_LIBRARIES>"
+                " libsdcc.lib")
+  set(CMAKE_C_LINK_EXECUTABLE
+      "${CMAKE_C_LINK_EXECUTABLE}" "\"${SDCC_ONE_BANK_TOOL}\" check <TARGET>")
+endif()

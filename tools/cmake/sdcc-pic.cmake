@@ -60,6 +60,18 @@ foreach(needed SDCC_LIBRARIES GPLIB GPLINK)
   endif()
 endforeach()
 
+set(SDCC_ONE_BANK_TOOL ${CMAKE_CURRENT_LIST_DIR}/../lib/one_bank)
+set(SDCC_ONE_BANK_FOLDER ${CMAKE_BINARY_DIR}/one_bank)
+if(SDCC_ONE_BANK)
+  execute_process(
+    COMMAND ${SDCC_ONE_BANK_TOOL} describe ${CMAKE_C_COMPILER} ${SDCC_CHIP}
+            ${SDCC_ONE_BANK_FOLDER}
+    RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "SDCC_ONE_BANK: not for the ${SDCC_CHIP}")
+  endif()
+endif()
+
 set(CMAKE_C_FLAGS_INIT
     "-m${SDCC_PORT} -p${SDCC_CHIP} --use-non-free -Wa,-w1 ${SDCC_PORT_FLAGS}")
 # An executable needs the chip's start-up: CMake's own tests have none.

@@ -84,8 +84,9 @@ PORT_TICK_INTERRUPT()
 // Deviation 20.1: it uses the bytes above.
 #include "pic/port_common.h"
 
-// The bridge's pins become outputs last, with no duty; else by banks, as each
-// change of the bank costs a word.
+// The bridge's pins become outputs when there is no duty; else by banks, as
+// each change of the bank costs a word. The tick starts last, in bank 0, in
+// which a function must return to a file that knows no other.
 void port_init(void)
 {
     PORTA = 0u;
@@ -97,7 +98,6 @@ void port_init(void)
     WDTCON = 0x08u; // 512 cycles of 31 kHz: 17 ms
     TMR1L = 0u;
     TMR1H = (uint8_t)TICK_SKIP_HIGH;
-    T1CON = T1CON_ON;
     INTCON = 0xC0u;        // GIE, PEIE
     PORT_CLEAR_WATCHDOG(); // as the data sheet has it before PSA
     OPTION_REG = 0x84u;    // pull-ups off, Timer0 counts 32 cycles
@@ -109,6 +109,7 @@ void port_init(void)
     PIE1 = 0x01u;   // TMR1IE
     wait_for_end_of_period();
     TRISC = TRISC_BOARD;
+    T1CON = T1CON_ON;
 }
 
 // Timer0 counts after 32 cycles: 8 us of rest after the last conversion, and

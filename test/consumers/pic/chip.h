@@ -5,7 +5,11 @@
 #include <stdint.h>
 
 #ifdef __SDCC_pic14
+#ifdef REGISTER_IN_BANK_1 // any: it is not run
+__sfr __at(0x85) PORTA;
+#else
 __sfr __at(0x05) PORTA;
+#endif
 __sfr __at(0x07) PORTC;
 static __code uint16_t __at(0x2007) configuration_word = 0x33E4;
 #else

@@ -195,8 +195,9 @@ class PicMeter < Meter
   private
 
   def build
-    link(@path, "-DREPLY=#{@controller.name}_reply", 'test/target/driver_main.c', driver,
-         *@subject.all_sources)
+    asks = ['test/target/driver_main.c', driver]
+    link(@path, "-DREPLY=#{@controller.name}_reply",
+         *(words? ? [*@subject.all_sources, '--all-banks', *asks] : asks + @subject.all_sources))
   end
 
   # Two more for the sizes: one with only the calls that every application has,
@@ -219,7 +220,12 @@ class PicMeter < Meter
   def link(output, *arguments)
     chip = @subject.chip.name
     paths = %W[. include src test/target test/cost port port/pic port/pic/#{chip}].map { |folder| "-I#{folder}" }
-    Host.output('tools/lib/build_pic', chip, output, *paths, *@subject.defines, *arguments)
+    Host.output('tools/lib/build_pic', chip, output, *banks, *paths, *@subject.defines, *arguments)
+  end
+
+  # In pointer mode a PIC16's variables fill both.
+  def banks
+    words? && @subject.build == 'pointer' ? ['--all-banks'] : []
   end
 
   def run

@@ -6,7 +6,8 @@ require_relative 'code'
 # A PIC's firmware, from Intel hex and the linker's map.
 class PicCode < Code
   SECTION = /^\s*(\S+)\s+(?:code|idata|romdata|udata)\s+0x(\h+)\s+(program|data)\s+0x(\h+)\s*$/.freeze
-  SYMBOL = /^\s*(?!_?\d+_DS_)_?(\w+)\s+0x(\h+)\s+program\s+\S+\s/.freeze
+  # Not SDCC's labels, and not the marks of tools/lib/one_bank.
+  SYMBOL = /^\s*(?!_?\d+_DS_|one_bank_)_?(\w+)\s+0x(\h+)\s+program\s+\S+\s/.freeze
 
   # In `place`, program or data; sizes are in bytes.
   Section = Struct.new(:name, :address, :place, :bytes)
@@ -120,6 +121,14 @@ class Pic14Code < PicCode
     (word(at) & 0x3F80) == DECFSZ || (1..2).any? { |after| TESTS_ZERO.include?(word(at + after)) }
   end
 
+  def word(at)
+    word_at_byte(2 * at) & 0x3FFF
+  end
+
+  def word?(at)
+    @bytes.key?(2 * at)
+  end
+
   private
 
   def units(section)
@@ -139,10 +148,6 @@ class Pic14Code < PicCode
 
       Instruction.new([[at + 1, 1]], nil, nil, 2)
     end
-  end
-
-  def word(at)
-    word_at_byte(2 * at) & 0x3FFF
   end
 
   def writes_pcl?(word)

@@ -24,20 +24,14 @@ __gptrget2:
         movf    INDF, w
         return
 from_flash:
-        call    byte_from_flash
-        movwf   FSR
-        incf    STK01, f
-        btfsc   STATUS, Z
-        incf    STK00, f
-        call    byte_from_flash
-        movwf   STK01
-        movf    FSR, w
-        movwf   STK00
-        movf    STK01, w
-        return
-byte_from_flash:
         movf    STK00, w
         movwf   PCLATH
+        call    byte_from_flash
+        movwf   STK00
+        incf    STK01, f
+        btfsc   STATUS, Z
+        incf    PCLATH, f       ; it returns the second byte to the caller
+byte_from_flash:
         movf    STK01, w
         movwf   PCL
         end

@@ -13,18 +13,14 @@ __sdcc_gsinit_startup:
         clrf    STATUS          ; bank 0, IRP = 0
         movlw   0x20
         movwf   FSR
-clear_bank_0:
-        clrf    INDF            ; 0x20..0x7F
+clear:
+        clrf    INDF            ; 0x20..0x7F, then 0xA0..0xBF
         incf    FSR, f
-        btfss   FSR, 7
-        goto    clear_bank_0
-        movlw   0xA0
-        movwf   FSR
-clear_bank_1:
-        clrf    INDF            ; 0xA0..0xBF
-        incf    FSR, f
-        btfss   FSR, 6
-        goto    clear_bank_1
-        clrf    PCLATH
-        goto    _main           ; all 2048 words are one page
+        btfsc   FSR, 7
+        bsf     FSR, 5          ; 0x80 becomes 0xA0, and 0xC0 ends it
+        movlw   0x40
+        addwf   FSR, w
+        btfss   STATUS, C
+        goto    clear
+        goto    _main           ; PCLATH is 0: all 2048 words are one page
         end
