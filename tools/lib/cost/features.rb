@@ -43,9 +43,9 @@ module Features
 
     # { priced => [bound, flash] } as a table.
     def table(prices)
-      head = ['feature', '`FIXPID_PID_HAS_`', *BUILDS.flat_map { |chip, build| heads(chip, build) }]
+      head = ['feature', 'bit', *BUILDS.flat_map { |chip, build| heads(chip, build) }]
       rows = TITLES.map do |name, title|
-        [title, "`#{name}` #{format('0x%02X', bits[name])}", *cells(prices, bits[name], '%+d')]
+        [title, "`FIXPID_PID_HAS_#{name}` #{format('0x%02X', bits[name])}", *cells(prices, bits[name], '%+d')]
       end
       [head, ['none of them', '0x00', *cells(prices, NONE, '%d')], *rows, ['all', '0xFF', *cells(prices, ALL, '%+d')]]
     end
