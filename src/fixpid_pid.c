@@ -89,14 +89,14 @@ static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
     if (weight_q8 > WEIGHT_ONE) {
         return false;
     }
-    if (!HAS_WEIGHT) {
-        return SELF.setpoint_weight == 0u;
-    }
     if ((SELF.options & WEIGHTED) != 0u) {
         return weight_q8 == 0u;
     }
     if (SELF.setpoint_weight != 0u) { // neither 0 nor WEIGHT_ONE
-        SELF.options |= WEIGHTED;
+        if (HAS_WEIGHT) {
+            SELF.options |= WEIGHTED;
+        }
+        return HAS_WEIGHT;
     }
     return true;
 }

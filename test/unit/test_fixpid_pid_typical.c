@@ -116,7 +116,8 @@ void test_typical_set_gains_that_need_a_feature_is_refused(void)
     // P + I + D of the gains that were taken
     TEST_ASSERT_EQUAL_INT16(67, fixpid_pid_step(&pid_controller, 40, 0));
     TEST_ASSERT_EQUAL_INT32(12000, fixpid_pid_proportional(&pid_controller));
-    TEST_ASSERT_EQUAL_INT32(40 * 32767, fixpid_pid_integral(&pid_controller));
+    TEST_ASSERT_EQUAL_INT32(INT32_C(40) * 32767,
+                            fixpid_pid_integral(&pid_controller));
 }
 
 // The object held other bits before init, and none of them counts.
