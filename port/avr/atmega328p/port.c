@@ -72,6 +72,20 @@ static void init_drive(void)
     DDRB = DRIVE_PINS;
 }
 
+static void wait_for_conversion(void)
+{
+    while ((ADCSRA & (uint8_t)_BV(ADSC)) != 0u) {
+    }
+}
+
+// On, with 125 kHz: 104 us a conversion. The first takes twice as long.
+static void init_converter(void)
+{
+    ADMUX = PORT_SETPOINT;
+    ADCSRA = 0xC7u;
+    wait_for_conversion();
+}
+
 // The timer clears itself at the top, so no latency enters the period.
 static void init_tick(void)
 {
@@ -81,15 +95,12 @@ static void init_tick(void)
     TIMSK0 = (uint8_t)_BV(OCIE0A);
 }
 
-// The flag of the last reset goes first: while it says that it was the
-// watchdog's, the watchdog keeps its shortest time.
 void port_init(void)
 {
-    MCUSR = 0u;
     wdt_enable(WDTO_30MS);
     init_pins();
     init_drive();
-    ADCSRA = 0x87u; // on, 125 kHz: 104 us a conversion
+    init_converter();
     init_tick();
     sei();
 }
@@ -116,8 +127,7 @@ uint16_t port_read(uint8_t channel)
 {
     ADMUX = channel;
     ADCSRA |= (uint8_t)_BV(ADSC);
-    while ((ADCSRA & (uint8_t)_BV(ADSC)) != 0u) {
-    }
+    wait_for_conversion();
     return ADC;
 }
 
