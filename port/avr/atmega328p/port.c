@@ -31,6 +31,7 @@
 static volatile uint8_t ticks_counted;
 static volatile uint8_t ticks_taken;
 
+// Deviation 2.7: a vector, not a parameter.
 ISR(TIMER0_COMPA_vect)
 {
     const uint8_t next = (uint8_t)(ticks_counted + 1u);
