@@ -560,6 +560,11 @@ Meter &Chip::meter_interrupt(unsigned vector)
     return self->meter_at(vector, "at " + std::to_string(vector), true);
 }
 
+uint64_t Chip::interrupt_cycles() const
+{
+    return self->in_interrupts;
+}
+
 // ---- Pins ----
 
 // "adc0" to "adc7".
