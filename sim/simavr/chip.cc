@@ -332,7 +332,8 @@ Chip::Chip(const std::string &elf, const std::string &processor)
     avr_t &avr = *self->avr;
     (void)avr_init(&avr);
     avr.frequency = usual_hz;
-    avr.vcc = avr.avcc = avr.aref = millivolts;
+    avr.vcc = avr.avcc = millivolts;
+    avr.aref = millivolts / 4; // not used: an Uno has a capacitor there
     avr_load_firmware(&avr, &self->firmware);
     self->ordinary = avr.run;
     self->lowest_stack = avr.ramend;

@@ -27,6 +27,7 @@ constexpr unsigned periods = 8;    // of the PWM, over which pins are watched
 constexpr unsigned ticks_measured = 10000;
 constexpr unsigned ticks_most = 255;
 constexpr unsigned latest = 300;       // cycles that an interrupt is masked for
+constexpr unsigned looks = 10;         // cycles of a loop that waits for it
 constexpr unsigned gie = 0x80;         // of INTCON, I of SREG
 constexpr double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
 
@@ -47,6 +48,11 @@ struct Board {
     std::string forward_pin, reverse_pin; // that carry the duty
     unsigned outputs;                     // register that makes pins outputs
     unsigned drive_inputs, drive_outputs; // its bits of the drive, as either
+    std::pair<unsigned, unsigned> pwm_on; // register, value: the PWM's clock
+    struct Pins {
+        unsigned address, bits, value;
+    };
+    std::vector<Pins> others; // registers of the pins without a use
 };
 
 // CCPR1L and CCP1CON's low bits.
@@ -84,7 +90,9 @@ const Board pic16f684 = {
     "portc4", // P1B
     0x87,
     0x3C,
-    0};
+    0,
+    {0x12, 0x04},
+    {{0x85, 0x32, 0}, {0x05, 0x32, 0}}};
 
 const Board pic18f4520 = {
     8,
@@ -104,7 +112,14 @@ const Board pic18f4520 = {
     "portc2",
     0xF94,
     0x05,
-    0};
+    0,
+    {0xFCA, 0x04},
+    {{0xF92, 0x38, 0},
+     {0xF89, 0x38, 0},
+     {0xF93, 0xFF, 0},
+     {0xF8A, 0xFF, 0},
+     {0xF94, 0xFA, 0},
+     {0xF8B, 0xFA, 0}}};
 
 const Board atmega328p = {14 * 4,
                           0x5F,
@@ -123,7 +138,14 @@ const Board atmega328p = {14 * 4,
                           "portb1",
                           0x24,
                           0,
-                          0x03};
+                          0x03,
+                          {0x81, 0x09},
+                          {{0x24, 0x3C, 0},
+                           {0x25, 0x3E, 0x3C},
+                           {0x27, 0x3F, 0},
+                           {0x28, 0x3F, 0x38},
+                           {0x2A, 0xFF, 0},
+                           {0x2B, 0xFF, 0xFF}}};
 
 const Board &board_of(const Chip &chip)
 {
@@ -149,6 +171,7 @@ class Port
     bool modulated_pins_low() const;
     void wrong(const char *format, ...) __attribute__((format(printf, 2, 3)));
     void turned();
+    void pins_become(unsigned outputs);
 
     void off_after_reset();
     void tick_period();
@@ -170,7 +193,8 @@ class Port
     Meter *interrupt, *conversion;
     bool started = false;
     bool was_reverse = false;
-    uint64_t last_high = 0; // cycle when a drive pin was on
+    uint64_t last_high = 0;   // cycle when a drive pin was on
+    uint64_t pwm_started = 0; // cycle; 0 before
     unsigned long turn_arounds = 0, errors = 0;
     uint64_t previous_tick = 0, first_tick = 0;
     uint64_t shortest = UINT64_MAX, longest = 0, ticks = 0;
@@ -201,6 +225,16 @@ Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
         }
     });
     chip.on_write(board.direction.first, [this](unsigned) { turned(); });
+    chip.on_write(board.pwm_on.first, [this](unsigned value) {
+        if (value == board.pwm_on.second && pwm_started == 0) {
+            pwm_started = chip.cycle();
+        }
+    });
+    chip.on_write(board.outputs, [this](unsigned value) {
+        if (started) {
+            pins_become(value);
+        }
+    });
     chip.on_execute(board.vector, [this] {
         const uint64_t now = chip.cycle();
         if (ticks != 0) {
@@ -283,6 +317,25 @@ void Port::turned()
     }
 }
 
+// The drive's pins become outputs when the PWM has run for a period, but for
+// what the port takes to look, with no duty.
+void Port::pins_become(unsigned outputs)
+{
+    const unsigned drive = board.drive_inputs | board.drive_outputs;
+
+    if ((outputs & drive) == board.drive_inputs) {
+        return;
+    }
+    if (duty_counts() != 0) {
+        wrong("the drive's pins become outputs with a duty of %u",
+              duty_counts());
+    }
+    if (pwm_started == 0 ||
+        chip.cycle() - pwm_started + looks < board.pwm_cycles) {
+        wrong("the drive's pins become outputs before a period of the PWM");
+    }
+}
+
 // From power-on to the first call nothing drives.
 void Port::off_after_reset()
 {
@@ -303,6 +356,13 @@ void Port::off_after_reset()
     if (duty_counts() != 0 || !modulated_pins_low() ||
         chip.probe_edges(forward) != edges) {
         wrong("the drive is not off after port_init");
+    }
+    for (const Board::Pins &pins : board.others) {
+        const unsigned found = chip.peek(pins.address) & pins.bits;
+        if (found != pins.value) {
+            wrong("pins without a use: register 0x%02X has 0x%02X, not 0x%02X",
+                  pins.address, found, pins.value);
+        }
     }
     std::printf("off after reset, and after port_init\n");
 }
@@ -471,11 +531,18 @@ void Port::pin_shows(int asked)
     chip.run(3 * board.pwm_cycles); // until it is at the pins
     chip.probe_high_cycles(on);
     chip.probe_high_cycles(other);
+    const uint64_t edges = chip.probe_edges(on);
     chip.run(periods * board.pwm_cycles - 1); // it returns a cycle later
     const uint64_t high = chip.probe_high_cycles(on);
     if (high + periods < expected || high > expected + periods) {
         wrong("drive %d: pin high for %" PRIu64 " cycles, %" PRIu64 " expected",
               asked, high, expected);
+    }
+    const uint64_t changes = chip.probe_edges(on) - edges;
+    if (expected > 0 && expected < periods * board.pwm_cycles &&
+        (changes + 1 < 2 * periods || changes > 2 * periods + 1)) {
+        wrong("drive %d: %" PRIu64 " edges in %u periods", asked, changes,
+              periods);
     }
     if (other != on && chip.probe_high_cycles(other) != 0) {
         wrong("drive %d: the other direction's pin is on", asked);
