@@ -22,10 +22,13 @@ struct Board {
     std::vector<AnalogPin> analog_pins;
     unsigned converter_register;
     unsigned converter_go;                 // its bit that starts a conversion
+    unsigned ground_channel;               // inside the chip, or no_channel
     std::vector<unsigned> drive_registers; // a write may change the drive
 };
 
 extern const Board board;
+
+constexpr unsigned no_channel = 0x100;
 
 // The channel of the conversion that a write of `control` to that register has
 // started, as port_read was asked for it.

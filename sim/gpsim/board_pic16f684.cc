@@ -27,6 +27,7 @@ const Board board = {
      {PORT_KD, "portc1"}},
     adcon0,
     go,
+    no_channel,
     {ccpr1l, ccp1con, t2con, trisc},
 };
 

@@ -28,6 +28,7 @@ const Board board = {
      {PORT_TEMPERATURE, "porta2"}},
     adcon0,
     go,
+    no_channel,
     {ccpr1l, ccp1con, t2con, trisc, latc},
 };
 

@@ -154,6 +154,9 @@ void Cosimulation::wire_converter()
         }
         catch_up();
         const unsigned channel = board_channel(chip, control);
+        if (channel == board.ground_channel) {
+            return; // not of the world
+        }
         const double fraction = world_voltage((uint8_t)channel);
         const auto input = inputs.find(channel);
         if (input == inputs.end()) {

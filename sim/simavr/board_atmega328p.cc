@@ -30,6 +30,7 @@ const Board board = {
      {PORT_TEMPERATURE, "adc2"}},
     adcsra,
     adsc,
+    0x4F,
     {ocr1al, tccr1a, tccr1b, ddrb, portb}, // OCR1AH waits for OCR1AL
 };
 

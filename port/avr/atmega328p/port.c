@@ -17,6 +17,9 @@
 #define PORTC_UNUSED 0x38u
 #define PORTD_UNUSED 0xFFu
 
+// A channel inside the chip, at 0 V.
+#define GROUND 0x4Fu
+
 // Timer0 counts 250 times 64 cycles.
 #define TICK_TOP 249u
 
@@ -79,10 +82,11 @@ static void wait_for_conversion(void)
     }
 }
 
-// On, with 125 kHz: 104 us a conversion. The first takes twice as long.
+// On, with 125 kHz: 104 us a conversion. The first takes twice as long, so it
+// is of no pin.
 static void init_converter(void)
 {
-    ADMUX = PORT_SETPOINT;
+    ADMUX = GROUND;
     ADCSRA = 0xC7u;
     wait_for_conversion();
 }
