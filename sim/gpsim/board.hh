@@ -20,17 +20,23 @@ struct Board {
     uint64_t step_cycles; // the world moves at least this often
     std::vector<unsigned> interrupt_vectors;
     std::vector<AnalogPin> analog_pins;
-    unsigned converter_register; // GO in bit 1, the rest is the channel
+    unsigned converter_register;
+    unsigned converter_go;                 // its bit that starts a conversion
+    unsigned ground_channel;               // inside the chip, or no_channel
     std::vector<unsigned> drive_registers; // a write may change the drive
 };
 
 extern const Board board;
 
-constexpr unsigned converter_go = 0x02;
+constexpr unsigned no_channel = 0x100;
+
+// The channel of the conversion that a write of `control` to that register has
+// started, as port_read was asked for it.
+unsigned board_channel(const Chip &chip, unsigned control);
 
 // The signed duty that the registers command, in counts of 1 / PORT_DRIVE_FULL;
-// 0 while the pins are not driven. From registers, because gpsim shows this
-// PWM's pins in steps of four counts only.
+// 0 while the pins are not driven. From registers, because gpsim shows a
+// PIC's pins in steps of four counts only.
 int board_drive_counts(const Chip &chip);
 
 #endif

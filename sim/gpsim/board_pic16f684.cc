@@ -12,6 +12,7 @@ constexpr unsigned adcon0 = 0x1F, trisc = 0x87, pr2 = 0x92;
 
 constexpr unsigned bridge_pins = 0x3C;
 constexpr unsigned timer_on = 0x04;
+constexpr unsigned go = 0x02; // of ADCON0, the rest is the channel
 
 } // namespace
 
@@ -25,8 +26,15 @@ const Board board = {
      {PORT_KI, "portc0"},
      {PORT_KD, "portc1"}},
     adcon0,
+    go,
+    no_channel,
     {ccpr1l, ccp1con, t2con, trisc},
 };
+
+unsigned board_channel(const Chip &, unsigned control)
+{
+    return control & ~go;
+}
 
 int board_drive_counts(const Chip &chip)
 {

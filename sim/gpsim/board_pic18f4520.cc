@@ -14,6 +14,7 @@ constexpr unsigned adcon0 = 0xFC2, t2con = 0xFCA;
 constexpr unsigned direction_pin = 0x01; // RC0; high is reverse
 constexpr unsigned drive_pins = 0x05;
 constexpr unsigned timer_on = 0x04;
+constexpr unsigned go = 0x02; // of ADCON0, the rest is the channel
 
 } // namespace
 
@@ -26,8 +27,15 @@ const Board board = {
      {PORT_TACHOMETER, "porta1"},
      {PORT_TEMPERATURE, "porta2"}},
     adcon0,
+    go,
+    no_channel,
     {ccpr1l, ccp1con, t2con, trisc, latc},
 };
+
+unsigned board_channel(const Chip &, unsigned control)
+{
+    return control & ~go;
+}
 
 int board_drive_counts(const Chip &chip)
 {

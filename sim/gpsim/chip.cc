@@ -446,6 +446,11 @@ unsigned Chip::stack_most() const
     return self->stack->most;
 }
 
+std::string Chip::stack_unit() const
+{
+    return "levels";
+}
+
 bool Chip::asleep() const
 {
     return self->processor->mCurrentPhase == self->processor->mIdle;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A microcontroller simulated by gpsim 0.31, with a firmware in it.
+// A microcontroller simulated by gpsim 0.31, with a firmware in it. An AVR is
+// simulated by simavr, in ../simavr/chip.cc, behind the same functions, as far
+// as it has what they are about.
 //
 // gpsim keeps its state in global variables, so a program has one chip: a
 // second one is refused. Everything is deterministic; time is instruction
@@ -103,8 +105,9 @@ class Chip
     bool is_pic18() const;
     std::string processor() const; // "p16f684"
     unsigned program_counter() const;
-    unsigned stack_depth() const; // return addresses on the hardware stack
-    unsigned stack_most() const;  // the deepest at any instruction so far
+    unsigned stack_depth() const;   // return addresses on the hardware stack
+    unsigned stack_most() const;    // the deepest at any instruction so far
+    std::string stack_unit() const; // "levels", or "bytes" of RAM
     bool asleep() const;
 
     // ---- Actions; they stay until the end ----

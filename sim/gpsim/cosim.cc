@@ -149,11 +149,14 @@ void Cosimulation::wire_converter()
         inputs[wire.channel] = chip.analog_input(wire.pin);
     }
     chip.on_write(board.converter_register, [this](unsigned control) {
-        if ((control & converter_go) == 0) {
+        if ((control & board.converter_go) == 0) {
             return;
         }
         catch_up();
-        const unsigned channel = control & ~converter_go;
+        const unsigned channel = board_channel(chip, control);
+        if (channel == board.ground_channel) {
+            return; // not of the world
+        }
         const double fraction = world_voltage((uint8_t)channel);
         const auto input = inputs.find(channel);
         if (input == inputs.end()) {
@@ -307,7 +310,8 @@ void Cosimulation::summary(double wall_s) const
     for (const Meter *meter : interrupts) {
         print_meter("interrupt", *meter);
     }
-    std::printf("return stack: %u levels\n", chip.stack_most());
+    std::printf("return stack: %u %s\n", chip.stack_most(),
+                chip.stack_unit().c_str());
 }
 
 int Cosimulation::run()
@@ -338,9 +342,9 @@ constexpr int exit_wrong_use = 2;
 
 void help(const char *program)
 {
-    std::printf("usage: %s FIRMWARE.cod [--meter ROUTINE]... [option]...\n"
-                "Runs a firmware on its chip, simulated by gpsim, in its "
-                "simulated world.\n\n"
+    std::printf("usage: %s FIRMWARE [--meter ROUTINE]... [option]...\n"
+                "Runs a firmware, .cod of a PIC or .elf of an AVR, on its "
+                "simulated chip, in its\nsimulated world.\n\n"
                 "  --meter ROUTINE   measure a routine's cycles\n\n"
                 "The other options, the seed's effect and the trace are those "
                 "of the host's program;\n"

@@ -13,7 +13,7 @@ volatile uint16_t reading;
 volatile int16_t duty;
 volatile uint8_t ticks_told;
 
-void main(void)
+int main(void)
 {
     port_init();
     for (;;) {

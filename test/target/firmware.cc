@@ -2,12 +2,13 @@
 // What an example's firmware takes of its chip, with inputs that change at each
 // tick:
 //
-//   firmware FIRMWARE.cod CONTROLLER TICKS
+//   firmware FIRMWARE CONTROLLER TICKS
 //
-// Prints one line of figures; all in cycles, without interrupts. A pass is the
-// loop's way from taking the ticks to taking them again. On a PIC16F684, where
-// the firmware is compiled as one file, each drive must be what the
-// controller's definition answers to the potentiometers and the error.
+// with the .cod of a PIC or the .elf of an AVR; the linker chooses the
+// simulator. Prints one line of figures; all in cycles, without interrupts. A
+// pass is the loop's way from taking the ticks to taking them again. On a
+// PIC16F684, where the firmware is compiled as one file, each drive must be
+// what the controller's definition answers to the potentiometers and the error.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +21,7 @@ namespace
 
 constexpr unsigned poison = 0xA5;
 constexpr unsigned wreg = 0xFE8;                  // of a PIC18
+constexpr unsigned r24 = 24;                      // of an AVR
 constexpr unsigned ccpr1l = 0x13, ccp1con = 0x15; // of a PIC16
 constexpr int full = 256, least = 4;              // PORT_DRIVE_FULL, _LEAST
 constexpr uint64_t tick_most =
@@ -43,6 +45,7 @@ class Firmware
     void check_drive();
 
     Chip chip;
+    bool avr, pic16;
     unsigned vector;
     std::vector<unsigned> inputs;
     uint32_t state = 1;
@@ -59,13 +62,16 @@ class Firmware
 };
 
 Firmware::Firmware(const std::string &cod, const std::string &controller)
-    : chip(cod), vector(chip.is_pic18() ? 8 : 4)
+    : chip(cod), avr(chip.processor() == "atmega328p"),
+      pic16(!avr && !chip.is_pic18()), vector(avr ? 14 * 4 : (pic16 ? 4 : 8))
 {
-    const std::vector<std::string> pins =
-        chip.is_pic18()
-            ? std::vector<std::string>{"porta0", "porta1", "porta2"}
-            : std::vector<std::string>{"porta0", "porta2", "portc0", "portc1"};
+    std::vector<std::string> pins = {"porta0", "porta1", "porta2"};
 
+    if (avr) {
+        pins = {"adc0", "adc1", "adc2"};
+    } else if (pic16) {
+        pins = {"porta0", "porta2", "portc0", "portc1"};
+    }
     if (chip.is_pic18()) {
         chip.lenient_until("main");
         chip.set_oscillator(40e6);
@@ -80,11 +86,14 @@ Firmware::Firmware(const std::string &cod, const std::string &controller)
         ticks++;
         new_inputs();
     });
-    chip.on_execute(chip.code("port_ticks"), [this] { ticks_wanted(); });
-    chip.on_execute(chip.code("port_wait_tick"), [this] { ticks_wanted(); });
+    for (const char *const name : {"port_ticks", "port_wait_tick"}) {
+        if (chip.has_symbol(name)) { // an AVR's firmware has what it calls
+            chip.on_execute(chip.code(name), [this] { ticks_wanted(); });
+        }
+    }
     taken = &chip.meter("port_ticks");
     taken->on_return = [this](uint64_t) { ticks_taken(); };
-    if (!chip.is_pic18()) {
+    if (pic16) {
         watch_drives(find_controller(controller));
     }
 }
@@ -175,7 +184,7 @@ void Firmware::ticks_wanted()
         return;
     }
     passing = false;
-    if (!chip.is_pic18()) {
+    if (pic16) {
         check_drive();
     }
     const uint64_t cycles =
@@ -188,7 +197,7 @@ void Firmware::ticks_taken()
 {
     passing = true;
     // What port_ticks returned; a PIC16's applications all wait for a tick.
-    with_tick = !chip.is_pic18() || chip.peek(wreg) != 0;
+    with_tick = pic16 || chip.peek(avr ? r24 : wreg) != 0;
     start = chip.cycle();
     interrupted = chip.interrupt_cycles();
 }
@@ -201,7 +210,7 @@ void Firmware::poison_stack()
     }
 }
 
-// From the deepest byte that was written; 0 on a PIC16, which has none.
+// From the deepest byte that was written; 0 where there is only one stack.
 unsigned Firmware::software_stack() const
 {
     if (!chip.is_pic18()) {
@@ -225,12 +234,12 @@ void Firmware::run(uint64_t count)
     }
     const std::string printed = chip.messages();
     if (!printed.empty()) {
-        throw ChipError("gpsim: " + printed);
+        throw ChipError("the simulator: " + printed);
     }
-    if (!chip.is_pic18()) {
+    if (pic16) {
         std::printf("drives %lu different %lu\n", drives, different);
     }
-    if (different != 0 || (drives == 0 && !chip.is_pic18())) {
+    if (different != 0 || (drives == 0 && pic16)) {
         throw ChipError("wrong drives");
     }
     std::printf("%s tick %lu idle %lu interrupt %lu step %lu stack %u "
@@ -245,7 +254,7 @@ int main(int argc, char *argv[])
 {
     try {
         if (argc != 4) {
-            throw ChipError("usage: firmware FIRMWARE.cod CONTROLLER TICKS");
+            throw ChipError("usage: firmware FIRMWARE CONTROLLER TICKS");
         }
         Firmware(argv[1], argv[2]).run(std::strtoul(argv[3], nullptr, 10));
         return EXIT_SUCCESS;

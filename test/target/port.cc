@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The functions of a port against its chip's pins and registers:
 //
-//   port FIRMWARE.cod
+//   port FIRMWARE [unfed]
 //
-// with the firmware of driver_port.c. Exit status: 0 all is well, 1 something
-// is not, 2 the run could not be made.
+// with the firmware of driver_port.c, .cod of a PIC or .elf of an AVR; the
+// linker chooses the simulator. With `unfed` only that the watchdog is not fed
+// when no tick came. Exit status: 0 all is well, 1 something is not, 2 the run
+// could not be made.
 #include <algorithm>
 #include <cinttypes>
 #include <cstdarg>
@@ -25,24 +27,50 @@ constexpr unsigned periods = 8;    // of the PWM, over which pins are watched
 constexpr unsigned ticks_measured = 10000;
 constexpr unsigned ticks_most = 255;
 constexpr unsigned latest = 300;       // cycles that an interrupt is masked for
-constexpr unsigned gie = 0x80;         // of INTCON
+constexpr unsigned looks = 10;         // cycles of a loop that waits for it
+constexpr unsigned gie = 0x80;         // of INTCON, I of SREG
 constexpr double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
 
 // What port_board.h and the data sheet say of a board.
 struct Board {
-    unsigned vector, intcon;
+    unsigned vector, intcon;                 // or SREG: GIE is bit 7 of both
     std::pair<unsigned, unsigned> tick_flag; // register, bit
     uint64_t tick_cycles;
     uint64_t latency_spread; // cycles between the latest and the earliest
     uint64_t interrupt_cycles;
     std::map<unsigned, std::string> channels; // and their pins
-    unsigned ccpr1l, ccp1con, trisc;
+    unsigned (*duty_counts)(const Chip &chip);
     std::pair<unsigned, unsigned> direction; // register, bit
     unsigned full;                           // PORT_DRIVE_FULL
     uint64_t pwm_cycles;                     // a period
-    std::string forward_pin, reverse_pin;    // that carry the duty
-    unsigned drive_outputs;                  // bits of TRISC
+    unsigned counts_per_cycle;               // of the duty
+    uint64_t off_before_turn; // cycles without drive before it changes
+    std::string forward_pin, reverse_pin; // that carry the duty
+    unsigned outputs;                     // register that makes pins outputs
+    unsigned drive_inputs, drive_outputs; // its bits of the drive, as either
+    std::pair<unsigned, unsigned> pwm_on; // register, value: the PWM's clock
+    struct Pins {
+        unsigned address, bits, value;
+    };
+    std::vector<Pins> others; // registers of the pins without a use
 };
+
+// CCPR1L and CCP1CON's low bits.
+unsigned pic16_duty(const Chip &chip)
+{
+    return (chip.peek(0x13) << 2) | ((chip.peek(0x15) >> 4) & 3u);
+}
+
+unsigned pic18_duty(const Chip &chip)
+{
+    return (chip.peek(0xFBE) << 2) | ((chip.peek(0xFBD) >> 4) & 3u);
+}
+
+// OCR1A, of an inverted PWM.
+unsigned avr_duty(const Chip &chip)
+{
+    return 1023u - chip.peek_u16(0x88);
+}
 
 const Board pic16f684 = {
     4,
@@ -52,15 +80,19 @@ const Board pic16f684 = {
     8,
     23,
     {{0x81, "porta0"}, {0x89, "porta2"}, {0x91, "portc0"}, {0x95, "portc1"}},
-    0x13,
-    0x15,
-    0x87,
+    pic16_duty,
     {0x15, 0x80},
     256,
     64,
+    4,
+    0,        // P1M1 waits for the end of the period itself
     "portc2", // P1D
     "portc4", // P1B
-    0x3C};
+    0x87,
+    0x3C,
+    0,
+    {0x12, 0x04},
+    {{0x85, 0x32, 0}, {0x05, 0x32, 0}}};
 
 const Board pic18f4520 = {
     8,
@@ -70,15 +102,58 @@ const Board pic18f4520 = {
     8,
     18,
     {{0x01, "porta0"}, {0x05, "porta1"}, {0x09, "porta2"}},
-    0xFBE,
-    0xFBD,
-    0xF94,
+    pic18_duty,
     {0xF8B, 0x01},
     1023,
     256,
+    4,
+    256,
     "portc2", // CCP1
     "portc2",
-    0x05};
+    0xF94,
+    0x05,
+    0,
+    {0xFCA, 0x04},
+    {{0xF92, 0x38, 0},
+     {0xF89, 0x38, 0},
+     {0xF93, 0xFF, 0},
+     {0xF8A, 0xFF, 0},
+     {0xF94, 0xFA, 0},
+     {0xF8B, 0xFA, 0}}};
+
+const Board atmega328p = {14 * 4,
+                          0x5F,
+                          {0x35, 0x02},
+                          16000,
+                          8,
+                          38,
+                          {{0x40, "adc0"}, {0x41, "adc1"}, {0x42, "adc2"}},
+                          avr_duty,
+                          {0x25, 0x01},
+                          1023,
+                          1024,
+                          1,
+                          1024,
+                          "portb1", // OC1A
+                          "portb1",
+                          0x24,
+                          0,
+                          0x03,
+                          {0x81, 0x09},
+                          {{0x24, 0x3C, 0},
+                           {0x25, 0x3E, 0x3C},
+                           {0x27, 0x3F, 0},
+                           {0x28, 0x3F, 0x38},
+                           {0x2A, 0xFF, 0},
+                           {0x2B, 0xFF, 0xFF}}};
+
+const Board &board_of(const Chip &chip)
+{
+    if (chip.processor() == "atmega328p") {
+        return atmega328p;
+    }
+    return chip.is_pic18() ? pic18f4520 : pic16f684;
+}
 
 class Port
 {
@@ -86,6 +161,7 @@ class Port
     explicit Port(const std::string &cod);
     // True if all is well.
     bool run();
+    bool run_unfed();
 
   private:
     void call(char function, uint64_t most = turn_most);
@@ -95,6 +171,7 @@ class Port
     bool modulated_pins_low() const;
     void wrong(const char *format, ...) __attribute__((format(printf, 2, 3)));
     void turned();
+    void pins_become(unsigned outputs);
 
     void off_after_reset();
     void tick_period();
@@ -116,13 +193,14 @@ class Port
     Meter *interrupt, *conversion;
     bool started = false;
     bool was_reverse = false;
+    uint64_t last_high = 0;   // cycle when a drive pin was on
+    uint64_t pwm_started = 0; // cycle; 0 before
     unsigned long turn_arounds = 0, errors = 0;
     uint64_t previous_tick = 0, first_tick = 0;
     uint64_t shortest = UINT64_MAX, longest = 0, ticks = 0;
 };
 
-Port::Port(const std::string &cod)
-    : chip(cod), board(chip.is_pic18() ? pic18f4520 : pic16f684)
+Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
 {
     if (chip.is_pic18()) {
         chip.lenient_until("main");
@@ -135,6 +213,9 @@ Port::Port(const std::string &cod)
     reverse_probe = board.reverse_pin == board.forward_pin
                         ? forward
                         : chip.probe(board.reverse_pin);
+    for (const unsigned probe : {forward, reverse_probe}) {
+        chip.on_edge(probe, [this](unsigned) { last_high = chip.cycle(); });
+    }
     interrupt = &chip.meter_interrupt(board.vector);
     conversion = &chip.meter("port_read");
     chip.on_execute(chip.code("main"), [this] { started = true; });
@@ -144,6 +225,16 @@ Port::Port(const std::string &cod)
         }
     });
     chip.on_write(board.direction.first, [this](unsigned) { turned(); });
+    chip.on_write(board.pwm_on.first, [this](unsigned value) {
+        if (value == board.pwm_on.second && pwm_started == 0) {
+            pwm_started = chip.cycle();
+        }
+    });
+    chip.on_write(board.outputs, [this](unsigned value) {
+        if (started) {
+            pins_become(value);
+        }
+    });
     chip.on_execute(board.vector, [this] {
         const uint64_t now = chip.cycle();
         if (ticks != 0) {
@@ -193,8 +284,7 @@ void Port::drive(int duty)
 
 unsigned Port::duty_counts() const
 {
-    return (chip.peek(board.ccpr1l) << 2) |
-           ((chip.peek(board.ccp1con) >> 4) & 3u);
+    return board.duty_counts(chip);
 }
 
 bool Port::reverse() const
@@ -221,6 +311,29 @@ void Port::turned()
     if (!modulated_pins_low()) {
         wrong("direction changed with a drive pin on");
     }
+    if (chip.cycle() - last_high < board.off_before_turn) {
+        wrong("direction changed with %" PRIu64 " cycles without drive",
+              chip.cycle() - last_high);
+    }
+}
+
+// The drive's pins become outputs when the PWM has run for a period, but for
+// what the port takes to look, with no duty.
+void Port::pins_become(unsigned outputs)
+{
+    const unsigned drive = board.drive_inputs | board.drive_outputs;
+
+    if ((outputs & drive) == board.drive_inputs) {
+        return;
+    }
+    if (duty_counts() != 0) {
+        wrong("the drive's pins become outputs with a duty of %u",
+              duty_counts());
+    }
+    if (pwm_started == 0 ||
+        chip.cycle() - pwm_started + looks < board.pwm_cycles) {
+        wrong("the drive's pins become outputs before a period of the PWM");
+    }
 }
 
 // From power-on to the first call nothing drives.
@@ -228,19 +341,28 @@ void Port::off_after_reset()
 {
     const uint64_t edges = chip.probe_edges(forward);
 
-    if ((chip.peek(board.trisc) & board.drive_outputs) != board.drive_outputs) {
+    const unsigned drive = board.drive_inputs | board.drive_outputs;
+
+    if ((chip.peek(board.outputs) & drive) != board.drive_inputs) {
         wrong("the drive's pins are outputs before port_init");
     }
     chip.run(10 * turn_most);
     if (chip.stopped() != Stop::requested) {
         throw ChipError("port_init does not return: " + chip.reason());
     }
-    if ((chip.peek(board.trisc) & board.drive_outputs) != 0) {
+    if ((chip.peek(board.outputs) & drive) != board.drive_outputs) {
         wrong("the drive's pins are no outputs after port_init");
     }
     if (duty_counts() != 0 || !modulated_pins_low() ||
         chip.probe_edges(forward) != edges) {
         wrong("the drive is not off after port_init");
+    }
+    for (const Board::Pins &pins : board.others) {
+        const unsigned found = chip.peek(pins.address) & pins.bits;
+        if (found != pins.value) {
+            wrong("pins without a use: register 0x%02X has 0x%02X, not 0x%02X",
+                  pins.address, found, pins.value);
+        }
     }
     std::printf("off after reset, and after port_init\n");
 }
@@ -397,23 +519,30 @@ void Port::duties()
     std::printf("%d duties in the registers\n", 2 * most + 1 + 6);
 }
 
-// gpsim shows a quarter of a cycle's counts at the pin: whole cycles only.
+// gpsim shows whole cycles only at the pin.
 void Port::pin_shows(int asked)
 {
     const unsigned on = asked < 0 ? reverse_probe : forward;
     const unsigned other = asked < 0 ? forward : reverse_probe;
-    const uint64_t expected =
-        static_cast<uint64_t>(std::abs(asked)) / 4 * periods;
+    const uint64_t expected = static_cast<uint64_t>(std::abs(asked)) /
+                              board.counts_per_cycle * periods;
 
     drive(asked);
     chip.run(3 * board.pwm_cycles); // until it is at the pins
     chip.probe_high_cycles(on);
     chip.probe_high_cycles(other);
+    const uint64_t edges = chip.probe_edges(on);
     chip.run(periods * board.pwm_cycles - 1); // it returns a cycle later
     const uint64_t high = chip.probe_high_cycles(on);
     if (high + periods < expected || high > expected + periods) {
         wrong("drive %d: pin high for %" PRIu64 " cycles, %" PRIu64 " expected",
               asked, high, expected);
+    }
+    const uint64_t changes = chip.probe_edges(on) - edges;
+    if (expected > 0 && expected < periods * board.pwm_cycles &&
+        (changes + 1 < 2 * periods || changes > 2 * periods + 1)) {
+        wrong("drive %d: %" PRIu64 " edges in %u periods", asked, changes,
+              periods);
     }
     if (other != on && chip.probe_high_cycles(other) != 0) {
         wrong("drive %d: the other direction's pin is on", asked);
@@ -482,6 +611,39 @@ void Port::watchdog()
                     chip.cycles_per_second());
 }
 
+// A loop that asks for ticks when none come is reset, too.
+bool Port::run_unfed()
+{
+    uint64_t calls = 0;
+
+    chip.run(10 * turn_most);
+    call('w');
+    chip.write(board.intcon, chip.peek(board.intcon) & ~gie);
+    const uint64_t start = chip.cycle();
+    const double most = watchdog_most * chip.cycles_per_second();
+    try {
+        while (static_cast<double>(chip.cycle() - start) < most) {
+            call('t');
+            calls++;
+            if (chip.peek(chip.data("ticks_told")) > 1) {
+                wrong("ticks are told that did not come");
+            }
+        }
+    } catch (const ChipError &) {
+        // judged below
+    }
+    if (chip.stopped() != Stop::fault ||
+        chip.reason().find("watchdog") == std::string::npos) {
+        wrong("the watchdog is fed without a tick");
+    }
+    std::printf("watchdog resets after %.1f ms and %" PRIu64
+                " calls without a tick\n%s unfed errors %lu\n",
+                1000.0 * static_cast<double>(chip.cycle() - start) /
+                    chip.cycles_per_second(),
+                calls, chip.processor().c_str(), errors);
+    return errors == 0;
+}
+
 bool Port::run()
 {
     off_after_reset();
@@ -495,7 +657,7 @@ bool Port::run()
     ticks_saturate();
     const std::string printed = chip.messages();
     if (!printed.empty()) {
-        wrong("gpsim: %s", printed.c_str());
+        wrong("the simulator: %s", printed.c_str());
     }
     watchdog();
     std::printf("%s port errors %lu\n", chip.processor().c_str(), errors);
@@ -507,10 +669,13 @@ bool Port::run()
 int main(int argc, char *argv[])
 {
     try {
-        if (argc != 2) {
-            throw ChipError("usage: port FIRMWARE.cod");
+        const bool unfed = argc == 3 && std::string(argv[2]) == "unfed";
+        if (argc != 2 && !unfed) {
+            throw ChipError("usage: port FIRMWARE [unfed]");
         }
-        return Port(argv[1]).run() ? EXIT_SUCCESS : EXIT_FAILURE;
+        Port port(argv[1]);
+        return (unfed ? port.run_unfed() : port.run()) ? EXIT_SUCCESS
+                                                       : EXIT_FAILURE;
     } catch (const std::exception &error) {
         std::fprintf(stderr, "port: %s\n", error.what());
         return 2;

@@ -5,7 +5,7 @@
 # in BUILD have measured? Prints what it does not say and fails.
 build, document = ARGV
 PAGE = File.read(document)
-CYCLES_PER_SECOND = { 'pic16f684' => 2_000_000, 'pic18f4520' => 10_000_000 }.freeze
+CYCLES_PER_SECOND = { 'pic16f684' => 2_000_000, 'pic18f4520' => 10_000_000, 'atmega328p' => 16_000_000 }.freeze
 
 def hertz(frequency)
   frequency < 1000 ? format('%.2f Hz', frequency) : format('%g kHz', frequency / 1000.0)
@@ -13,7 +13,8 @@ end
 
 # The phrases that must be in the named row, or anywhere.
 def expected(log, rate)
-  period = log[/ cycles, (\d+)\.\.\1 each$/, 1].to_i
+  ticks, cycles = log.match(/^(\d+) ticks in (\d+) cycles/).captures.map(&:to_i)
+  period = (cycles / ticks.to_f).round
   interrupt = log[/^interrupt (\d+)\.\.\1 cycles$/, 1].to_i
   conversion = log[/readings, \d+\.\.(\d+) cycles/, 1].to_i
   { 'tick' => "#{period} cycles: #{hertz(rate.to_f / period)}",

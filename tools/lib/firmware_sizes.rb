@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# firmware_sizes.rb FOLDER NAME...: what the firmwares FOLDER/NAME.map take of
-# their chip. Prints a table of these and writes FOLDER/sizes.json for all that
+# firmware_sizes.rb FOLDER NAME...: what the firmwares FOLDER/NAME.map, and of an
+# AVR FOLDER/NAME.elf, take of their chip. Prints a table of these and writes FOLDER/sizes.json for all that
 # are in FOLDER.
 require 'json'
+require 'open3'
 
 # Where flash ends and which addresses are RAM; a program address of a PIC16 is
 # a word of two bytes in the map.
@@ -65,20 +66,47 @@ class Firmware
   end
 end
 
+# One firmware of an AVR, from its sections. Its stack takes what they leave.
+class AvrFirmware
+  def initialize(elf)
+    output, status = Open3.capture2('avr-size', '-A', elf)
+    abort "firmware: avr-size cannot read #{elf}" unless status.success?
+    @sections = output.scan(/^(\.\w+)\s+(\d+)/).to_h.transform_values(&:to_i)
+  end
+
+  def sizes
+    { chip: 'atmega328p', flash: sum('.text', '.data'), flash_size: 32_768, flash_unit: 'bytes',
+      ram: sum('.data', '.bss'), ram_size: 2048, stack: 0 }
+  end
+
+  private
+
+  def sum(*names)
+    names.sum { |name| @sections.fetch(name, 0) }
+  end
+end
+
 def percent(part, whole)
   format('%3.0f %%', 100.0 * part / whole)
 end
 
+def of_it(size)
+  return "#{size[:shared]} shared by SDCC's calls" if size[:shared]
+
+  size[:stack].zero? ? 'without its stack' : "#{size[:stack]} stack"
+end
+
 def row(name, size)
-  of_it = size[:shared] ? "#{size[:shared]} shared by SDCC's calls" : "#{size[:stack]} stack"
   format('%-14s %-11s %6d of %5d %s %s   %4d of %4d bytes %s (%s)', name, size[:chip].upcase,
          size[:flash], size[:flash_size], size[:flash_unit], percent(size[:flash], size[:flash_size]),
-         size[:ram], size[:ram_size], percent(size[:ram], size[:ram_size]), of_it)
+         size[:ram], size[:ram_size], percent(size[:ram], size[:ram_size]), of_it(size))
 end
 
 folder = ARGV.shift
 sizes = Dir["#{folder}/*.hex"].sort.to_h do |hex|
-  [File.basename(hex, '.hex'), Firmware.new(hex.sub(/hex$/, 'map')).sizes]
+  elf = hex.sub(/hex$/, 'elf')
+  firmware = File.exist?(elf) ? AvrFirmware.new(elf) : Firmware.new(hex.sub(/hex$/, 'map'))
+  [File.basename(hex, '.hex'), firmware.sizes]
 end
 File.write("#{folder}/sizes.json", "#{JSON.pretty_generate(sizes)}\n")
 puts 'firmware       chip         flash                         RAM'

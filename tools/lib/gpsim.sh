@@ -5,7 +5,8 @@
 
 build_gpsim() {
     root=${root:-.}
-    need cc:gcc c++:g++ :libc6-dev make cmake gpasm:gputils :gpsim-dev
+    need cc:gcc c++:g++ :libc6-dev make cmake gpasm:gputils :gpsim-dev \
+        :libsimavr-dev
     gpsim_build=$root/build/gpsim
     mkdir -p "$gpsim_build" 2>/dev/null || die "cannot create $gpsim_build"
     # A build from before the folder was moved would be refused.

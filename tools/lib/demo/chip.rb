@@ -4,7 +4,8 @@
 # The examples as firmware on simulated chips, each beside the host's run of
 # the same scenario.
 class Chip
-  attr_reader :name, :title, :chip, :host, :step, :step_ticks, :lines, :start_s
+  attr_reader :name, :example, :title, :chip, :host, :step, :step_ticks, :lines,
+              :start_s
 
   TICK_S = 1e-3 # of the chips that do not control on each tick
 
@@ -12,6 +13,7 @@ class Chip
   # time: the longest pass of a row is the one that controls.
   def initialize(name, title, step, scenario, step_ticks: 1)
     @name = name
+    @example = name.delete_suffix('_uno') # what comes after _ is a board
     @title = title
     @step = step
     @scenario = scenario
@@ -20,7 +22,7 @@ class Chip
   end
 
   def run_on_host
-    @host = Host.run(@name, "chip-#{@name}_host", every: @every, **@scenario)
+    @host = Host.run(@example, "chip-#{@name}_host", every: @every, **@scenario)
   end
 
   # With what the co-simulation says in its last lines.
@@ -29,11 +31,16 @@ class Chip
     options = @scenario.flat_map { |key, value| ['--set', "#{key}=#{value}"] }
     options += ['--every', @every.to_s] if @every
     Host.execute({}, "#{Host.root}/build/gpsim/#{@name}",
-                 "#{Host.root}/build/firmware/#{@name}.cod", '--csv', csv,
-                 '--meter', @step, *options, { out: log })
+                 firmware, '--csv', csv, '--meter', @step, *options, { out: log })
     @chip = Trace.new(csv)
     @lines = File.read(log)
     @start_s = find(/^ready: ([\d.]+) s/)
+  end
+
+  # An AVR's is .elf.
+  def firmware
+    Dir["#{Host.root}/build/firmware/#{@name}.{cod,elf}"].first or
+      raise Host::Failure, "no firmware of #{@name}"
   end
 
   def find(pattern)
@@ -75,7 +82,13 @@ CHIPS = [
   Chip.new('thermostat', 'thermostat on a PIC18F4520', 'fixpid_pid_step',
            { seconds: 60 }, step_ticks: 100),
   Chip.new('autotune', 'autotuner on a PIC18F4520', 'fixpid_pid_step',
-           { seconds: 75 }, step_ticks: 100)
+           { seconds: 75 }, step_ticks: 100),
+  Chip.new('motor_uno', 'motor, AN937 on an Arduino Uno', 'fixpid_an937_step',
+           {}),
+  Chip.new('oven_uno', 'oven, AN937 on an Arduino Uno', 'fixpid_an937_step',
+           { seconds: 20 }),
+  Chip.new('thermostat_uno', 'thermostat on an Arduino Uno', 'fixpid_pid_step',
+           { seconds: 60 }, step_ticks: 100)
 ].freeze
 
 # How far the chip may be off the host, by column, from one time to another. The
@@ -98,11 +111,16 @@ AGREEMENTS = {
               Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
   'oven' => [Agreement.new('temperature_c', 'C', 0.0, 15.0, 0.05)],
   'thermostat' => [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)],
-  'autotune' => [Agreement.new('temperature_c', 'C', 0.0, 75.0, 0.1)]
+  'autotune' => [Agreement.new('temperature_c', 'C', 0.0, 75.0, 0.1)],
+  # Its loop comes round every quarter of a tick, in which a start gains 3 rad/s.
+  'motor_uno' => [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 15.0),
+                  Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
+  'oven_uno' => [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)],
+  'thermostat_uno' => [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)]
 }.freeze
 
 # To simulate, so they begin first.
-LONGEST = %w[thermostat autotune oven].freeze
+LONGEST = %w[thermostat autotune oven thermostat_uno oven_uno].freeze
 
 def chip
   CHIPS.each(&:run_on_host)
@@ -129,7 +147,7 @@ def run_two_at_a_time(chips)
 end
 
 def check_on_chip(one)
-  case one.name
+  case one.example
   when 'motor' then check_motor_on_chip(one)
   when 'oven' then check_oven_on_chip(one)
   when 'thermostat' then check_thermostat_on_chip(one)
@@ -167,7 +185,7 @@ def check_motor_on_chip(one)
   Report.at_most('overshoot, limit 4000', overshoot(run), 20.0, '%')
   check_schedule(run)
   check_load(run)
-  start, load = AGREEMENTS['motor']
+  start, load = AGREEMENTS[one.name]
   start.check(one, 'start and schedule agree with the host')
   load.check(one, 'load agrees with the host')
 end
@@ -180,7 +198,7 @@ def check_oven_on_chip(one)
   Report.at_most('overshoot', oven_overshoot(run), 5.0, '%')
   Report.at_most('settles within 2 % after', oven_settling(run),
                  1.1 * oven_settling(one.host), 's')
-  AGREEMENTS['oven'][0].check(one)
+  AGREEMENTS[one.name][0].check(one)
 end
 
 def check_thermostat_on_chip(one)
@@ -190,7 +208,7 @@ def check_thermostat_on_chip(one)
   limited = run.values('drive_counts', LOW_POWER.from + SEEN_S)
   Report.at_most('limit lowered: the drive, at once', limited.max, LOW_LIMIT,
                  'counts')
-  AGREEMENTS['thermostat'][0].check(one)
+  AGREEMENTS[one.name][0].check(one)
 end
 
 # The gains are as the swing was, to its noise.
@@ -202,7 +220,7 @@ def check_autotune_on_chip(one)
     Report.at_most("#{name}: agrees with the host within",
                    100.0 * (found.to_f / on_host - 1.0).abs, 3.0, '%')
   end
-  AGREEMENTS['autotune'][0].check(one)
+  AGREEMENTS[one.name][0].check(one)
 end
 
 def check_resources(one)
@@ -220,7 +238,7 @@ def check_resources(one)
   { 'worst_step_cycles' => /^routine \S+ .* to (\d+) cycles/,
     'worst_pass_cycles' => /^loop: .* to (\d+) cycles/,
     'worst_interrupt_cycles' => /^interrupt .* to (\d+) cycles/,
-    'return_stack_levels' => /^return stack: (\d+)/,
+    'return_stack' => /^return stack: (\d+)/,
     'times_real_time' => /, ([\d.]+) times real time/ }
     .each { |name, pattern| Report.number(name, one.find(pattern)) }
 end
@@ -236,7 +254,7 @@ def chip_table
      *%w[step pass].map { |n| "#{numbers["worst_#{n}_cycles"].to_i} cycles" },
      format('%.1f %%', one.find(/^share of a tick: worst ([\d.]+)/)),
      "#{numbers['worst_interrupt_cycles'].to_i} cycles",
-     "#{numbers['return_stack_levels'].to_i} levels",
+     one.lines[/^return stack: (\d+ \w+)/, 1],
      format('%.1f x', numbers['times_real_time'])]
   end
   widths = [head, *rows].transpose.map { |column| column.map(&:size).max }
@@ -248,12 +266,12 @@ end
 def draw_chips
   plot = Plot.new('chip', 'Simulated chip minus host: the same sources, the ' \
                           'same scenario (grey: where and how far they may differ)',
-                  width: 1000, height: 760, columns: [1.0, 1.0],
-                  rows: [1.0] * (CHIPS.size / 2), gap_x: 0.085, gap_y: 0.085,
+                  width: 1400, height: 760, columns: [1.0] * 3,
+                  rows: [1.0] * (CHIPS.size / 3), gap_x: 0.06, gap_y: 0.085,
                   margins: { top: 0.91, right: 0.985 })
-  CHIPS.each_with_index do |one, i|
-    difference_panel(plot, i / 2, i % 2, one)
-  end
+  pics, unos = CHIPS.partition { |one| one.name == one.example }
+  pics.each_with_index { |one, i| difference_panel(plot, i / 2, i % 2, one) }
+  unos.each_with_index { |one, i| difference_panel(plot, i, 2, one) }
   plot.draw
 end
 
@@ -271,7 +289,7 @@ def difference_panel(plot, row, column, one)
               "set xrange [#{parts.first.from}:#{parts.last.to}]",
               "set yrange [#{-top}:#{top}]",
               "set ylabel '#{AXES.fetch(parts.first.column)}'",
-              *(row == CHIPS.size / 2 - 1 ? ["set xlabel 'time, s'"] : [])])
+              *(row == CHIPS.size / 3 - 1 ? ["set xlabel 'time, s'"] : [])])
 end
 
 AXES = { 'angle_degrees' => 'angle, degrees', 'speed_rad_s' => 'speed, rad/s',

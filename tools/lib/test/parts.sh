@@ -147,7 +147,7 @@ check_formats() {
 
 part_lint() {
     need cc:gcc :libc6-dev clang clang-format clang-tidy cppcheck pmccabe \
-        shellcheck ruby
+        shellcheck ruby avr-gcc:gcc-avr :avr-libc
     check_formats
     scripts=$(grep -rlE '^(#!/bin/sh|# shellcheck shell=sh)' tools test .ci)
     for file in $scripts; do
