@@ -25,26 +25,26 @@ volatile uint8_t __at(0x7F) interface_byte;
 #define WRITE 'w'
 #define STOP 's'
 
+// (A pointer to them would take more of the RAM of a Padauk than there is.)
+#define BYTES ((uint8_t *)&EXCHANGE)
+
 void main(void)
 {
-    for (;;) {
-        uint8_t left;
-        uint8_t *byte;
+    uint8_t at;
 
+    for (;;) {
         INTERFACE = MORE_TO_READ;
         if (INTERFACE == 0) {
             INTERFACE = STOP;
         }
-        byte = (uint8_t *)&EXCHANGE;
-        for (left = QUESTION_SIZE; left != 0u; left--) {
+        for (at = 0; at != QUESTION_SIZE; at++) {
             INTERFACE = READ;
-            *byte++ = INTERFACE;
+            BYTES[at] = INTERFACE;
         }
         REPLY();
-        byte = (uint8_t *)&EXCHANGE;
-        for (left = ANSWER_SIZE; left != 0u; left--) {
+        for (at = 0; at != ANSWER_SIZE; at++) {
             INTERFACE = WRITE;
-            INTERFACE = *byte++;
+            INTERFACE = BYTES[at];
         }
     }
 }
