@@ -73,10 +73,9 @@ FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 
 // Whether an integral, Q16.16 and eight bits more, of which `counts` is the
 // upper half, is just `limit` counts.
-//
-// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #if defined(__SDCC) && !defined(__SDCC_pic16)
 // above
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #elif INT_MAX > 32767
 FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
                            uint8_t fraction)
@@ -220,6 +219,7 @@ FIXPID_MUL16 int32_t mul16(uint16_t gain, int16_t x)
     if (x < 0) {
         high = (uint16_t)(high - gain);
     }
+    // Deviation 10.8: a pattern of two's complement
     return (int32_t)(((uint32_t)high << 16) |
                      (uint16_t)((uint16_t)(right << 8) | (low & 0xFFu)));
 }
