@@ -14,12 +14,14 @@ RUN apt-get update && \
         cppcheck dpkg-dev flex g++ gcc gcc-arm-none-eabi gcc-avr \
         gcc-riscv64-unknown-elf gcovr gnuplot-nox gpsim-dev gputils \
         libboost-dev libboost-graph-dev libc6-dev libclang-rt-14-dev \
-        libsimavr-dev make patch pmccabe qemu-system-arm qemu-system-misc \
-        ruby sdcc sdcc-libraries shellcheck simavr util-linux zlib1g-dev \
+        libsimavr-dev lld make mspdebug patch pmccabe qemu-system-arm \
+        qemu-system-misc ruby sdcc sdcc-libraries sdcc-ucsim shellcheck \
+        simavr util-linux zlib1g-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN gem install --no-document ceedling -v '>= 1.0.1, < 2'
 COPY tools/lib/setup.sh tools/lib/build_sdcc /tmp/fixpid/
-RUN /tmp/fixpid/build_sdcc /opt/fixpid/sdcc && rm -r /tmp/fixpid
-ENV SDCC=/opt/fixpid/sdcc/bin/sdcc
+RUN /tmp/fixpid/build_sdcc /opt/fixpid/sdcc && \
+    /tmp/fixpid/build_sdcc /opt/fixpid/spdk spdk && rm -r /tmp/fixpid
+ENV SDCC=/opt/fixpid/sdcc/bin/sdcc SPDK=/opt/fixpid/spdk/bin/spdk
 WORKDIR /fixpid
 CMD ["tools/test"]

@@ -9,6 +9,7 @@
 
 #include "fixpid_an937.h"
 #include "fixpid_bits.h"
+#include "fixpid_shift_add.h"
 
 // A step stores this bit in step_flags, besides the public ones, if the sum was
 // below 0 before the division.
@@ -19,9 +20,8 @@
 
 #if defined(__SDCC_pic16)
 #include "pic18/fixpid_an937_pic18.h"
-// An AVR and an 8051 are faster in two's complement, for all that.
-#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR__) &&                    \
-    !defined(__SDCC_mcs51)
+// An AVR and a RISC-V are faster in two's complement, for all that.
+#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR__) && !defined(__riscv)
 #include "fixpid_an937_narrow.h"
 #else
 
@@ -68,11 +68,19 @@ FIXPID_INLINE void fixpid_number_add(
 }
 
 // post: |gain * number| <= 255 * 65535 < 2^24
+#if defined(__riscv) && (FIXPID_MULTIPLIER_BITS == 0)
+FIXPID_INLINE int32_t fixpid_number_term(
+    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
+{
+    return fixpid_product_in_turns(gain, number->value, 8);
+}
+#else
 FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
     return (int32_t)gain * number->value;
 }
+#endif
 
 #endif
 

@@ -71,19 +71,6 @@ FIXPID_INLINE void fixpid_number_add(
     number->parts.magnitude = sum;
 }
 
-// post: at most 65025
-#if defined(__SDCC_pic16) // its compiler multiplies 8 x 8 only without a cast
-FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
-{
-    return a * b;
-}
-#else
-FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
-{
-    return (uint16_t)((uint32_t)a * b);
-}
-#endif
-
 // The term is made of two 8 x 8 products. The upper one and what the lower one
 // carries into it are at most 65025 + 254.
 FIXPID_INLINE int32_t fixpid_number_term(

@@ -20,28 +20,40 @@
 #include "fixpid_an964_8bit_narrow.h"
 #else
 
+// x * k, in the machine's width
+#if FIXPID_MULTIPLIER_BITS >= 16
+FIXPID_INLINE uint_fast16_t fixpid_7x7(uint8_t x, uint8_t k)
+{
+    return (uint_fast16_t)x * k;
+}
+#else
+FIXPID_INLINE uint_fast16_t fixpid_7x7(uint8_t x, uint8_t k)
+{
+    return fixpid_8x8(x, k);
+}
+#endif
+
 // x * k / 4, rounded down or up, at most `limit`. pre: x, k < 2^7
 FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
                                        uint8_t limit)
 {
-    const uint16_t quotient =
-        (uint16_t)((uint16_t)(((uint16_t)x * k) + (round_up & 3u)) >> 2);
+    const uint_fast16_t quotient = (fixpid_7x7(x, k) + (round_up & 3u)) >> 2;
 
-    return (quotient > limit) ? limit : quotient;
+    return (quotient > limit) ? limit : (uint16_t)quotient;
 }
 
 // floor(x * k / 8), at most 127. pre: x, k < 2^7
 FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
 {
-    const uint16_t quotient = (uint16_t)((uint16_t)((uint16_t)x * k) >> 3);
+    const uint_fast16_t quotient = fixpid_7x7(x, k) >> 3;
 
-    return (quotient > 127u) ? 127u : quotient;
+    return (quotient > 127u) ? 127u : (uint16_t)quotient;
 }
 
 // floor(x * k / 32). pre: x, k < 2^7; post: at most 504
 FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
 {
-    return (uint16_t)((uint16_t)((uint16_t)x * k) >> 5);
+    return (uint16_t)(fixpid_7x7(x, k) >> 5);
 }
 
 #endif

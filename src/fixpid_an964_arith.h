@@ -17,10 +17,10 @@
 #include "pic18/fixpid_an964_pic18.h"
 #elif defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "avr/fixpid_an964_avr.h"
-// (In C, an AVR with a multiplier has the narrow one a sixth faster, and a
-// quarter larger.)
-#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR_HAVE_MUL__)
+#elif FIXPID_MULTIPLIER_BITS == 0
 #include "fixpid_an964_narrow.h"
+#elif FIXPID_MULTIPLIER_BITS == 8
+#include "fixpid_an964_bytes.h"
 #else
 
 // floor(x * k / 16). pre: x < 2^10, k < 2^7; post: at most 8120

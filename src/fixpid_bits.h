@@ -66,4 +66,18 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 
 #endif
 
+// a * b. post: at most 65025. SDCC multiplies bytes only where there is no
+// cast, and then keeps all 16 bits.
+#if defined(__SDCC)
+FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
+{
+    return a * b;
+}
+#else
+FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
+{
+    return (uint16_t)((uint32_t)a * b);
+}
+#endif
+
 #endif

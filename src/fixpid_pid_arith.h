@@ -8,6 +8,15 @@
 
 #include "fixpid.h"
 #include "fixpid_bits.h"
+#include "fixpid_shift_add.h"
+
+// is_just below, as a macro: of an inline function SDCC mistakes the integral's
+// lowest byte, on an 8051 with --stack-auto.
+#if defined(__SDCC) && !defined(__SDCC_pic16)
+#define is_just(limit, counts, integral, fraction)                             \
+    (((counts) == (limit)) ? (((uint16_t)(integral) | (fraction)) == 0u)       \
+                           : false)
+#endif
 
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
@@ -64,9 +73,10 @@ FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 
 // Whether an integral, Q16.16 and eight bits more, of which `counts` is the
 // upper half, is just `limit` counts.
-//
+#if defined(__SDCC) && !defined(__SDCC_pic16)
+// above
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
-#if INT_MAX > 32767
+#elif INT_MAX > 32767
 FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
                            uint8_t fraction)
 {
@@ -101,8 +111,9 @@ FIXPID_INLINE int16_t complement(int16_t x)
 #include "arm/fixpid_pid_arm.h" // Deviation 20.1: as above
 #endif
 
-// a - b, saturated. One comparison finds whether the difference fits; where int
-// has 16 bits, it comes before the subtraction.
+// a - b, saturated. One comparison finds whether the difference fits. Where int
+// has 16 bits, it is one of signs: the difference has a wrong one if a's is
+// neither b's nor the difference's.
 #if defined(FIXPID_HAS_SUB16_SAT)
 // in the chip's own header
 #elif defined(__riscv_mul) // a jump is cheaper than the arithmetic of the next
@@ -129,10 +140,14 @@ FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 #else
 FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
 {
-    if (b < 0) {
-        return (a > (INT16_MAX + b)) ? INT16_MAX : (int16_t)(a - b);
+    const uint16_t difference = (uint16_t)((uint16_t)a - (uint16_t)b);
+    const uint8_t sign = (uint8_t)((uint16_t)a >> 8);
+
+    if (((sign ^ (uint8_t)((uint16_t)b >> 8)) &
+         (sign ^ (uint8_t)(difference >> 8)) & 0x80u) != 0u) {
+        return ((sign & 0x80u) != 0u) ? INT16_MIN : INT16_MAX;
     }
-    return (a < (INT16_MIN + b)) ? INT16_MIN : (int16_t)(a - b);
+    return (int16_t)difference;
 }
 #endif
 
@@ -159,38 +174,59 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     }
     return sum;
 }
-#else
+#else // a wrong sign is neither a's nor b's
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
-    if (b < 0) {
-        return (a < (INT32_MIN - b)) ? INT32_MIN : (a + b);
+    const uint32_t sum = (uint32_t)a + (uint32_t)b;
+    const uint8_t sign = (uint8_t)(sum >> 24);
+
+    if (((sign ^ (uint8_t)((uint32_t)a >> 24)) &
+         (sign ^ (uint8_t)((uint32_t)b >> 24)) & 0x80u) != 0u) {
+        return ((sign & 0x80u) != 0u) ? INT32_MAX : INT32_MIN;
     }
-    return (a > (INT32_MAX - b)) ? INT32_MAX : (a + b);
+    return (int32_t)sum;
 }
 #endif
 
 // gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15. The
-// narrow form is for 8-bit PICs, and for an MSP430 without a multiplier, where
-// it takes a third: four 8 x 8 products of the pattern of x; that of a negative
-// x is 2^16 too much.
+// narrow form is made of four 8 x 8 products of the pattern of x; that of a
+// negative x is 2^16 too much.
+// (An 8051 is faster with its library's product.) SDCC would compile it into
+// each of its callers, which takes a seventh more of a Z80's step, and of its
+// code.
 #if defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                  \
-    defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__MSP430__)
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+    defined(__MSP430__) || (defined(__SDCC) && !defined(__SDCC_mcs51))
+#if defined(__SDCC)
+#define FIXPID_MUL16 static
+#else
+#define FIXPID_MUL16 FIXPID_INLINE
+#endif
+FIXPID_MUL16 int32_t mul16(uint16_t gain, int16_t x)
 {
     const uint8_t gain_low = (uint8_t)(gain & 0xFFu);
     const uint8_t gain_high = (uint8_t)(gain >> 8);
     const uint8_t x_low = (uint8_t)((uint16_t)x & 0xFFu);
     const uint8_t x_high = (uint8_t)((uint16_t)x >> 8);
-    const uint16_t low = (uint16_t)((uint32_t)gain_low * x_low);
-    const uint16_t high = (uint16_t)((uint32_t)gain_high * x_high);
-    const uint16_t left = (uint16_t)((uint32_t)gain_high * x_low);
-    const uint16_t right = (uint16_t)((uint32_t)gain_low * x_high);
-    // Deviation 10.8: below 2^31, never negative.
-    const int32_t outer = (int32_t)(((uint32_t)high << 16) | low);
-    const int32_t inner = (int32_t)(((uint32_t)left + right) << 8);
-    const int32_t product = outer + inner; // below 2^31
+    const uint16_t low = fixpid_8x8(gain_low, x_low);
+    // Each has what the byte below carries: at most 65025 + 255.
+    const uint16_t left = (uint16_t)(fixpid_8x8(gain_high, x_low) + (low >> 8));
+    const uint16_t right =
+        (uint16_t)(fixpid_8x8(gain_low, x_high) + (left & 0xFFu));
+    // at most 127 * 255 + 255 + 255
+    uint16_t high =
+        (uint16_t)(fixpid_8x8(gain_high, x_high) + (left >> 8) + (right >> 8));
 
-    return (x < 0) ? (product - (int32_t)((uint32_t)gain << 16)) : product;
+    if (x < 0) {
+        high = (uint16_t)(high - gain);
+    }
+    // Deviation 10.8: a pattern of two's complement
+    return (int32_t)(((uint32_t)high << 16) |
+                     (uint16_t)((uint16_t)(right << 8) | (low & 0xFFu)));
+}
+#elif defined(__riscv) && (FIXPID_MULTIPLIER_BITS == 0)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+{
+    return fixpid_product_in_turns(gain, x, 15);
 }
 #else
 FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)

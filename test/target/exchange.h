@@ -4,12 +4,14 @@
 // asks fills in the question, lets the controller's driver reply, and reads the
 // answer in its place: a PIC16F684 in pointer mode has no room for both.
 //
-// No compiler pads these structures and all machines are little-endian: the
-// bytes on a chip are the bytes on the host.
+// No compiler pads these structures: on a little-endian machine the bytes on
+// the chip are the bytes on the host. For others test/families writes them
+// member by member.
 #ifndef EXCHANGE_H
 #define EXCHANGE_H
 #include <stdint.h>
-#if !defined(__SDCC)
+#if !defined(__SDCC_pic14) && !defined(__SDCC_pic16) &&                        \
+    !defined(__SDCC_pdk14) && !defined(__SDCC_pdk15)
 #include <string.h>
 #endif
 
@@ -131,8 +133,10 @@ struct pid_answer {
 #endif
 
 // A driver calls it before init, which must set every member of the object. On
-// a PIC the harness fills it from outside: there is no room for a loop.
-#if defined(__SDCC)
+// a PIC and a Padauk the harness fills it from outside: there is no room for a
+// loop.
+#if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_pdk14) || \
+    defined(__SDCC_pdk15)
 #define DRIVER_POISON(object)
 #else
 #define DRIVER_POISON(object) ((void)memset(&(object), 0xA5, sizeof(object)))

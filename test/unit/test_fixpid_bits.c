@@ -4,6 +4,10 @@
 #include "fixpid_shift_add.h"
 #include "unity.h"
 
+#ifndef TEST_STRIDE
+#define TEST_STRIDE 1 // 1 takes every value of 16 bits
+#endif
+
 void setUp(void)
 {
 }
@@ -65,4 +69,57 @@ void test_add_word_if_no_bit_adds_nothing(void)
 
     fixpid_add_word_if(&sum, 64535u, 0);
     TEST_ASSERT_EQUAL_UINT16(1000, sum);
+}
+
+void test_8x8_every_pair(void)
+{
+    uint32_t wrong = 0;
+
+    for (uint16_t a = 0; a < 256u; a++) {
+        for (uint16_t b = 0; b < 256u; b++) {
+            wrong += (fixpid_8x8((uint8_t)a, (uint8_t)b) != (uint32_t)a * b)
+                         ? 1u
+                         : 0u;
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+static uint32_t wrong_product_in_turns(uint16_t gain, int32_t x, uint8_t bits)
+{
+    return ((int64_t)fixpid_product_in_turns(gain, x, bits) !=
+            (int64_t)gain * x)
+               ? 1u
+               : 0u;
+}
+
+void test_product_in_turns_every_gain_with_both_ends(void)
+{
+    static const int32_t ends[] = {-32768, -32767, -1, 0, 1, 21845, 32767};
+    uint32_t wrong = 0;
+
+    for (unsigned i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        for (uint32_t gain = 0; gain <= 32767u; gain += TEST_STRIDE) {
+            wrong += wrong_product_in_turns((uint16_t)gain, ends[i], 15);
+        }
+        wrong += wrong_product_in_turns(32767u, ends[i], 15);
+    }
+    for (uint16_t gain = 0; gain <= 255u; gain++) {
+        wrong += wrong_product_in_turns(gain, -65535, 8);
+        wrong += wrong_product_in_turns(gain, 65535, 8);
+        wrong += wrong_product_in_turns(gain, -(INT32_C(1) << 22), 8);
+        wrong += wrong_product_in_turns(gain, (INT32_C(1) << 22) - 1, 8);
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
+}
+
+void test_product_in_turns_every_factor_with_the_largest_gain(void)
+{
+    uint32_t wrong = 0;
+
+    for (int32_t x = -32768; x <= 32767; x += TEST_STRIDE) {
+        wrong += wrong_product_in_turns(32767u, x, 15);
+        wrong += wrong_product_in_turns(21845u, x, 15);
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, wrong);
 }

@@ -74,6 +74,7 @@ def runs_of(file)
   when 'fixpid_pid_arith'
     [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
   when /_narrow$/ then [run_of("test_#{noun(name)}_arith", NARROW + EVERY_BIT), run_of("test_#{noun(name)}_arith", NARROW)]
+  when /_bytes$/ then [run_of("test_#{noun(name)}_arith_bytes")]
   else [run_of("test_#{name}")]
   end
 end

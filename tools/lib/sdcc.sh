@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=sh
 # Sourced after setup.sh by the tools that build for PIC: finds SDCC with its
-# pic14 and pic16 ports, or builds a private one from Debian's source package.
+# pic14 and pic16 ports, or builds a private one from Debian's source package. So
+# does need_spdk with a Padauk's simulator, which Debian's package has not.
 
 # need_sdcc: exports SDCC, the compiler, and SDCC_LIB, the folder above
 # pic14/libsdcc.lib, pic16/libsdcc.lib and pic16/crt0iz.o. Takes the caller's
@@ -55,4 +56,19 @@ sdcc_works() {
 $sdcc_folders
 END
     return 1
+}
+
+# need_spdk: exports SPDK, the simulator: the caller's, that of PATH, or a private
+# one like SDCC's.
+need_spdk() {
+    spdk_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/spdk-4.2.0
+    for spdk_try in ${SPDK:-spdk} "$spdk_home/bin/spdk"; do
+        SPDK=$(command -v "$spdk_try") || continue
+        export SPDK
+        return 0
+    done
+    say "no spdk: building a private one, once, in $spdk_home"
+    "${root:-.}/tools/lib/build_sdcc" "$spdk_home" spdk || exit 1
+    SPDK=$spdk_home/bin/spdk
+    export SPDK
 }

@@ -195,6 +195,28 @@ class RiscvCode < ElfCode
     { '__mulsi3' => 32 }
   end
 
+  def decremented(at)
+    _, mnemonic, operands = line(at)
+    operands[/\A(\w+),\1,-1\b/, 1] if mnemonic == 'add'
+  end
+
+  def writes?(at, counter)
+    _, mnemonic, operands = line(at)
+    !mnemonic.match?(/\A(?:s[bhw]|b\w+|j|ret)\z/) && operands.start_with?("#{counter},")
+  end
+
+  def loaded(at, counter)
+    _, mnemonic, operands = line(at)
+    operands[/,(\d+)\z/, 1].to_i if mnemonic == 'li' && operands.start_with?("#{counter},")
+  end
+
+  # The branch may stand behind the turn's others.
+  def counts_to_zero?(at)
+    counter = decremented(at)
+    following = Enumerator.produce(at) { |one| one + line(one)[0] }.take(6).map { |one| line(one) }
+    following.any? { |_, mnemonic, operands| mnemonic == 'bnez' && operands.start_with?("#{counter},") }
+  end
+
   private
 
   def decode(at)

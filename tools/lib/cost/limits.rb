@@ -59,13 +59,17 @@ module Limits
     ['pid_typical', 'rv32imc', '-O2', nil] => { most: 74 },
     ['an937', 'rv32imc', '-O2', nil] => { most: 47 },
     ['an964', 'rv32imc', '-O2', nil] => { most: 93 },
-    ['an964_8bit', 'rv32imc', '-O2', nil] => { most: 95 },
+    ['an964_8bit', 'rv32imc', '-O2', nil] => { most: 90 },
     ['pid_plain', 'rv32imc', '-O2', nil] => { most: 88 },
-    ['pid', 'rv32imc', '-O2', nil] => { most: 131, needed: 1050 },
-    ['an937', 'rv32ec', '-Os', nil] => { most: 455, needed: 690 },
+    ['pid', 'rv32imc', '-O2', nil] => { most: 125, needed: 1050 },
+    ['an937', 'rv32ec', '-Os', nil] => { most: 210, needed: 400 },
     ['an964', 'rv32ec', '-Os', nil] => { most: 232, needed: 910 },
     ['an964_8bit', 'rv32ec', '-Os', nil] => { most: 186, needed: 750 },
-    ['pid', 'rv32ec', '-Os', nil] => { most: 930, needed: 1070 }
+    ['pid', 'rv32ec', '-Os', nil] => { most: 480, needed: 1040 },
+    ['an937', 'attiny85', '-Os', nil] => { most: 675 },
+    ['an964', 'attiny85', '-Os', nil] => { most: 305 },
+    ['an964_8bit', 'attiny85', '-Os', nil] => { most: 230 },
+    ['pid', 'attiny85', '-O2', nil] => { most: 1360 }
   }.freeze
 
   # What stands beside a controller: function, chip, build.
@@ -129,9 +133,11 @@ module Limits
     end
 
     # Of the worst found; the largest is in the table of limits. What plain
-    # questions find is no measure of the code's longest path.
+    # questions find is no measure of the code's longest path. Nor is the bound of
+    # an ATtiny85, whose library turns 8 times for a weight and 16 times for a gain.
     def bounds(measured)
-      subject, figures = measured.reject { |one, _| one.controller.questions == 'PLAIN' }.max_by { |_, one| one.bound.fdiv(one.most) }
+      subject, figures = measured.reject { |one, _| one.controller.questions == 'PLAIN' || one.chip.name == 'attiny85' }
+                                 .max_by { |_, one| one.bound.fdiv(one.most) }
       [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
     end
 

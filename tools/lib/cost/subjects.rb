@@ -16,11 +16,13 @@ Controller = Struct.new(:id, :name, :title, :pics, :calls, :questions, :defines,
   end
 end
 
-# The derivative filter shifts by 0 to 7, tested once more than it shifts.
-FILTER_TURNS = { 'fixpid_pid_step' => 8, 'differentiate' => 8 }.freeze
+# The derivative filter shifts by 0 to 7, tested once more than it shifts. So is a
+# gain of 15 bits on an AVR without a multiplier.
+GAIN_TURNS = { '__mulsi3_helper' => 16 }.freeze
+FILTER_TURNS = { 'fixpid_pid_step' => 8, 'differentiate' => 8, **GAIN_TURNS }.freeze
 
-# Without a multiplier AN937's products are those of two bytes.
-BYTE_TURNS = { '__mulsi3' => 8 }.freeze
+# AN937's gains have 8 bits.
+BYTE_TURNS = { '__mulsi3_helper' => 9 }.freeze
 
 CONTROLLERS = [
   Controller.new(id: 'an937', name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step],
@@ -30,7 +32,7 @@ CONTROLLERS = [
   Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
                  calls: %w[init step], straight: true),
   Controller.new(id: 'pid_typical', name: 'pid', title: 'PID, typical', pics: %w[pic18f4520], calls: %w[init step],
-                 questions: 'TYPICAL', defines: %w[FIXPID_PID_FEATURES=0x00]),
+                 questions: 'TYPICAL', turns: GAIN_TURNS, defines: %w[FIXPID_PID_FEATURES=0x00]),
   Controller.new(id: 'pid_plain', name: 'pid', title: 'PID, plain', pics: %w[pic18f4520], calls: %w[init step],
                  questions: 'PLAIN', turns: FILTER_TURNS),
   Controller.new(id: 'pid', name: 'pid', title: 'PID', pics: %w[pic18f4520], calls: %w[init step],
@@ -69,6 +71,7 @@ CHIPS = [
   Chip.new(name: 'pic16f684', title: 'PIC16F684', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words'),
   Chip.new(name: 'pic18f4520', title: 'PIC18F4520', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'atmega328p', title: 'ATmega328P', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
+  Chip.new(name: 'attiny85', title: 'ATtiny85', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
   Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
   Chip.new(name: 'rv32imc', title: 'RV32IMC', kind: :riscv, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
@@ -86,9 +89,9 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
     [form, controller.id, chip.name, build.delete('-'), variant&.name].compact.join('-')
   end
 
-  # A PIC is not compared: nobody writes 32-bit products for it.
+  # A PIC and an ATtiny are not compared: nobody writes 32-bit products for them.
   def has_straight?
-    controller.straight && %i[avr arm].include?(chip.kind) && variant.nil?
+    controller.straight && %i[avr arm].include?(chip.kind) && chip.name != 'attiny85' && variant.nil?
   end
 
   def straight

@@ -49,9 +49,11 @@ module Forms
                                       *macros.map { |macro| "-D#{macro}" }, "src/#{controller}_arith.h")
       raise "cannot preprocess #{controller}_arith.h for #{macros.join(' ')}" unless status.success?
 
-      # The file that it takes; the narrow product of fixpid_pid is in its own.
+      # The file that it takes; other products of fixpid_pid are in its own.
       case output
       when %r{^# \d+ "src/(?:pic14|pic18|avr)/#{controller}_} then 'assembly'
+      when /^# \d+ "[^"]*_bytes\.h"/ then 'bytes'
+      when /return fixpid_product_in_turns\(gain/ then 'turns'
       when /^# \d+ "[^"]*_narrow\.h"|\bgain_low\b/ then 'narrow'
       else 'wide'
       end

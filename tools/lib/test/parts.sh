@@ -182,6 +182,11 @@ part_target() {
     count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
 }
 
+part_families() {
+    need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
+    count 'test/families/run' '^ok ' '^FAILED ' test/families/run
+}
+
 part_cost() {
     need ruby gpasm:gputils
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
