@@ -2,10 +2,10 @@
 #include "search.h"
 
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "numbers.h"
+#include "put.h"
 #include "vectors.h"
 
 #define SEGMENTS 5u   // questions of a sequence
@@ -355,28 +355,6 @@ static void directed_steps(void)
 }
 
 // ---- The report ----
-
-static void put_text(const char *text)
-{
-    while (*text != '\0') {
-        putchar(*text);
-        text++;
-    }
-}
-
-static void put_number(const char *name, uint32_t number)
-{
-    char digits[11] = {0};
-    uint8_t at = 10;
-
-    put_text(name);
-    do {
-        at--;
-        digits[at] = (char)('0' + number % 10u);
-        number /= 10u;
-    } while (number != 0u);
-    put_text(&digits[at]);
-}
 
 static uint32_t report(const char *name)
 {

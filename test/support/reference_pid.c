@@ -13,29 +13,35 @@ static int64_t int16_of(int64_t value)
     return reference_clamp(value, -32768, 32767);
 }
 
-unsigned reference_pid_gains_need(const struct fixpid_pid_gains *gains)
+static unsigned lacking(unsigned features)
 {
-    return (gains->derivative_filter != 0 ? 0x01u : 0u) |
-           ((gains->ki_q24 + UINT64_C(128)) / 256 > 32767 ? 0x40u : 0u);
+    return features & ~(unsigned)FIXPID_PID_FEATURES;
 }
 
-unsigned reference_pid_needs(const struct fixpid_pid_config *config)
+unsigned reference_pid_gains_lack(const struct fixpid_pid_gains *gains)
+{
+    return lacking(
+        (gains->derivative_filter != 0 ? 0x01u : 0u) |
+        ((gains->ki_q24 + UINT64_C(128)) / 256 > 32767 ? 0x40u : 0u));
+}
+
+unsigned reference_pid_lacks(const struct fixpid_pid_config *config)
 {
     const bool weighted =
         (config->options & 0x20) != 0 ||
         (config->setpoint_weight_q8 != 0 && config->setpoint_weight_q8 != 256);
 
-    return reference_pid_gains_need(&config->gains) | (weighted ? 0x02u : 0u) |
-           ((config->options & 0x80) != 0 ? 0x04u : 0u) |
-           ((config->options & 0x40) != 0 ? 0x08u : 0u);
+    return reference_pid_gains_lack(&config->gains) |
+           lacking((weighted ? 0x02u : 0u) |
+                   ((config->options & 0x80) != 0 ? 0x04u : 0u) |
+                   ((config->options & 0x40) != 0 ? 0x08u : 0u));
 }
 
 static bool gains_are_legal(const struct fixpid_pid_gains *gains)
 {
     return gains->kp_q8 <= 32767 && gains->kd_q8 <= 32255 &&
            gains->ki_q24 <= 0x7FFF0000u && gains->derivative_filter <= 7 &&
-           (reference_pid_gains_need(gains) & ~(unsigned)FIXPID_PID_FEATURES) ==
-               0;
+           reference_pid_gains_lack(gains) == 0;
 }
 
 static void take_gains(struct reference_pid *self,
@@ -71,8 +77,7 @@ bool reference_pid_init(struct reference_pid *self,
 {
     memset(self, 0, sizeof *self);
     self->accepted =
-        gains_are_legal(&config->gains) &&
-        (reference_pid_needs(config) & ~(unsigned)FIXPID_PID_FEATURES) == 0 &&
+        gains_are_legal(&config->gains) && reference_pid_lacks(config) == 0 &&
         config->output_min < config->output_max &&
         config->integral_min >= -32767 &&
         config->integral_min <= config->integral_max &&

@@ -23,9 +23,10 @@ struct reference_pid {
     bool seen, seeded, manual, at_max, at_min, integral_at_limit;
 };
 
-// The features that a configuration needs, of FIXPID_PID_FEATURES.
-unsigned reference_pid_needs(const struct fixpid_pid_config *config);
-unsigned reference_pid_gains_need(const struct fixpid_pid_gains *gains);
+// The features that a configuration needs and FIXPID_PID_FEATURES leaves out,
+// and those that its gains do.
+unsigned reference_pid_lacks(const struct fixpid_pid_config *config);
+unsigned reference_pid_gains_lack(const struct fixpid_pid_gains *gains);
 
 bool reference_pid_init(struct reference_pid *self,
                         const struct fixpid_pid_config *config);

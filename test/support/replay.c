@@ -272,24 +272,6 @@ static bool an964_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
-static struct fixpid_pid_config pid_config(const int32_t at[])
-{
-    const struct fixpid_pid_config config = {
-        .gains = {.ki_q24 = (uint32_t)at[PID_KI],
-                  .kp_q8 = (uint16_t)at[PID_KP],
-                  .kd_q8 = (uint16_t)at[PID_KD],
-                  .derivative_filter = (uint8_t)at[PID_FILTER]},
-        .output_min = (int16_t)at[PID_OUTPUT_MIN],
-        .output_max = (int16_t)at[PID_OUTPUT_MAX],
-        .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
-        .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
-        .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
-        .options = (uint8_t)at[PID_OPTIONS],
-    };
-
-    return config;
-}
-
 static void slew_event(struct fixpid_slew *slew, const int32_t at[])
 {
     const uint32_t rise = (uint32_t)at[SLEW_RISE];
@@ -380,9 +362,28 @@ static bool gains_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
-// The rows of fixpid_pid and of what folds its gains need all of its features.
-#if FIXPID_PID_FEATURES == FIXPID_PID_ALL
+// The rows of fixpid_pid and of what folds its gains need all of its features,
+// but for tracking.
+#if (FIXPID_PID_FEATURES | FIXPID_PID_HAS_TRACK) == FIXPID_PID_ALL
 #define PID_IS_WHOLE true
+
+static struct fixpid_pid_config pid_config(const int32_t at[])
+{
+    const struct fixpid_pid_config config = {
+        .gains = {.ki_q24 = (uint32_t)at[PID_KI],
+                  .kp_q8 = (uint16_t)at[PID_KP],
+                  .kd_q8 = (uint16_t)at[PID_KD],
+                  .derivative_filter = (uint8_t)at[PID_FILTER]},
+        .output_min = (int16_t)at[PID_OUTPUT_MIN],
+        .output_max = (int16_t)at[PID_OUTPUT_MAX],
+        .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
+        .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
+        .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
+        .options = (uint8_t)at[PID_OPTIONS],
+    };
+
+    return config;
+}
 
 static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
 {
@@ -441,6 +442,20 @@ static bool pid_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
+#else
+#define PID_IS_WHOLE false
+
+static bool pid_row_is_same(const int32_t at[], bool fresh)
+{
+    (void)at;
+    (void)fresh;
+    return false;
+}
+#endif
+
+#if FIXPID_PID_FEATURES == FIXPID_PID_ALL
+#define TRACK_IS_BUILT true
+
 // Some of these were refused, and the limits are arguments.
 static bool track_event(struct fixpid_pid *pid, const int32_t at[])
 {
@@ -497,14 +512,7 @@ static bool track_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 #else
-#define PID_IS_WHOLE false
-
-static bool pid_row_is_same(const int32_t at[], bool fresh)
-{
-    (void)at;
-    (void)fresh;
-    return false;
-}
+#define TRACK_IS_BUILT false
 #define track_row_is_same pid_row_is_same
 #endif
 
@@ -534,10 +542,14 @@ static int replay(const char *name, int rows, int columns,
     return different == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
-static bool needs_all_of_pid(const char *name)
+// Whether the rows need a feature that fixpid_pid is built without.
+static bool lacks_feature(const char *name)
 {
-    return strcmp(name, "pid") == 0 || strcmp(name, "track") == 0 ||
-           strcmp(name, "gains") == 0;
+    if (strcmp(name, "track") == 0) {
+        return !TRACK_IS_BUILT;
+    }
+    return !PID_IS_WHOLE &&
+           (strcmp(name, "pid") == 0 || strcmp(name, "gains") == 0);
 }
 
 int main(int argc, char *argv[])
@@ -557,7 +569,7 @@ int main(int argc, char *argv[])
         printf("an964: skipped, recorded with other limits\n");
         return EXIT_SKIPPED;
     }
-    if (argc == 3 && !PID_IS_WHOLE && needs_all_of_pid(argv[1])) {
+    if (argc == 3 && lacks_feature(argv[1])) {
         printf("%s: skipped, fixpid_pid is built without a feature\n", argv[1]);
         return EXIT_SKIPPED;
     }

@@ -614,12 +614,10 @@ static bool recording_holds(struct pid_question *asked)
 
     if ((asked->calls & CALL_INIT) != 0u) {
         holds = true;
-        missing |=
-            reference_pid_needs(&config) & ~(unsigned)FIXPID_PID_FEATURES;
+        missing |= reference_pid_lacks(&config);
     }
     if ((asked->calls & CALL_SET_GAINS) != 0u) {
-        missing |= reference_pid_gains_need(&config.gains) &
-                   ~(unsigned)FIXPID_PID_FEATURES;
+        missing |= reference_pid_gains_lack(&config.gains);
     }
     asked->calls &= (uint16_t)~missing_calls();
     holds = holds && missing == 0u;

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "cases.h"
+#include "put.h"
 #include "vectors.h"
 
 #ifndef MACHINE_STEPS
@@ -25,28 +26,6 @@ static union question question;
 static union answer expected;
 static union answer answer;
 static uint32_t digest;
-
-static void put_text(const char *text)
-{
-    while (*text != '\0') {
-        putchar(*text);
-        text++;
-    }
-}
-
-static void put_count(const char *name, uint32_t count)
-{
-    char digits[11] = {0};
-    uint8_t at = 10;
-
-    put_text(name);
-    do {
-        at--;
-        digits[at] = (char)('0' + count % 10u);
-        count /= 10u;
-    } while (count != 0u);
-    put_text(&digits[at]);
-}
 
 static void put_hexadecimal(uint32_t value)
 {
@@ -111,8 +90,8 @@ static uint32_t rows(const struct controller *controller)
         }
     }
     put_text(controller->name);
-    put_count(" rows ", count);
-    put_count(" different ", different);
+    put_number(" rows ", count);
+    put_number(" different ", different);
     put_text("\n");
     return different + missing;
 }
@@ -133,9 +112,9 @@ static uint32_t random_steps(const struct controller *controller)
         }
     }
     put_text(controller->name);
-    put_count(" random ", MACHINE_STEPS);
-    put_count(" compared ", MACHINE_COMPARED);
-    put_count(" different ", different);
+    put_number(" random ", MACHINE_STEPS);
+    put_number(" compared ", MACHINE_COMPARED);
+    put_number(" different ", different);
     put_text(" digest ");
     put_hexadecimal(digest);
     put_text("\n");

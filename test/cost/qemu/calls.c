@@ -8,10 +8,9 @@
 // takes up to four arguments in registers. Prints a line for each:
 //
 //   fixpid_slew_step calls 3000 least 26 most 31 total 87000
-#include <stdio.h>
-
 #include "calls.h"
 #include "metered.h"
+#include "put.h"
 
 struct figures {
     uint32_t calls;
@@ -64,28 +63,6 @@ uint32_t second(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
     return account(&figures[1], metered_second, a, b, c, d);
 }
 #endif
-
-static void put_text(const char *text)
-{
-    while (*text != '\0') {
-        putchar(*text);
-        text++;
-    }
-}
-
-static void put_number(const char *name, uint32_t number)
-{
-    char digits[11] = {0};
-    uint8_t at = 10;
-
-    put_text(name);
-    do {
-        at--;
-        digits[at] = (char)('0' + number % 10u);
-        number /= 10u;
-    } while (number != 0u);
-    put_text(&digits[at]);
-}
 
 static void report(const char *name, const struct figures *of)
 {
