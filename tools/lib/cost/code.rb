@@ -33,10 +33,11 @@ class Code
     found ? found[0] : format('%05x', address)
   end
 
-  # For loops that count down: what an instruction decrements, whether it
-  # writes that, the constant that it loads into it (of two instructions, for a
-  # PIC), and whether the loop goes on while the counter is not 0 after the
-  # decrement at this address.
+  # For loops that count down: the register that an instruction decrements, if
+  # that is one that counts; whether an instruction may write a register, or make
+  # its name stand for another; what it loads into the register that it writes,
+  # a constant, another register or nil; and where it goes on if the register
+  # is 0 that was decremented there, or nil if it does not test that.
   def decremented(_address)
     nil
   end

@@ -65,7 +65,12 @@ class AvrCode < ElfCode
   TWO = %w[lds sts ld ldd st std push pop mul muls mulsu fmul fmuls fmulsu adiw sbiw sbi cbi].freeze
   SKIPS = %w[cpse sbrc sbrs sbic sbis].freeze
 
-  NO_TARGET = /\A(st|std|sts|push|out|cp|cpc|cpi|cpse|tst|sbr[cs]|sbi[cs]|br..|rjmp|jmp|rcall|call|ret|nop)\z/.freeze
+  WRAP = 256
+  NO_TARGET = /\A(st|std|sts|push|out|cp|cpc|cpi|cpse|tst|sbr[cs]|sb[ic][cs]?|cbi|br..|rjmp|jmp|rcall|call|ret|nop)\z/.freeze
+  # The registers are in data memory, too: a pointer may lead there.
+  STORES = /\A(st|std|xch|la[cst])\z/.freeze
+  MOVED = /-([XYZ])|([XYZ])\+(?!\d)/.freeze
+  POINTERS = { 'X' => [26, 27], 'Y' => [28, 29], 'Z' => [30, 31] }.freeze
 
   def initialize(path)
     super(path, 'avr')
@@ -76,23 +81,23 @@ class AvrCode < ElfCode
     operands[/\Ar\d+/] if mnemonic == 'dec'
   end
 
-  def writes?(at, counter)
+  # The stack is taken to be elsewhere.
+  def writes?(at, register)
     _, mnemonic, operands = line(at)
-    return false if mnemonic.match?(NO_TARGET)
-    return %w[r0 r1].include?(counter) if mnemonic.match?(/mul/)
+    return true if mnemonic.match?(STORES)
 
-    target = operands[/\Ar(\d+)/, 1].to_i
-    wide = mnemonic.match?(/\A(movw|adiw|sbiw)\z/) ? 1 : 0
-    (target..target + wide).cover?(counter[1..-1].to_i)
+    targets(mnemonic, operands).include?(register[1..-1].to_i)
   end
 
-  def loaded(at, counter)
+  def loaded(at, register)
     _, mnemonic, operands = line(at)
-    operands[/0x\h+/].hex if mnemonic == 'ldi' && operands.start_with?("#{counter},")
+    operands[/0x\h+/].hex if mnemonic == 'ldi' && operands.start_with?("#{register},")
   end
 
-  def counts_to_zero?(at)
-    line(at + line(at)[0])[1] == 'brne'
+  def at_zero(at, decrement, _register)
+    return unless at == decrement + line(decrement)[0]
+
+    { 'brne' => at(at).edges.first, 'breq' => at(at).edges.last }[line(at)[1]]&.first
   end
 
   private
@@ -108,6 +113,17 @@ class AvrCode < ElfCode
     when /call|jmp|spm|sleep/ then opaque(mnemonic)
     else plain(at, bytes, cycles(mnemonic))
     end
+  end
+
+  # The numbers of the registers that it writes.
+  def targets(mnemonic, operands)
+    moved = POINTERS.fetch(operands[MOVED].to_s[/[XYZ]/], [])
+    return moved + [0, 1] if mnemonic.include?('mul')
+    return [operands.hex] if mnemonic == 'sts'
+    return moved if mnemonic.match?(NO_TARGET)
+
+    target = operands[/\Ar(\d+)/, 1].to_i
+    moved + (mnemonic.match?(/\A(movw|adiw|sbiw)\z/) ? [target, target + 1] : [target])
   end
 
   def cycles(mnemonic)
@@ -186,6 +202,8 @@ end
 
 # A RISC-V: each instruction costs one.
 class RiscvCode < ElfCode
+  WRAP = 2**32
+
   def initialize(path)
     super(path, 'riscv64-unknown-elf')
   end
@@ -200,21 +218,22 @@ class RiscvCode < ElfCode
     operands[/\A(\w+),\1,-1\b/, 1] if mnemonic == 'add'
   end
 
-  def writes?(at, counter)
+  def writes?(at, register)
     _, mnemonic, operands = line(at)
-    !mnemonic.match?(/\A(?:s[bhw]|b\w+|j|ret)\z/) && operands.start_with?("#{counter},")
+    !mnemonic.match?(/\A(?:s[bhw]|b\w+|j|ret)\z/) && operands.start_with?("#{register},")
   end
 
-  def loaded(at, counter)
+  def loaded(at, register)
     _, mnemonic, operands = line(at)
-    operands[/,(\d+)\z/, 1].to_i if mnemonic == 'li' && operands.start_with?("#{counter},")
+    operands[/\A#{register},(-?\d+)/, 1].to_i % WRAP if mnemonic == 'li'
   end
 
-  # The branch may stand behind the turn's others.
-  def counts_to_zero?(at)
-    counter = decremented(at)
-    following = Enumerator.produce(at) { |one| one + line(one)[0] }.take(6).map { |one| line(one) }
-    following.any? { |_, mnemonic, operands| mnemonic == 'bnez' && operands.start_with?("#{counter},") }
+  # Nothing else writes it, so the test may stand behind the turn's others.
+  def at_zero(at, _decrement, register)
+    _, mnemonic, operands = line(at)
+    return unless operands.start_with?("#{register},")
+
+    { 'bnez' => at(at).edges.first, 'beqz' => at(at).edges.last }[mnemonic]&.first
   end
 
   private

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'counted_loop'
+
 # The longest path through a function: an upper bound of its cost, with paths
-# that no input takes among them. `code` has the instructions. A loop has one
+# that no input takes among them; without interrupts, which are assumed to leave
+# all registers as they found them. `code` has the instructions. A loop has one
 # entrance and counts a constant down to 0; of others `turns`, by function, says
 # how often the first instruction is executed at most for each entry.
 class LongestPath
@@ -46,16 +49,17 @@ class LongestPath
 
   # Costs of the edges with those of the functions called in between.
   def analyse(entry)
-    edges, ends, callees = explore(entry)
-    arrival = arrivals(edges, edges.keys, entry, nil)
+    flow, ends, callees = explore(entry)
+    arrival = arrivals(flow, flow.edges.keys, entry, nil)
     cost = ends.map { |at, own| arrival.fetch(at) + own }.max or raise Failure, "#{@code.name(entry)} never returns"
-    addresses = edges.keys | callees.flat_map(&:addresses)
+    addresses = flow.edges.keys | callees.flat_map(&:addresses)
     Function.new(cost, callees.map { |callee| callee.levels + 1 }.max || 0, addresses)
   end
 
   def explore(entry)
     edges = {}
     ends = {}
+    called = {}
     callees = []
     todo = [entry]
     while (at = todo.pop)
@@ -63,12 +67,15 @@ class LongestPath
 
       instruction = followed(at)
       callee = instruction.call && function(instruction.call)
-      callees << callee if callee
+      if callee
+        callees << callee
+        called[at] = callee.addresses
+      end
       ends[at] = instruction.return_cost if instruction.return_cost
       edges[at] = instruction.edges.map { |to, cost| [to, cost + (callee ? callee.cost : 0)] }
       todo.concat(edges[at].map(&:first))
     end
-    [edges, ends, callees]
+    [Flow.new(edges, entry, called), ends, callees]
   end
 
   def followed(at)
@@ -80,36 +87,35 @@ class LongestPath
 
   # The largest cost to come from `start` to each of `nodes`; edges into `cut`
   # are left out.
-  def arrivals(edges, nodes, start, cut)
-    inside = nodes.to_h { |at| [at, edges[at].select { |to, _| to != cut }] }
+  def arrivals(flow, nodes, start, cut)
+    inside = nodes.to_h { |at| [at, flow.edges[at].select { |to, _| to != cut }] }
     inside.transform_values! { |list| list.select { |to, _| inside.key?(to) } }
     best = { start => 0 }
     components(inside, start).each do |component|
-      pass(edges, inside, component, best, start)
+      pass(flow, inside, component, best, start)
       leave(inside, component, best)
     end
     best
   end
 
   # From the entrance of a component to all of its instructions.
-  def pass(edges, inside, component, best, start)
+  def pass(flow, inside, component, best, start)
     return unless loop?(inside, component)
 
     head = entrance(inside, component, start)
-    within = arrivals(edges, component, head, head)
-    body = component.flat_map { |at| edges[at].select { |to, _| to == head }.map { |_, cost| within[at] + cost } }.max
-    before = best.fetch(head) + (turns(edges, component, head) - 1) * body
+    within = arrivals(flow, component, head, head)
+    body = component.flat_map { |at| flow.edges[at].select { |to, _| to == head }.map { |_, cost| within[at] + cost } }.max
+    before = best.fetch(head) + (turns(flow, component, head) - 1) * body
     component.each { |at| best[at] = before + within[at] }
   end
 
   # From the code, or as stated.
-  def turns(edges, component, head)
-    component.each do |at|
-      found = CountedLoop.new(@code, edges, component, head).turns(at)
-      return found if found
-    end
+  def turns(flow, component, head)
+    CountedLoop.new(@code, flow, component, head).turns
+  rescue CountedLoop::Refused => e
     @turns[@code.name(head)] or
-      raise Failure, format('a loop of %<name>s, at %<at>05x, counts no constant down', name: @code.name(head), at: head)
+      raise Failure, format('a loop of %<name>s, at %<at>05x, counts no constant down%<why>s',
+                            name: @code.name(head), at: head, why: e.message.empty? ? '' : ": #{e.message}")
   end
 
   def leave(inside, component, best)
@@ -140,57 +146,6 @@ class LongestPath
     search = Tarjan.new(inside)
     search.visit(start)
     search.found.reverse
-  end
-
-  # A loop that decrements a counter once per turn, until it is 0, and does not
-  # write it otherwise; before it, the counter was loaded with a constant.
-  class CountedLoop
-    def initialize(code, edges, component, head)
-      @code = code
-      @edges = edges
-      @component = component
-      @head = head
-    end
-
-    # With the decrement at this address; nil if it is not such a loop.
-    def turns(decrement)
-      counter = @code.decremented(decrement)
-      return unless counter && @code.counts_to_zero?(decrement) && every_turn?(decrement)
-      return if (@component - [decrement]).any? { |at| @code.writes?(at, counter) || @edges[at].empty? }
-
-      constant(counter)
-    end
-
-    private
-
-    # No way from the head back to it without the decrement.
-    def every_turn?(decrement)
-      seen = []
-      todo = [@head]
-      until todo.empty?
-        at = todo.pop
-        next if at == decrement || seen.include?(at)
-
-        seen << at
-        following = @edges[at].map(&:first) & @component
-        return false if following.include?(@head)
-
-        todo.concat(following)
-      end
-      true
-    end
-
-    # On the only way to the loop.
-    def constant(counter)
-      at = @head
-      loop do
-        before = @edges.keys.select { |from| @edges[from].any? { |to, _| to == at } } - @component
-        return unless before.size == 1
-
-        at = before.first
-        return @code.loaded(at, counter) if @code.writes?(at, counter)
-      end
-    end
   end
 
   # The search for them, without recursion: code is long.

@@ -94,31 +94,48 @@ class Pic14Code < PicCode
   DECF = 0x0380
   DECFSZ = 0x0B80
   MOVWF = 0x0080
-  TESTS_ZERO = [0x1903, 0x1D03].freeze # BTFSC or BTFSS STATUS,Z
+  CLRF = 0x0180
+  CLRW = 0x0100
+  MOVLW = 0x3000
+  BTFSC_Z = 0x1903
+  BTFSS_Z = 0x1D03
+  INDF = 0
+  STATUS = 3
+  BANK_BITS = [5, 6].freeze
 
   # Of 2048 words, configuration words left out.
   def pages
     program.select { |one| one.address < 0x2000 }.map { |one| one.address / 2048 + 1 }.max
   end
 
+  # Below 0x20 are the chip's registers. A name is a number within a bank: it
+  # stands for the same register as long as no bank is selected.
   def decremented(at)
-    word(at) & 0x7F if [DECF, DECFSZ].include?(word(at) & 0x3F80)
+    word(at) & 0x7F if [DECF, DECFSZ].include?(word(at) & 0x3F80) && (word(at) & 0x7F) >= 0x20
   end
 
-  def writes?(at, counter)
-    writes_file?(word(at)) && (word(at) & 0x7F) == counter
+  def writes?(at, register)
+    word = word(at)
+    return writes_w?(word) if register == :w
+
+    writes_file?(word) && ([register, INDF].include?(word & 0x7F) || selects_bank?(word))
   end
 
-  # MOVLW and MOVWF.
-  def loaded(at, counter)
-    return unless word(at) == (MOVWF | counter)
-
-    before = word(at - 1)
-    before & 0xFF if (before & 0x3C00) == 0x3000
+  def loaded(at, register)
+    word = word(at)
+    if register == :w
+      { MOVLW => word & 0xFF }[word & 0x3C00] || { CLRW => 0 }[word & 0x3F80]
+    else
+      { MOVWF | register => :w, CLRF | register => 0 }[word]
+    end
   end
 
-  def counts_to_zero?(at)
-    (word(at) & 0x3F80) == DECFSZ || (1..2).any? { |after| TESTS_ZERO.include?(word(at + after)) }
+  def at_zero(at, decrement, _register)
+    skips = (word(decrement) & 0x3F80) == DECFSZ
+    return (at(at).edges.last.first if skips) if at == decrement
+    return if skips || at != decrement + 1
+
+    { BTFSC_Z => at(at).edges.first, BTFSS_Z => at(at).edges.last }[word(at)]&.first
   end
 
   def word(at)
@@ -141,6 +158,7 @@ class Pic14Code < PicCode
     when 0x0008, 0x0009, 0x3400..0x37FF then Instruction.new([], nil, 2, 2) # RETURN, RETFIE, RETLW
     when 0x2000..0x27FF then Instruction.new([[at + 1, 2]], word & 0x7FF, nil, 2) # CALL
     when 0x2800..0x2FFF then Instruction.new([[word & 0x7FF, 2]], nil, nil, 2) # GOTO
+    when 0x0063 then opaque('SLEEP')
     when 0x0B00..0x0BFF, 0x0F00..0x0FFF, 0x1800..0x1FFF # DECFSZ, INCFSZ, BTFSC, BTFSS
       Instruction.new([[at + 1, 1], [at + 2, 2]], nil, nil, 2)
     else
@@ -152,6 +170,14 @@ class Pic14Code < PicCode
 
   def writes_pcl?(word)
     writes_file?(word) && (word & 0x7F) == 2
+  end
+
+  def writes_w?(word)
+    word >= 0x3000 || ((0x0100..0x0FFF).cover?(word) && (word & 0x80).zero?)
+  end
+
+  def selects_bank?(word)
+    (word & 0x7F) == STATUS && (word < 0x1000 || BANK_BITS.include?((word >> 7) & 7))
   end
 
   # A byte operation with its result in the file, or one on a bit.
@@ -167,32 +193,53 @@ class Pic18Code < PicCode
   SKIPS = [0x2C..0x2F, 0x3C..0x3F, 0x48..0x4B, 0x4C..0x4F, 0x60..0x67, 0xA0..0xBF].freeze
   DECF = [0x06, 0x07].freeze
   DECFSZ = [0x2E, 0x2F].freeze
-  MOVWF = [0x6E, 0x6F].freeze
+  MOVWF = 0x6E
+  CLRF = 0x6A
   MOVLW = 0x0E
-  ON_ZERO = [0xE0, 0xE1].freeze # BZ, BNZ
+  MOVLB = 0x01
+  BZ = 0xE0
+  BNZ = 0xE1
+  WREG = 0xE8
+  BSR = 0xE0
+  # INDF, POSTINC, POSTDEC, PREINC and PLUSW of the three pointers.
+  INDIRECT = [0xEB..0xEF, 0xE3..0xE7, 0xDB..0xDF].flat_map(&:to_a).freeze
+  PCL = 0xF9
+  UNSEEN = { 0x0003 => 'SLEEP', 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
+  EXTENDED = (0xE8..0xEB).freeze
+  FAST_RETURNS = [0x0011, 0x0013].freeze # they restore WREG, STATUS and BSR
 
+  # A name is a number within a bank and the access bit: with that bit set it
+  # stands for the same register as long as no bank is selected. From 0x60 it may be
+  # one of the chip's.
   def decremented(at)
-    word_at_byte(at) & 0xFF if (DECF + DECFSZ).include?(word_at_byte(at) >> 8)
-  end
-
-  def writes?(at, counter)
     word = word_at_byte(at)
-    return (word_at_byte(at + 2) & 0xFF) == counter if (word >> 12) == 0xC # MOVFF
-
-    writes_file?(word >> 8) && (word & 0xFF) == counter
+    [word & 0xFF, (word >> 8) & 1] if (DECF + DECFSZ).include?(word >> 8) && (word & 0xFF) < 0x60
   end
 
-  # MOVLW and MOVWF.
-  def loaded(at, counter)
+  # One of the same number in another bank may be the same.
+  def writes?(at, register)
     word = word_at_byte(at)
-    return unless MOVWF.include?(word >> 8) && (word & 0xFF) == counter
+    return writes_w?(at, word) if register == :w
 
-    before = word_at_byte(at - 2)
-    before & 0xFF if (before >> 8) == MOVLW
+    number, banked = register
+    changed = [number, *INDIRECT, *(BSR if banked == 1)]
+    changed.include?(file_written(at)) || (banked == 1 && (word >> 8 == MOVLB || FAST_RETURNS.include?(word)))
   end
 
-  def counts_to_zero?(at)
-    DECFSZ.include?(word_at_byte(at) >> 8) || ON_ZERO.include?(word_at_byte(at + 2) >> 8)
+  def loaded(at, register)
+    word = word_at_byte(at)
+    return (word & 0xFF if word >> 8 == MOVLW) if register == :w
+
+    number, banked = register
+    { (MOVWF | banked) << 8 | number => :w, (CLRF | banked) << 8 | number => 0 }[word]
+  end
+
+  def at_zero(at, decrement, _register)
+    skips = DECFSZ.include?(word_at_byte(decrement) >> 8)
+    return (at(at).edges.last.first if skips) if at == decrement
+    return if skips || at != decrement + 2
+
+    { BNZ => at(at).edges.first, BZ => at(at).edges.last }[word_at_byte(at) >> 8]&.first
   end
 
   private
@@ -208,7 +255,9 @@ class Pic18Code < PicCode
     return Instruction.new([], nil, 2, 2) if (0x0010..0x0013).cover?(word) || high == 0x0C
     return Instruction.new([], nil, nil, 2) if word == 0x00FF # RESET
     return skip(at) if SKIPS.any? { |range| range.cover?(high) }
-    return opaque('a computed GOTO') if (word & 0x1FF) == 0xF9 && writes_file?(high)
+    return opaque('a computed GOTO') if file_written(at) == PCL && (word & 0x100).zero?
+    return opaque(UNSEEN[word]) if UNSEEN.key?(word)
+    return opaque('an extended instruction') if EXTENDED.cover?(high)
 
     flow(at, word, high) || plain(at, 2, 1)
   end
@@ -241,10 +290,29 @@ class Pic18Code < PicCode
     2 * ((word & 0xFF) | ((word_at_byte(at + 2) & 0xFFF) << 8))
   end
 
+  def writes_w?(at, word)
+    high = word >> 8
+    return true if (0x08..0x0F).cover?(high) || word == 0x0007 || FAST_RETURNS.include?(word) # DAW
+
+    byte_operation?(high) && (high & 2).zero? || [WREG, *INDIRECT].include?(file_written(at))
+  end
+
+  # The number within its bank of the register that it writes, of MOVFF too.
+  def file_written(at)
+    word = word_at_byte(at)
+    return word_at_byte(at + 2) & 0xFF if (word >> 12) == 0xC
+
+    word & 0xFF if writes_file?(word >> 8)
+  end
+
+  def byte_operation?(high)
+    (0x04..0x07).cover?(high) || (0x10..0x5F).cover?(high)
+  end
+
   # Byte operations with their result in the file, MOVWF and its like, and
   # operations on a bit.
   def writes_file?(high)
-    return (high & 2).nonzero? if (0x04..0x07).cover?(high) || (0x10..0x5F).cover?(high)
+    return (high & 2).nonzero? if byte_operation?(high)
 
     (0x68..0x9F).cover?(high)
   end
