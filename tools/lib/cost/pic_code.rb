@@ -96,6 +96,7 @@ class Pic14Code < PicCode
   MOVWF = 0x0080
   CLRF = 0x0180
   CLRW = 0x0100
+  MOVF = 0x0800
   MOVLW = 0x3000
   BTFSC_Z = 0x1903
   BTFSS_Z = 0x1D03
@@ -130,10 +131,14 @@ class Pic14Code < PicCode
     end
   end
 
-  def at_zero(at, decrement, _register)
+  # Behind DECF, and SDCC's MOVF of the same register, Z is of the counter.
+  def at_zero(at, decrement, register)
     skips = (word(decrement) & 0x3F80) == DECFSZ
     return (at(at).edges.last.first if skips) if at == decrement
-    return if skips || at != decrement + 1
+
+    test = decrement + 1
+    test += 1 if (word(test) & 0x3F7F) == (MOVF | register)
+    return if skips || at != test
 
     { BTFSC_Z => at(at).edges.first, BTFSS_Z => at(at).edges.last }[word(at)]&.first
   end
@@ -195,6 +200,7 @@ class Pic18Code < PicCode
   DECFSZ = [0x2E, 0x2F].freeze
   MOVWF = 0x6E
   CLRF = 0x6A
+  MOVF = 0x50
   MOVLW = 0x0E
   MOVLB = 0x01
   BZ = 0xE0
@@ -234,10 +240,15 @@ class Pic18Code < PicCode
     { (MOVWF | banked) << 8 | number => :w, (CLRF | banked) << 8 | number => 0 }[word]
   end
 
-  def at_zero(at, decrement, _register)
+  # As on a PIC16.
+  def at_zero(at, decrement, register)
     skips = DECFSZ.include?(word_at_byte(decrement) >> 8)
     return (at(at).edges.last.first if skips) if at == decrement
-    return if skips || at != decrement + 2
+
+    number, banked = register
+    test = decrement + 2
+    test += 2 if (word_at_byte(test) & 0xFDFF) == ((MOVF | banked) << 8 | number)
+    return if skips || at != test
 
     { BNZ => at(at).edges.first, BZ => at(at).edges.last }[word_at_byte(at) >> 8]&.first
   end
