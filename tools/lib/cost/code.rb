@@ -10,6 +10,9 @@ Instruction = Struct.new(:edges, :call, :return_cost, :bytes, :opaque)
 class Code
   class Failure < StandardError; end
 
+  # Turns of a counter that begins with 0.
+  WRAP = 256
+
   attr_reader :functions
 
   def initialize(functions)

@@ -13,7 +13,7 @@ class ElfCode < Code
                                        .to_h { |address, bytes, name| [name, [address.hex, bytes.to_s.hex]] }
     super(@symbols.select { |_, (_, bytes)| bytes.positive? }.transform_values { |address, _| address & mask })
     @lines = {}
-    `#{tools}-objdump -d -w #{path}`.scan(LINE) do |address, raw, mnemonic, operands|
+    `#{tools}-objdump -d -z -w #{path}`.scan(LINE) do |address, raw, mnemonic, operands|
       @lines[address.hex] = [raw.delete(' ').size / 2, mnemonic, operands.to_s.strip]
     end
   end
@@ -65,7 +65,6 @@ class AvrCode < ElfCode
   TWO = %w[lds sts ld ldd st std push pop mul muls mulsu fmul fmuls fmulsu adiw sbiw sbi cbi].freeze
   SKIPS = %w[cpse sbrc sbrs sbic sbis].freeze
 
-  WRAP = 256
   NO_TARGET = /\A(st|std|sts|push|out|cp|cpc|cpi|cpse|tst|sbr[cs]|sb[ic][cs]?|cbi|br..|rjmp|jmp|rcall|call|ret|nop)\z/.freeze
   # The registers are in data memory, too: a pointer may lead there.
   STORES = /\A(st|std|xch|la[cst])\z/.freeze

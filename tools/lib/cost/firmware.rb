@@ -45,14 +45,17 @@ class UserFirmware
            name: @function, chip: chip, least: least, most: most, mean: total.fdiv(calls), calls: calls)
   end
 
-  # Of a mid-range PIC with one page of code, or of a PIC18.
+  # Of a mid-range PIC with one page of code, or of a PIC18: not of a 12-bit core
+  # (PIC12F508, PIC16F54) nor of an enhanced one (PIC12F1822, PIC16F1824).
+  CORES = /\Ap(18|16[a-z]+(?!5)\d{2,3}[a-z]?\z|12[a-z]+6\d\d[a-z]?\z)/.freeze
+
   def bound(chip)
-    return 'none for this core' unless chip.match?(/\Ap(18|16[a-z]+\d{2,3}[a-z]?\z|12)/)
+    return 'none for this core' unless chip.match?(CORES)
 
     code = (chip.start_with?('p18') ? Pic18Code : Pic14Code).new(@path)
     return 'none beyond the first page of 2048 words' if code.is_a?(Pic14Code) && code.pages > 1
 
-    "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles"
+    "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles, without interrupts"
   rescue LongestPath::Failure, Code::Failure => e
     "none: #{e.message}"
   end

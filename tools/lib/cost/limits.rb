@@ -141,6 +141,16 @@ module Limits
       [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
     end
 
+    # Of the table of the examples as firmware.
+    def firmware(document)
+      table = File.read(document).lines.grep(/^\|/).map { |line| line.strip.split('|').drop(1).map(&:strip) }
+      FIRMWARE.map do |(name, column), (most, unit)|
+        head = table.find { |row| row.include?('pass with a tick') }
+        row = head && table.find { |one| one.first == name }
+        Limit.new("#{name}, #{column.sub(', bytes', '')}", most, row && number(row[head.index(column) || row.size]), unit)
+      end
+    end
+
     private
 
     def steps(measured)
@@ -164,14 +174,9 @@ module Limits
       end
     end
 
-    def firmware(document)
-      table = File.read(document).lines.grep(/^\|/).map { |line| line.strip.split('|').drop(1).map(&:strip) }
-      FIRMWARE.map do |(name, column), (most, unit)|
-        head = table.find { |row| row.include?('pass with a tick') }
-        row = table.find { |one| one.first == name }
-        now = row && head && row[head.index(column)].to_i
-        Limit.new("#{name}, #{column.sub(', bytes', '')}", most, now, unit)
-      end
+    # The first of a cell, as in "4 of 8"; nil, which keeps no limit, of "-".
+    def number(cell)
+      cell && cell[/\A\d+/]&.to_i
     end
   end
 end

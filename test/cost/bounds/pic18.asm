@@ -1,0 +1,397 @@
+; SPDX-License-Identifier: MIT
+; As pic14.asm, for a PIC18.
+        list p=18f4520, r=dec
+        include "p18f4520.inc"
+        config OSC = INTIO67, WDT = OFF, LVP = OFF, XINST = OFF
+
+count   equ 0x20
+outer   equ 0x21
+other   equ 0x22
+twin    equ 0x220       ; the same number as count, in bank 2
+
+vector  code 0
+        goto main
+
+        global main, plain, with_bnz, with_bz, with_movf, chosen, zero
+        global cleared, nested, calling, within_bank, access
+        global skips_two_words
+
+program code
+main:
+        clrf other, 0
+        call plain
+        call with_bnz
+        call with_bz
+        call with_movf
+        call chosen
+        call zero
+        call cleared
+        call nested
+        call calling
+        call within_bank
+        call access
+        call skips_two_words
+forever:
+        bra forever
+
+plain:                          ; 12
+        movlw 3
+        movwf count, 0
+plain_turn:
+        decfsz count, f, 0
+        bra plain_turn
+        return
+
+with_bnz:                       ; 18
+        movlw 5
+        movwf count, 0
+with_bnz_turn:
+        decf count, f, 0
+        bnz with_bnz_turn
+        return
+
+with_bz:                        ; 23
+        movlw 5
+        movwf count, 0
+with_bz_turn:
+        decf count, f, 0
+        bz with_bz_end
+        bra with_bz_turn
+with_bz_end:
+        return
+
+with_movf:                      ; 23
+        movlw 5
+        movwf count, 0
+with_movf_turn:
+        decf count, f, 0
+        movf count, w, 0
+        bnz with_movf_turn
+        return
+
+; The larger constant is loaded where the skip is taken.
+chosen:                         ; 36
+        bcf STATUS, C, 0
+        movlw 10
+        btfsc STATUS, C, 0
+        movlw 3
+        movwf count, 0
+chosen_turn:
+        decfsz count, f, 0
+        bra chosen_turn
+        return
+
+zero:                           ; 771
+        movlw 0
+        movwf count, 0
+zero_turn:
+        decfsz count, f, 0
+        bra zero_turn
+        return
+
+cleared:                        ; 770
+        clrf count, 0
+cleared_turn:
+        decfsz count, f, 0
+        bra cleared_turn
+        return
+
+nested:                         ; 41
+        movlw 2
+        movwf outer, 0
+nested_outer:
+        movlw 5
+        movwf count, 0
+nested_turn:
+        decfsz count, f, 0
+        bra nested_turn
+        decfsz outer, f, 0
+        bra nested_outer
+        return
+
+; The second time the inner loop begins with 0.
+not_nested:                     ; refused: no constant is loaded
+        movlw 2
+        movwf outer, 0
+        movlw 5
+        movwf count, 0
+not_nested_outer:
+        nop
+not_nested_turn:
+        decfsz count, f, 0
+        bra not_nested_turn
+        decfsz outer, f, 0
+        bra not_nested_outer
+        return
+
+calling:                        ; 27
+        movlw 3
+        movwf count, 0
+calling_turn:
+        rcall touches_other
+        decfsz count, f, 0
+        bra calling_turn
+        return
+touches_other:
+        incf other, f, 0
+        return
+
+called:                         ; refused: may also change
+        movlw 3
+        movwf count, 0
+called_turn:
+        call touches_count
+        decfsz count, f, 0
+        bra called_turn
+        return
+touches_count:
+        btfsc other, 0, 0
+        incf count, f, 0
+        return
+
+leaves_elsewhere:               ; refused: may go on with 0
+        movlw 3
+        movwf count, 0
+leaves_elsewhere_turn:
+        decf count, f, 0
+        btfss PORTA, 0, 0
+        bra leaves_elsewhere_turn
+        return
+
+; At 0 it goes round once more.
+stays:                          ; refused: may go on with 0
+        movlw 3
+        movwf count, 0
+stays_turn:
+        decfsz count, f, 0
+        bra stays_turn
+        btfss PORTA, 0, 0
+        bra stays_turn
+        return
+
+z_of_other:                     ; refused: may go on with 0
+        movlw 3
+        movwf count, 0
+z_of_other_turn:
+        decf count, f, 0
+        movf other, w, 0
+        bnz z_of_other_turn
+        return
+
+not_every_turn:                 ; refused: not every turn
+        movlw 3
+        movwf count, 0
+not_every_turn_head:
+        btfsc PORTA, 0, 0
+        bra not_every_turn_head
+        decfsz count, f, 0
+        bra not_every_turn_head
+        return
+
+written:                        ; refused: may also change
+        movlw 3
+        movwf count, 0
+written_turn:
+        bsf count, 1, 0
+        decfsz count, f, 0
+        bra written_turn
+        return
+
+moved:                          ; refused: may also change
+        movlw 3
+        movwf count, 0
+moved_turn:
+        movff other, count
+        decfsz count, f, 0
+        bra moved_turn
+        return
+
+; MOVFF loads what no path shows.
+loaded_by_movff:                ; refused: no constant is loaded
+        movlw 3
+        movff other, count
+loaded_by_movff_turn:
+        decfsz count, f, 0
+        bra loaded_by_movff_turn
+        return
+
+; FSR0 leads to the counter, so that it is counted twice.
+through_indf:                   ; refused: may also change
+        lfsr 0, count
+        movlw 9
+        movwf count, 0
+through_indf_turn:
+        decf INDF0, f, 0
+        decfsz count, f, 0
+        bra through_indf_turn
+        return
+
+through_postdec:                ; refused: may also change
+        movlw 9
+        movwf count, 0
+through_postdec_turn:
+        movff WREG, POSTDEC1
+        decfsz count, f, 0
+        bra through_postdec_turn
+        return
+
+indf:                           ; refused: counts no constant
+        movlw 3
+        movwf INDF0, 0
+indf_turn:
+        decfsz INDF0, f, 0
+        bra indf_turn
+        return
+
+timer:                          ; refused: counts no constant
+        movlw 3
+        movwf TMR0L, 0
+timer_turn:
+        decfsz TMR0L, f, 0
+        bra timer_turn
+        return
+
+from_before:                    ; refused: comes from before
+        decfsz count, f, 0
+        bra from_before
+        return
+
+; 200 was loaded into the register in the access bank.
+access_bit:                     ; refused: no constant
+        movlw 200
+        movwf count, 0
+        movlb 2
+        movlw 3
+        movwf twin, 1
+access_bit_turn:
+        decfsz count, f, 0
+        bra access_bit_turn
+        return
+
+; 200 was loaded into the register in bank 1.
+bank:                           ; refused: no constant
+        movlb 1
+        movlw 200
+        movwf 0x120, 1
+        movlb 2
+        movlw 3
+        movwf twin, 1
+        movlb 1
+bank_turn:
+        decfsz 0x120, f, 1
+        bra bank_turn
+        return
+
+bank_in_loop:                   ; refused: may also change
+        movlb 2
+        movlw 3
+        movwf twin, 1
+bank_in_loop_turn:
+        movlb 1
+        movlb 2
+        decfsz twin, f, 1
+        bra bank_in_loop_turn
+        return
+
+; A fast return restores BSR.
+fast_return:                    ; refused: may also change
+        movlb 2
+        movlw 3
+        movwf twin, 1
+fast_return_turn:
+        call returns_fast
+        decfsz twin, f, 1
+        bra fast_return_turn
+        return
+returns_fast:
+        return 1
+
+within_bank:                    ; 16
+        movlb 2
+        movlw 3
+        movwf twin, 1
+within_bank_turn:
+        bcf STATUS, C, 0
+        decfsz twin, f, 1
+        bra within_bank_turn
+        return
+
+; The access bank needs no bank.
+access:                         ; 15
+        movlw 3
+        movwf count, 0
+access_turn:
+        movlb 2
+        decfsz count, f, 0
+        bra access_turn
+        return
+
+changed:                        ; refused: no constant is loaded
+        movlw 3
+        addlw 7
+        movwf count, 0
+changed_turn:
+        decfsz count, f, 0
+        bra changed_turn
+        return
+
+; WREG is a register, too.
+through_wreg:                   ; refused: no constant is loaded
+        movlw 3
+        movff other, WREG
+        movwf count, 0
+through_wreg_turn:
+        decfsz count, f, 0
+        bra through_wreg_turn
+        return
+
+from_call:                      ; refused: may change in what
+        movlw 3
+        rcall nine
+        movwf count, 0
+from_call_turn:
+        decfsz count, f, 0
+        bra from_call_turn
+        return
+nine:   retlw 9
+
+; The skip leads over both words.
+skips_two_words:                ; 33
+        movlw 5
+        movwf count, 0
+skips_two_words_turn:
+        btfss other, 0, 0
+        movff other, other
+        decfsz count, f, 0
+        bra skips_two_words_turn
+        return
+
+itself: rcall itself            ; refused: calls itself
+        return
+
+two_entrances:                  ; refused: has 2 entrances
+        movlw 3
+        movwf count, 0
+        btfsc PORTA, 0, 0
+        bra two_entrances_middle
+two_entrances_turn:
+        nop
+two_entrances_middle:
+        decfsz count, f, 0
+        bra two_entrances_turn
+        return
+
+sleeping:                       ; refused: SLEEP
+        sleep
+        return
+
+popping:                        ; refused: POP
+        pop
+        return
+
+jumping:                        ; refused: computed
+        movf PORTA, w, 0
+        addwf PCL, f, 0
+        return
+        return
+        end
