@@ -197,7 +197,7 @@ reading_turn:
         brne reading_turn
         ret
 
-from_before:                    ; refused: comes from before
+from_before:                    ; refused: it comes from before
         dec r20
         brne from_before
         ret
@@ -210,7 +210,7 @@ changed_turn:
         brne changed_turn
         ret
 
-from_call:                      ; refused: may change in what
+from_call:                      ; refused: it may change in what
         ldi r20, 3
         rcall nine
 from_call_turn:

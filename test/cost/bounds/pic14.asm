@@ -218,7 +218,7 @@ timer_turn:
         goto timer_turn
         return
 
-from_before:                    ; refused: comes from before
+from_before:                    ; refused: it comes from before
         decfsz count, f
         goto from_before
         return
@@ -284,7 +284,7 @@ changed_turn:
         goto changed_turn
         return
 
-from_call:                      ; refused: may change in what
+from_call:                      ; refused: it may change in what
         movlw 3
         call nine
         movwf count
@@ -311,7 +311,7 @@ itself: call itself             ; refused: calls itself
         return
 
 ; A jump to its first instruction: whoever calls has left the counter.
-entered_again:                  ; refused: comes from before
+entered_again:                  ; refused: it comes from before
         decfsz count, f
         goto entered_again_turn
         return

@@ -251,7 +251,7 @@ timer_turn:
         bra timer_turn
         return
 
-from_before:                    ; refused: comes from before
+from_before:                    ; refused: it comes from before
         decfsz count, f, 0
         bra from_before
         return
@@ -345,7 +345,7 @@ through_wreg_turn:
         bra through_wreg_turn
         return
 
-from_call:                      ; refused: may change in what
+from_call:                      ; refused: it may change in what
         movlw 3
         rcall nine
         movwf count, 0

@@ -3,8 +3,9 @@
 
 # An instruction as the longest path needs it: where it may go next and what
 # that costs, the function that it calls before, and the cost if it returns. An
-# `opaque` one leads where only a run can tell.
-Instruction = Struct.new(:edges, :call, :return_cost, :bytes, :opaque)
+# `opaque` one leads where only a run can tell, and one that `waits` costs what only a
+# run can tell.
+Instruction = Struct.new(:edges, :call, :return_cost, :bytes, :opaque, :waits)
 
 # Linked code: instructions by address and functions by name.
 class Code
@@ -45,6 +46,40 @@ class Code
     nil
   end
 
+  # For the stack: how many bytes an instruction pushes, or the register that says
+  # how many it pops; the registers from which it sets the pointer, or nil if it does
+  # not; where an opaque one leads, nowhere if it returns and nil if nobody knows;
+  # whether it lets interrupts in; and where a reset leads, and, by priority,
+  # interrupts.
+  def pushed(_address)
+    0
+  end
+
+  def sets_stack(_address)
+    nil
+  end
+
+  def leads(_address)
+    nil
+  end
+
+  def enables_interrupts?(_address)
+    false
+  end
+
+  def reset
+    0
+  end
+
+  def interrupts
+    []
+  end
+
+  # Of a return address in RAM.
+  def return_bytes
+    0
+  end
+
   # Of the compiler's own routines: how often their loops turn at most.
   def turns
     {}
@@ -58,6 +93,10 @@ class Code
 
   def opaque(what)
     Instruction.new([], nil, nil, 2, what)
+  end
+
+  def waits(at, bytes, what)
+    Instruction.new([[at + bytes, 1]], nil, nil, bytes, nil, what)
   end
 
   def missing(address, what)

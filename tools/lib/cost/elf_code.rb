@@ -68,6 +68,7 @@ class AvrCode < ElfCode
   NO_TARGET = /\A(st|std|sts|push|out|cp|cpc|cpi|cpse|tst|sbr[cs]|sb[ic][cs]?|cbi|br..|rjmp|jmp|rcall|call|ret|nop)\z/.freeze
   # The registers are in data memory, too: a pointer may lead there.
   STORES = /\A(st|std|xch|la[cst])\z/.freeze
+  POINTER = /\A0x(?:3[de]|005[de]),/i.freeze
   MOVED = /-([XYZ])|([XYZ])\+(?!\d)/.freeze
   POINTERS = { 'X' => [26, 27], 'Y' => [28, 29], 'Z' => [30, 31] }.freeze
 
@@ -99,17 +100,50 @@ class AvrCode < ElfCode
     { 'brne' => at(at).edges.first, 'breq' => at(at).edges.last }[line(at)[1]]&.first
   end
 
+  # RCALL to the next instruction makes room.
+  def pushed(at)
+    bytes, mnemonic, operands = line(at)
+    case mnemonic
+    when 'push' then 1
+    when 'pop' then -1
+    when 'rcall' then target(at, operands) == at + bytes ? 2 : 0
+    else 0
+    end
+  end
+
+  def sets_stack(at)
+    _, mnemonic, operands = line(at)
+    [operands[/r\d+/]] if %w[out sts].include?(mnemonic) && operands.match?(POINTER)
+  end
+
+  def enables_interrupts?(at)
+    line(at)[1] == 'sei'
+  end
+
+  # avr-libc's names of handlers.
+  def interrupts
+    handlers = @functions.select { |name, _| name.match?(/\A__vector_\d+\z/) }.values
+    handlers.empty? ? [] : [handlers]
+  end
+
+  def return_bytes
+    2
+  end
+
   private
 
   def decode(at)
     bytes, mnemonic, operands = line(at)
+    return plain(at, bytes, 3) if mnemonic == 'rcall' && target(at, operands) == at + bytes
+
     case mnemonic
     when 'ret', 'reti' then Instruction.new([], nil, 4, bytes)
     when 'call', 'rcall' then Instruction.new([[at + bytes, mnemonic == 'call' ? 4 : 3]], target(at, operands), nil, bytes)
     when 'jmp', 'rjmp' then Instruction.new([[target(at, operands), mnemonic == 'jmp' ? 3 : 2]], nil, nil, bytes)
     when /\Abr/ then Instruction.new([[at + bytes, 1], [target(at, operands), 2]], nil, nil, bytes)
     when *SKIPS then skip(at, bytes)
-    when /call|jmp|spm|sleep/ then opaque(mnemonic)
+    when 'sleep' then waits(at, bytes, mnemonic)
+    when /call|jmp|spm/ then opaque(mnemonic)
     else plain(at, bytes, cycles(mnemonic))
     end
   end

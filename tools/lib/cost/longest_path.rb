@@ -75,14 +75,13 @@ class LongestPath
       edges[at] = instruction.edges.map { |to, cost| [to, cost + (callee ? callee.cost : 0)] }
       todo.concat(edges[at].map(&:first))
     end
-    [Flow.new(edges, entry, called), ends, callees]
+    [Flow.new(@code, edges, entry, called), ends, callees]
   end
 
   def followed(at)
     instruction = @code.at(at)
-    return instruction unless instruction.opaque
-
-    raise Failure, format('%<name>s: no path through %<what>s at %<at>05x', name: @code.name(at), what: instruction.opaque, at: at)
+    what = instruction.opaque || instruction.waits or return instruction
+    raise Failure, format('%<name>s: no path through %<what>s at %<at>05x', name: @code.name(at), what: what, at: at)
   end
 
   # The largest cost to come from `start` to each of `nodes`; edges into `cut`
@@ -112,7 +111,7 @@ class LongestPath
   # From the code, or as stated.
   def turns(flow, component, head)
     CountedLoop.new(@code, flow, component, head).turns
-  rescue CountedLoop::Refused => e
+  rescue Flow::Unknown => e
     @turns[@code.name(head)] or
       raise Failure, format('a loop of %<name>s, at %<at>05x, counts no constant down%<why>s',
                             name: @code.name(head), at: head, why: e.message.empty? ? '' : ": #{e.message}")

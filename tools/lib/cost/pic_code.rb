@@ -53,6 +53,17 @@ class PicCode < Code
     raise Failure, "no object #{name}"
   end
 
+  # A vector with a handler has a section of its own, or is reached by no path.
+  def interrupts
+    paths = LongestPath.reached(self, [reset])
+    self.class::VECTORS.select do |vector|
+      own = program.any? { |one| one.address == vector }
+      found = own || (@bytes.key?(vector * self.class::UNIT) && !paths.include?(vector))
+      paths |= LongestPath.reached(self, [vector]) if found
+      found
+    end.map { |vector| [vector] }
+  end
+
   private
 
   def static_functions
@@ -90,6 +101,8 @@ end
 # A mid-range PIC with at most 2048 words: addresses are words.
 class Pic14Code < PicCode
   FLASH = 2048
+  VECTORS = [4].freeze
+  UNIT = 2 # bytes of an address
   RAM = [0x20..0x7F, 0xA0..0xBF].freeze
   DECF = 0x0380
   DECFSZ = 0x0B80
@@ -102,6 +115,7 @@ class Pic14Code < PicCode
   BTFSS_Z = 0x1D03
   INDF = 0
   STATUS = 3
+  BSF_GIE = 0x178B
   BANK_BITS = [5, 6].freeze
 
   # Of 2048 words, configuration words left out.
@@ -143,6 +157,18 @@ class Pic14Code < PicCode
     { BTFSC_Z => at(at).edges.first, BTFSS_Z => at(at).edges.last }[word(at)]&.first
   end
 
+  # A computed GOTO of a switch enters the GOTOs behind it, one of assembly reads
+  # flash: it enters a RETLW. SDCC names the sections of C S_.
+  def leads(at)
+    table = (at + 1..).take_while { |one| word?(one) && (0x2800..0x2FFF).cover?(word(one)) }
+    table if table.any? || program.none? { |one| one.name.start_with?('S_') && range(one).cover?(at) }
+  end
+
+  # A whole INTCON may be what it was.
+  def enables_interrupts?(at)
+    word(at) == BSF_GIE
+  end
+
   def word(at)
     word_at_byte(2 * at) & 0x3FFF
   end
@@ -163,7 +189,7 @@ class Pic14Code < PicCode
     when 0x0008, 0x0009, 0x3400..0x37FF then Instruction.new([], nil, 2, 2) # RETURN, RETFIE, RETLW
     when 0x2000..0x27FF then Instruction.new([[at + 1, 2]], word & 0x7FF, nil, 2) # CALL
     when 0x2800..0x2FFF then Instruction.new([[word & 0x7FF, 2]], nil, nil, 2) # GOTO
-    when 0x0063 then opaque('SLEEP')
+    when 0x0063 then Instruction.new([[at + 1, 1]], nil, nil, 2, nil, 'SLEEP')
     when 0x0B00..0x0BFF, 0x0F00..0x0FFF, 0x1800..0x1FFF # DECFSZ, INCFSZ, BTFSC, BTFSS
       Instruction.new([[at + 1, 1], [at + 2, 2]], nil, nil, 2)
     else
@@ -194,6 +220,8 @@ end
 # A PIC18.
 class Pic18Code < PicCode
   FLASH = 32_768
+  VECTORS = [0x08, 0x18].freeze
+  UNIT = 1
   RAM = [0x000..0x5FF].freeze
   SKIPS = [0x2C..0x2F, 0x3C..0x3F, 0x48..0x4B, 0x4C..0x4F, 0x60..0x67, 0xA0..0xBF].freeze
   DECF = [0x06, 0x07].freeze
@@ -210,7 +238,7 @@ class Pic18Code < PicCode
   # INDF, POSTINC, POSTDEC, PREINC and PLUSW of the three pointers.
   INDIRECT = [0xEB..0xEF, 0xE3..0xE7, 0xDB..0xDF].flat_map(&:to_a).freeze
   PCL = 0xF9
-  UNSEEN = { 0x0003 => 'SLEEP', 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
+  UNSEEN = { 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
   EXTENDED = (0xE8..0xEB).freeze
   FAST_RETURNS = [0x0011, 0x0013].freeze # they restore WREG, STATUS and BSR
 
@@ -253,7 +281,47 @@ class Pic18Code < PicCode
     { BNZ => at(at).edges.first, BZ => at(at).edges.last }[word_at_byte(at) >> 8]&.first
   end
 
+  # By FSR1, the pointer of SDCC: POSTDEC1 pushes, PREINC1 and POSTINC1 pop, and
+  # ADDWF to FSR1L pops as many as WREG says.
+  PUSHED = { 0xFE5 => 1, 0xFE4 => -1, 0xFE6 => -1 }.freeze
+  POINTER = [0xFE1, 0xFE2].freeze
+  GOTO = 0xEF
+  ADDWF_FSR1L = 0x26E1
+  LFSR_1 = 0xEE1
+
+  def pushed(at)
+    word = word_at_byte(at)
+    word == ADDWF_FSR1L ? :w : accessed(at, word).uniq.sum { |address| PUSHED.fetch(address, 0) }
+  end
+
+  def sets_stack(at)
+    word = word_at_byte(at)
+    return [] if word >> 4 == LFSR_1
+
+    missing(at, 'the stack pointer is set') if word != ADDWF_FSR1L && POINTER.include?(accessed(at, word)[1])
+  end
+
+  # Of a switch.
+  def leads(at)
+    Enumerator.produce(at + 2) { |one| one + 4 }.take_while { |one| @bytes.key?(one) && word_at_byte(one) >> 8 == GOTO }
+              .then { |all| all unless all.empty? }
+  end
+
+  def enables_interrupts?(at)
+    [0x8EF2, 0x8CF2].include?(word_at_byte(at)) # BSF INTCON, GIEH or GIEL
+  end
+
   private
+
+  # Of the chip's own registers, the address that is read and the one that is
+  # written.
+  def accessed(at, word)
+    return [word & 0xFFF, word_at_byte(at + 2) & 0xFFF] if (word >> 12) == 0xC
+    return [] unless file_operation?(word >> 8) && (word & 0x100).zero? && (word & 0xFF) >= 0x80
+
+    address = 0xF00 | (word & 0xFF)
+    [address, (address if writes_file?(word >> 8))]
+  end
 
   def units(section)
     section.bytes
@@ -267,6 +335,7 @@ class Pic18Code < PicCode
     return Instruction.new([], nil, nil, 2) if word == 0x00FF # RESET
     return skip(at) if SKIPS.any? { |range| range.cover?(high) }
     return opaque('a computed GOTO') if file_written(at) == PCL && (word & 0x100).zero?
+    return waits(at, 2, 'SLEEP') if word == 0x0003
     return opaque(UNSEEN[word]) if UNSEEN.key?(word)
     return opaque('an extended instruction') if EXTENDED.cover?(high)
 
@@ -314,6 +383,10 @@ class Pic18Code < PicCode
     return word_at_byte(at + 2) & 0xFF if (word >> 12) == 0xC
 
     word & 0xFF if writes_file?(word >> 8)
+  end
+
+  def file_operation?(high)
+    (0x02..0x07).cover?(high) || (0x10..0xBF).cover?(high)
   end
 
   def byte_operation?(high)
