@@ -5,6 +5,9 @@
 #
 # Fails if the document says something else; with --update it is rewritten.
 require 'json'
+require_relative '../../tools/lib/cost/elf_code'
+require_relative '../../tools/lib/cost/pic_code'
+require_relative '../../tools/lib/cost/stack'
 require_relative '../../tools/lib/cost/subjects'
 
 TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
@@ -38,6 +41,7 @@ end
 
 LOGS = Logs.new(ARGV[0])
 SIZES = JSON.parse(File.read(ARGV[1]))
+FIRMWARE = File.dirname(ARGV[1])
 
 def thousands(number)
   number.to_s.reverse.scan(/\d{1,3}/).join(' ').reverse
@@ -104,12 +108,24 @@ end
 
 TITLES_OF_CHIPS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p' => 'ATmega328P' }.freeze
 
-def stacks(chip, figures)
-  return "#{figures['stack']} bytes" if chip == 'atmega328p'
+# Each takes the firmware's path without its ending.
+CODES = { 'pic16f684' => ->(path) { Pic14Code.new(path) }, 'pic18f4520' => ->(path) { Pic18Code.new(path) },
+          'atmega328p' => ->(path) { AvrCode.new("#{path}.elf") } }.freeze
+LEVELS = { 'pic16f684' => 8, 'pic18f4520' => 31 }.freeze
 
-  # One more where an interrupt comes at the deepest place.
-  levels = "#{figures['stack'] + 1} of #{chip == 'pic16f684' ? 8 : 31}"
-  figures['software'].zero? ? levels : "#{levels}, #{figures['software']} of 256 bytes"
+# Of the code; what was seen is no deeper.
+def stacks(name, chip, figures)
+  depth = Stack.new(CODES.fetch(chip).call("#{FIRMWARE}/#{name}")).firmware
+  seen = LEVELS.key?(chip) ? [figures['stack'], figures['software']] : [0, figures['stack']]
+  if depth.levels < seen[0] || depth.bytes < seen[1]
+    abort "figures: #{name} used a stack of #{seen.join(' levels, ')} bytes, its code says #{depth.levels} and #{depth.bytes}"
+  end
+  return "#{depth.bytes} bytes" unless LEVELS.key?(chip)
+
+  levels = "#{depth.levels} of #{LEVELS.fetch(chip)}"
+  depth.bytes.zero? ? levels : "#{levels}, #{depth.bytes} of 256 bytes"
+rescue Stack::Failure, Code::Failure => e
+  abort "figures: #{name}: #{e.message}"
 end
 
 def firmware
@@ -118,7 +134,7 @@ def firmware
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
     ["#{name.sub(/_uno$/, '')}, #{TITLES_OF_CHIPS.fetch(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
-     "#{size['ram']} of #{size['ram_size']}", stacks(size['chip'], figures), figures['step'], figures['tick'],
+     "#{size['ram']} of #{size['ram_size']}", stacks(name, size['chip'], figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end
   table(['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt',

@@ -3,6 +3,7 @@
 
 require_relative 'pic_code'
 require_relative 'longest_path'
+require_relative 'stack'
 
 # A function of anybody's firmware for a PIC: FILE.hex with the .cod and .map
 # that gplink -m writes beside it.
@@ -26,7 +27,9 @@ class UserFirmware
     chip, numbers = text.match(/^(p\w+) (calls .*)/).captures
     calls, least, most, total = numbers.scan(/\d+/).map(&:to_i)
     puts measured(chip, calls, least, most, total)
-    puts "static bound: #{bound(chip)}"
+    puts "static bound: #{of_code(chip) { |code| bound(code) }}"
+    puts "its stack: #{of_code(chip) { |code| "#{depth(code, own_stack(code))}, with its call" }}"
+    puts "stack of all: #{of_code(chip) { |code| "#{depth(code, Stack.new(code).firmware)}, with interrupts" }}"
     calls.positive?
   end
 
@@ -49,14 +52,27 @@ class UserFirmware
   # (PIC12F508, PIC16F54) nor of an enhanced one (PIC12F1822, PIC16F1824).
   CORES = /\Ap(18|16[a-z]+(?!5)\d{2,3}[a-z]?\z|12[a-z]+6\d\d[a-z]?\z)/.freeze
 
-  def bound(chip)
+  def of_code(chip)
     return 'none for this core' unless chip.match?(CORES)
 
     code = (chip.start_with?('p18') ? Pic18Code : Pic14Code).new(@path)
     return 'none beyond the first page of 2048 words' if code.is_a?(Pic14Code) && code.pages > 1
 
-    "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles, without interrupts"
-  rescue LongestPath::Failure, Code::Failure => e
+    yield(code)
+  rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
     "none: #{e.message}"
+  end
+
+  def bound(code)
+    "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles, without interrupts"
+  end
+
+  def own_stack(code)
+    stack = Stack.new(code)
+    stack.called(stack.function(code.entry(@function)))
+  end
+
+  def depth(code, depth)
+    "#{depth.levels} levels#{", #{depth.bytes} bytes" if code.is_a?(Pic18Code)}"
   end
 end

@@ -5,13 +5,14 @@ require_relative 'cores'
 require_relative 'elf_code'
 require_relative 'longest_path'
 require_relative 'pic_code'
+require_relative 'stack'
 
 RANDOM_STEPS = 20_000
 DIRECTED_STEPS = 100_000
 QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
 
 # What one subject costs; `most` is over all questions, `mean` over the
-# recorded rows, `bound` from the code. Flash of the step, of all functions that
+# recorded rows, `bound`, `levels` and `stack` from the code. Flash of the step, of all functions that
 # an application needs, and as the linker takes it; RAM of a controller, besides,
 # and of that the step's own variables on a PIC16, which SDCC keeps in RAM.
 Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :step_variables,
@@ -23,13 +24,14 @@ class Answers
     @sets = text.scan(/^(rows|random|search) (.*)$/).to_h do |name, numbers|
       [name, numbers.scan(/(\w+) (\d+)/).to_h { |key, value| [key, value.to_i] }]
     end
-    @stack = text[/^stack (\d+)/, 1].to_i
+    @stack = text[/^stack (\d+)/, 1]&.to_i
     raise Host::Failure, "#{subject}: no figures:\n#{text}" if @sets.size != 3
     return if different.zero?
 
     raise Host::Failure, "#{subject}: #{different} answers differ from the definition's"
   end
 
+  # Bytes, of what has a stack in RAM and counts it.
   attr_reader :stack
 
   def different
@@ -156,11 +158,13 @@ class Meter
     code = read_code
     longest = LongestPath.new(code, code.turns.merge(@controller.turns || {}))
     step = longest.function(code.entry(@step))
+    stack = stack(code, longest)
     check_bound(answers.most, step.cost)
+    check_stack(answers.stack, stack)
     Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
                 step_flash: code.size_of(step.addresses), needed: needed(code), levels: step.levels + 1,
-                stack: stack(answers, code, longest), **sizes(code))
-  rescue LongestPath::Failure, Code::Failure => e
+                stack: stack, **sizes(code))
+  rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
     raise Host::Failure, "#{@subject}: #{e.message}"
   end
 
@@ -168,6 +172,13 @@ class Meter
 
   def check_bound(most, bound)
     raise Host::Failure, "#{@subject}: #{most} measured, but #{bound} is the bound" if most > bound
+  end
+
+  # QEMU's meter does not count it.
+  def check_stack(most, stack)
+    return if most.nil? ? is_a?(QemuMeter) : most <= stack
+
+    raise Host::Failure, "#{@subject}: a stack of #{most || 'no'} bytes measured, but #{stack} are the bound"
   end
 
   def driver
@@ -185,8 +196,10 @@ class Meter
     code.size_of(LongestPath.reached(code, entries))
   end
 
-  def stack(answers, _code, _longest)
-    answers.stack
+  # Bytes, with the return address where that is in RAM.
+  def stack(code, _longest)
+    stack = Stack.new(code)
+    stack.called(stack.function(code.entry(@step))).bytes
   end
 end
 
@@ -338,7 +351,7 @@ class QemuMeter < AvrMeter
     @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
   end
 
-  def stack(_answers, code, longest)
+  def stack(code, longest)
     code.stack(code.entry(@step), longest)
   end
 end

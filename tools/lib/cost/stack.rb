@@ -2,6 +2,7 @@
 # frozen_string_literal: true
 
 require_relative 'flow'
+require_relative 'longest_path'
 
 # How deep a function's stack may be, from all paths through its code: return
 # addresses, and bytes, of an AVR those of the return addresses among them. What
@@ -34,12 +35,12 @@ class Stack
     Depth.new(all.sum(&:levels), all.sum(&:bytes), 0)
   end
 
-  private
-
   # With its return address.
   def called(depth)
     Depth.new(depth.levels + 1, depth.bytes + @code.return_bytes)
   end
+
+  private
 
   def deepest(depths)
     Depth.new(depths.map(&:levels).max, depths.map(&:bytes).max)
