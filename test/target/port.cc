@@ -26,10 +26,9 @@ constexpr unsigned duty_least = 4; // shorter pulses are not made
 constexpr unsigned periods = 8;    // of the PWM, over which pins are watched
 constexpr unsigned ticks_measured = 10000;
 constexpr unsigned ticks_most = 255;
-constexpr unsigned latest = 300;       // cycles that an interrupt is masked for
-constexpr unsigned looks = 10;         // cycles of a loop that waits for it
-constexpr unsigned gie = 0x80;         // of INTCON, I of SREG
-constexpr double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
+constexpr unsigned latest = 300; // cycles that an interrupt is masked for
+constexpr unsigned looks = 10;   // cycles of a loop that waits for it
+constexpr unsigned gie = 0x80;   // of INTCON, I of SREG
 
 // What port_board.h and the data sheet say of a board.
 struct Board {
@@ -52,7 +51,8 @@ struct Board {
     struct Pins {
         unsigned address, bits, value;
     };
-    std::vector<Pins> others; // registers of the pins without a use
+    std::vector<Pins> others;    // registers of the pins without a use
+    double watchdog_most = 0.25; // seconds; gpsim is slow with a PIC18
 };
 
 // CCPR1L and CCP1CON's low bits.
@@ -121,6 +121,15 @@ const Board pic18f4520 = {
      {0xF94, 0xFA, 0},
      {0xF8B, 0xFA, 0}}};
 
+// The same pins, another Timer2; of the watchdog's postscaler gpsim takes the
+// bits one place too low, 128 for 8.
+const Board pic18f26k22 = [] {
+    Board board = pic18f4520;
+    board.pwm_on = {0xFBA, 0x04};
+    board.watchdog_most = 2.5;
+    return board;
+}();
+
 const Board atmega328p = {14 * 4,
                           0x5F,
                           {0x35, 0x02},
@@ -151,6 +160,9 @@ const Board &board_of(const Chip &chip)
 {
     if (chip.processor() == "atmega328p") {
         return atmega328p;
+    }
+    if (chip.processor() == "p18f26k22") {
+        return pic18f26k22;
     }
     return chip.is_pic18() ? pic18f4520 : pic16f684;
 }
@@ -600,7 +612,7 @@ void Port::ticks_saturate()
 void Port::watchdog()
 {
     const uint64_t cycles = chip.run(
-        static_cast<uint64_t>(watchdog_most * chip.cycles_per_second()));
+        static_cast<uint64_t>(board.watchdog_most * chip.cycles_per_second()));
 
     if (chip.stopped() != Stop::fault ||
         chip.reason().find("watchdog") == std::string::npos) {
@@ -620,7 +632,7 @@ bool Port::run_unfed()
     call('w');
     chip.write(board.intcon, chip.peek(board.intcon) & ~gie);
     const uint64_t start = chip.cycle();
-    const double most = watchdog_most * chip.cycles_per_second();
+    const double most = board.watchdog_most * chip.cycles_per_second();
     try {
         while (static_cast<double>(chip.cycle() - start) < most) {
             call('t');

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# device.rb PORT_FOLDER: what gputils' header of the chip says against what a
-# port's configuration.h and registers.h say, and the chip's registers with their
-# bits on standard output, as C for xc.h. Says what is wrong and exits with 1.
+# device.rb PORT_FOLDER: what gputils' header and linker script of the chip say
+# against what a port's configuration.h, registers.h and port.c say, and the chip's
+# registers with their bits on standard output, as C for xc.h. Says what is wrong
+# and exits with 1.
 
 # A chip as the assembler's header has it: NAME EQU H'0123' under headings.
 class Device
@@ -57,22 +58,62 @@ class Device
   end
 end
 
+# A chip's memory as the linker's script has it.
+class Memory
+  BANK = /^\s*(ACCESSBANK|DATABANK)\s+NAME=(\w+)\s+START=0x(\h+)\s+END=0x(\h+)(?!.*PROTECTED)/.freeze
+
+  attr_reader :banks
+
+  def initialize(chip)
+    script = File.read("#{ENV.fetch('GPUTILS_LKR_PATH')}/#{chip}_g.lkr")
+    @banks = script.scan(BANK).map { |kind, name, first, last| [kind, name, first.hex..last.hex] }
+    abort "xc8_check: no RAM of #{chip}" if @banks.empty?
+  end
+
+  # The last byte of RAM that needs no bank, of a PIC18.
+  def access_end
+    @banks.find { |kind,| kind == 'ACCESSBANK' }&.last&.last
+  end
+
+  def ram?(address)
+    @banks.any? { |*, range| range.cover?(address) }
+  end
+end
+
 # What a port says of its chip.
 class Port
   def initialize(folder)
+    chip = File.basename(folder).delete_prefix('pic')
     @folder = folder
-    @device = Device.new(File.basename(folder).delete_prefix('pic'))
+    @device = Device.new(chip)
+    @memory = Memory.new(chip)
     @wrong = []
   end
 
   def check
-    check_configuration(File.read("#{@folder}/configuration.h"))
-    check_registers(File.read("#{@folder}/registers.h"))
+    check_configuration(text_of('configuration.h'))
+    check_registers(text_of('registers.h'))
+    check_memory(text_of('configuration.h'), text_of('port.c'))
     abort @wrong.map { |what| "#{@folder}: #{what}" }.join("\n") unless @wrong.empty?
     puts @device.c_text
   end
 
   private
+
+  # With what it includes from the folders beside the port's.
+  def text_of(file)
+    File.read("#{@folder}/#{file}").gsub(%r{^#include "(\.\./[^"]+)"$}) { text_of(Regexp.last_match(1)) }
+  end
+
+  # SDCC's run-time stack lies in RAM, and the bytes of the interrupt at the end of
+  # what needs no bank.
+  def check_memory(configuration, port)
+    stack = configuration.match(/^#pragma stack 0x(\h+) 0x(\h+)$/) or return
+    first, size = stack.captures.map(&:hex)
+    @wrong << format('no RAM at 0x%X for the stack', first) unless (first...(first + size)).all? { |at| @memory.ram?(at) }
+    last = port[/^#define ACCESS_RAM_END 0x(\h+)$/, 1].to_s.hex
+    @wrong << format('access RAM does not end at 0x%X', last) unless last == @memory.access_end
+  end
 
   # Each setting once, and SDCC's word of a PIC16, a number, as XC8's settings make it.
   def check_configuration(text)
