@@ -121,11 +121,14 @@ const Board pic18f4520 = {
      {0xF94, 0xFA, 0},
      {0xF8B, 0xFA, 0}}};
 
-// The same pins, another Timer2; of the watchdog's postscaler gpsim takes the
-// bits one place too low, 128 for 8.
+// The same pins, of which ANSEL has the analog ones, and another Timer2. Of the
+// watchdog's postscaler gpsim takes the bits one place too low, 128 for 8.
 const Board pic18f26k22 = [] {
     Board board = pic18f4520;
     board.pwm_on = {0xFBA, 0x04};
+    board.others.insert(
+        board.others.end(),
+        {{0xF38, 0xFF, 0x07}, {0xF39, 0xFF, 0}, {0xF3A, 0xFF, 0}});
     board.watchdog_most = 2.5;
     return board;
 }();
@@ -215,7 +218,9 @@ class Port
 Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
 {
     if (chip.is_pic18()) {
-        chip.lenient_until("main");
+        // A PIC18F4431's port_init writes to what a PIC18F4520 has not.
+        chip.lenient_until(chip.has_symbol("ADCHS") ? "port_wait_tick"
+                                                    : "main");
         chip.set_oscillator(40e6);
     }
     for (const auto &[number, pin] : board.channels) {
