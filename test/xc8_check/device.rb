@@ -6,51 +6,35 @@
 # registers with their bits on standard output, as C for xc.h. Says what is wrong
 # and exits with 1.
 require_relative '../../tools/lib/gputils'
+require_relative '../../tools/lib/pic_port'
 
-# What a port says of its chip.
-class Port
+# A port beside what gputils has of its chip.
+class Check
   def initialize(folder)
-    chip = File.basename(folder).delete_prefix('pic')
     @folder = folder
-    @device = Device.new(chip)
-    @memory = Memory.new(chip)
+    @port = PicPort.new(folder)
+    @device = Device.new(@port.chip)
+    @memory = Memory.new(@port.chip)
     @wrong = []
   end
 
   def check
-    check_configuration(text_of('configuration.h'))
-    check_registers(text_of('registers.h'))
-    check_memory(text_of('configuration.h'), text_of('port.c'))
+    check_configuration
+    check_registers
+    check_memory
     abort @wrong.map { |what| "#{@folder}: #{what}" }.join("\n") unless @wrong.empty?
     puts @device.c_text
   end
 
   private
 
-  # With what it includes from the folders beside the port's.
-  def text_of(file)
-    File.read("#{@folder}/#{file}").gsub(%r{^#include "(\.\./[^"]+)"$}) { text_of(Regexp.last_match(1)) }
-  end
-
-  # SDCC's run-time stack lies in RAM, and the bytes of the interrupt at the end of
-  # what needs no bank.
-  def check_memory(configuration, port)
-    stack = configuration.match(/^#pragma stack 0x(\h+) 0x(\h+)$/) or return
-    first, size = stack.captures.map(&:hex)
-    @wrong << format('no RAM at 0x%X for the stack', first) unless (first...(first + size)).all? { |at| @memory.ram?(at) }
-    last = port[/^#define ACCESS_RAM_END 0x(\h+)$/, 1].to_s.hex
-    @wrong << format('access RAM does not end at 0x%X', last) unless last == @memory.access_end
-  end
-
   # Each setting once, and SDCC's word of a PIC16, a number, as XC8's settings make it.
-  def check_configuration(text)
-    settings = text.scan(/^#pragma config (.*)$/).flat_map { |line, *| line.split(',') }
-                   .map { |setting| setting.split('=').map(&:strip) }
-    @wrong << 'configuration.h has no #pragma config' if settings.empty?
-    values = settings.map { |name, value| known(name, value) }
-    names = settings.map(&:first)
+  def check_configuration
+    @wrong << 'configuration.h has no #pragma config' if @port.settings.empty?
+    values = @port.settings.map { |name, value| known(name, value) }
+    names = @port.settings.map(&:first)
     @wrong << "#{names.tally.key(2)} is set twice" if names.uniq.size < names.size
-    word = text[/configuration_word = 0x(\h+)/, 1] or return
+    word = @port.text_of('configuration.h')[/configuration_word = 0x(\h+)/, 1] or return
     all = values.compact.reduce(0x3FFF, :&)
     @wrong << format('SDCC has the word 0x%s, XC8 0x%04X', word, all) if word.hex != all
   end
@@ -63,16 +47,26 @@ class Port
   end
 
   # Their addresses, and the bits that have a mask: REGISTER_BIT.
-  def check_registers(text)
-    text.scan(/PORT_REGISTER\(0x(\h+), (\w+)\)/) do |address, name|
+  def check_registers
+    @port.registers.each do |name, address|
       @wrong << "no register #{name}" unless @device.registers.key?(name)
-      @wrong << "#{name} is not at 0x#{address}" unless @device.registers[name] == address.hex
+      @wrong << format('%s is not at 0x%02X', name, address) unless @device.registers[name] == address
     end
-    text.scan(/^#define ([^\W_]+)_(\w+) 0x(\h+)u?$/) do |register, name, mask|
+    @port.text_of('registers.h').scan(/^#define ([^\W_]+)_(\w+) 0x(\h+)u?$/) do |register, name, mask|
       bit = @device.bits.fetch(register, {})[name] or next
       @wrong << "#{register}_#{name} is not 0x#{mask}" unless 1 << bit == mask.hex
     end
   end
+
+  # SDCC's run-time stack lies in RAM, and the bytes of the interrupt at the end of
+  # what needs no bank.
+  def check_memory
+    stack = @port.stack or return
+    @wrong << format('no RAM at 0x%X for the stack', stack.first) unless stack.all? { |at| @memory.ram?(at) }
+    return if @port.access_end == @memory.access_end
+
+    @wrong << format('access RAM does not end at 0x%X', @port.access_end.to_i)
+  end
 end
 
-Port.new(ARGV.fetch(0)).check
+Check.new(ARGV.fetch(0)).check
