@@ -1,49 +1,9 @@
 // SPDX-License-Identifier: MIT
 // For SDCC only: the core registers that code, start-up and run-time library
-// refer to, of a midrange PIC16, an enhanced one and a PIC18.
+// refer to, of a midrange PIC16 and of an enhanced one.
 #define PORT_REGISTERS_HERE
 #include "compiler.h"
 
-#if defined(__SDCC_pic16)
-PORT_REGISTER(0xFD8, STATUS);
-PORT_REGISTER(0xFD9, FSR2L);
-PORT_REGISTER(0xFDA, FSR2H);
-PORT_REGISTER(0xFDB, PLUSW2);
-PORT_REGISTER(0xFDC, PREINC2);
-PORT_REGISTER(0xFDE, POSTINC2);
-PORT_REGISTER(0xFE1, FSR1L);
-PORT_REGISTER(0xFE2, FSR1H);
-PORT_REGISTER(0xFE4, PREINC1);
-PORT_REGISTER(0xFE5, POSTDEC1);
-PORT_REGISTER(0xFE6, POSTINC1);
-PORT_REGISTER(0xFE8, WREG);
-PORT_REGISTER(0xFE9, FSR0L);
-PORT_REGISTER(0xFEA, FSR0H);
-PORT_REGISTER(0xFEB, PLUSW0);
-PORT_REGISTER(0xFED, POSTDEC0);
-PORT_REGISTER(0xFEE, POSTINC0);
-PORT_REGISTER(0xFEF, INDF0);
-PORT_REGISTER(0xFF3, PRODL);
-PORT_REGISTER(0xFF4, PRODH);
-PORT_REGISTER(0xFF5, TABLAT);
-PORT_REGISTER(0xFF6, TBLPTRL);
-PORT_REGISTER(0xFF7, TBLPTRH);
-PORT_REGISTER(0xFF8, TBLPTRU);
-PORT_REGISTER(0xFF9, PCL);
-
-// Reached by pointers into the EEPROM only; there are none.
-void __eeprom_gptrget1(void)
-{
-}
-
-void __eeprom_gptrget2(void)
-{
-}
-
-void __eeprom_gptrget4(void)
-{
-}
-#else
 PORT_REGISTER(0x02, PCL);
 PORT_REGISTER(0x03, STATUS);
 PORT_REGISTER(0x0A, PCLATH);
@@ -55,5 +15,4 @@ PORT_REGISTER(0x08, BSR);
 #else
 PORT_REGISTER(0x00, INDF);
 PORT_REGISTER(0x04, FSR);
-#endif
 #endif
