@@ -26,6 +26,10 @@ class Assembled14 < Pic14Code
   include Assembled
 end
 
+class Assembled14Enhanced < Pic14EnhancedCode
+  include Assembled
+end
+
 class Assembled18 < Pic18Code
   include Assembled
 end
@@ -64,7 +68,9 @@ end
 
 REFUSED = { 'computed' => /computed/, 'turns' => /counts no constant/ }.freeze
 
-good = { 'cycles14' => Assembled14, 'cycles18' => Assembled18 }.flat_map do |name, kind|
+KINDS = { 'cycles14' => Assembled14, 'cycles14e' => Assembled14Enhanced, 'cycles18' => Assembled18 }.freeze
+
+good = KINDS.flat_map do |name, kind|
   source = "#{root}/test/target/simulator/#{name}.asm"
   path = assemble(source)
   code = kind.new(path, labels(path))

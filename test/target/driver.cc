@@ -49,18 +49,23 @@ Driver::Driver(const std::string &cod, const controller &which)
         chip.lenient_until("main");
         chip.set_oscillator(40e6);
     }
-    // The start-up code clears the byte, too: that is not yet a turn. Nor may
-    // the library need what start-up has cleared. Main may begin with its loop.
-    chip.on_execute(chip.code("main"), [this] {
-        if (!started) {
-            chip.fill_ram(poison);
-            started = true;
-        }
-    });
+    // The start-up code clears the byte, too: that is not yet a turn.
+    chip.on_execute(chip.code("main"), [this] { started = true; });
     chip.on_write(turn, [this](unsigned value) {
         if (started && value == 0) {
             take_turn();
         }
+    });
+}
+
+// Main may begin with its loop.
+void Driver::poison_ram()
+{
+    chip.on_execute(chip.code("main"), [this, done = false]() mutable {
+        if (!done) {
+            chip.fill_ram(poison);
+        }
+        done = true;
     });
 }
 
