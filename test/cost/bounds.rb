@@ -79,4 +79,7 @@ good = KINDS.flat_map do |name, kind|
   checks << expect("bound of #{name} turns, as stated", bound(code, 'turns', { 'turns' => 5 }), known.fetch('turns'))
   checks << expect("lengths of #{name}", known.size, 8..99)
 end
+CORES = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,
+          'p12lf1822' => Pic14EnhancedCode, 'p18f26k22' => Pic18Code, 'p12f509' => nil, 'p10f200' => nil }.freeze
+good += CORES.map { |chip, core| expect("core of #{chip}", [PicCode.of(chip)], [core]) }
 exit(good.all? ? 0 : 1)

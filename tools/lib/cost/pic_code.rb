@@ -21,10 +21,12 @@ class PicCode < Code
     @bytes = read_hex("#{path}.hex")
   end
 
-  # The core of a chip, pic16f684 or gpsim's p16f684; nil for another.
+  # The core of a chip, pic16f684 or gpsim's p16f684; nil for another, such as the
+  # small ones whose number begins with 5.
   def self.of(chip)
     case chip.sub(/\Ap(ic)?/, '')
     when /\A18/ then Pic18Code
+    when /\A1[26][a-z]+5/ then nil
     when /\A1[26][a-z]+1\d{3}/ then Pic14EnhancedCode
     when /\A(12|16[a-z]+\d{2,3}[a-z]?\z)/ then Pic14Code
     end
