@@ -65,7 +65,7 @@ VARIANTS = [
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted. A PIC
-# that is `like` one which `pics` name has its controllers, and no port.
+# that is `like` one which `pics` name has its controllers and needs no port.
 Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, :like, keyword_init: true) do
   # Where its configuration.h and its support/ are.
   def board
