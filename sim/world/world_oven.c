@@ -2,6 +2,7 @@
 // The oven's world: cold at power-on, with a temperature to reach, and a person
 // who turns the selector, opens the door and may choose another temperature or
 // break the sensor's wire.
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -127,11 +128,12 @@ double scene_voltage(uint8_t channel, double *noise)
         fraction = ((double)selector + 0.5) / POSITIONS;
         break;
     case PORT_TEMPERATURE:
-        fraction =
-            wire_broken
-                ? scene_options[WIRE_READS].value
-                : (oven_plant.state[OVEN_BODY] / SENSOR_RANGE_C) + HALF_COUNT;
+        fraction = (oven_plant.state[OVEN_BODY] / SENSOR_RANGE_C) + HALF_COUNT;
         *noise = NOISE_COUNTS / COUNTS;
+        if (wire_broken) {
+            fraction = fmin(scene_options[WIRE_READS].value, 1.0 - HALF_COUNT);
+            *noise = 0.0;
+        }
         break;
     default:
         break;

@@ -28,8 +28,8 @@ def offset_c(run)
   OVEN_SET_C - run.mean('temperature_c', 25.0, 30.0)
 end
 
-def oven_settling(run)
-  run.settling('temperature_c', OVEN_SET_C, BAND_C)
+def oven_settling(run, to = Float::INFINITY)
+  run.settling('temperature_c', OVEN_SET_C, BAND_C, 0.0, to)
 end
 
 def oven_overshoot(run)

@@ -42,7 +42,7 @@ def check_warming(run)
 end
 
 # The drive may go on from the error alone: in a period of 0.1 s, ki times it.
-def check_manual(run)
+def check_manual(run, to = LOW_POWER.from)
   by_hand = run.values('drive_counts', MANUAL.from + SEEN_S, MANUAL.to)
   Report.at_most('manual: the drive leaves its 10 % by',
                  by_hand.map { |v| (v - KEEP_WARM).abs }.max, 0.0, 'counts')
@@ -53,9 +53,9 @@ def check_manual(run)
                  largest_step(run, 'drive_counts', MANUAL.to, MANUAL.to + 1.0),
                  0.025 * 1023.0, 'counts')
   Report.at_most('back to automatic: overshoot',
-                 overshoot_percent(run, MANUAL.to, LOW_POWER.from), 0.5, '%')
+                 overshoot_percent(run, MANUAL.to, to), 0.5, '%')
   Report.at_most('back to automatic: settles within 2 % after',
-                 settled(run, MANUAL.to, LOW_POWER.from), 10.0, 's')
+                 settled(run, MANUAL.to, to), 10.0, 's')
 end
 
 def largest_step(run, column, from, to)
