@@ -9,13 +9,16 @@
 //   #define PWM_DUTY (*fake_word(&fake_pwm_duty))
 // With each use of a register the time goes on, so that a loop that waits for a
 // flag ends, and so that the check sees the pins between any two uses.
+//
+// A variable does not tell that it was written with what it was. Where that
+// matters, as for a flag that a written 1 clears, keep a bit set in it that the
+// chip has not: atmega328p/chip.c does.
 #ifndef FAKE_H
 #define FAKE_H
 #include <stdbool.h>
 #include <stdint.h>
 
-// --- yours, in fake/chip.c; `fake` variables may be used without the macros
-// ---
+// --- yours, in fake/chip.c, which uses the variables without the macros ---
 
 // All registers as they are after a power-on. A PWM that is not running yet may
 // hold any duty.
