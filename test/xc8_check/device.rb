@@ -67,12 +67,18 @@ class Port
 
   def check
     check_configuration(File.read("#{@folder}/configuration.h"))
-    check_registers(File.read("#{@folder}/registers.h"))
+    check_registers(registers('registers.h'))
     abort @wrong.map { |what| "#{@folder}: #{what}" }.join("\n") unless @wrong.empty?
     puts @device.c_text
   end
 
   private
+
+  # With what it includes of a family's.
+  def registers(file)
+    text = File.read("#{@folder}/#{file}")
+    text + text.scan(/^#include "(.*registers.*)"/).map { |included,| registers(included) }.join
+  end
 
   # Each setting once, and SDCC's word of a PIC16, a number, as XC8's settings make it.
   def check_configuration(text)
