@@ -17,7 +17,7 @@
 
 #define FULL PORT_DRIVE_FULL
 #define LEAST PORT_DRIVE_LEAST
-#define CPU_SECONDS 1u
+#define CPU_SECONDS 2u
 #define MOVES_MOST 100000u // for two PWM periods
 
 uint32_t chip_inputs[FAKE_INPUTS];
