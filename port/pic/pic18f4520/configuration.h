@@ -7,7 +7,7 @@
 
 #if defined(__SDCC) || defined(__XC8)
 #pragma config OSC = HSPLL, FCMEN = OFF, IESO = OFF
-#pragma config PWRT = ON, BOREN = SBORDIS, BORV = 1
+#pragma config PWRT = ON, BOREN = SBORDIS, BORV = 0
 #pragma config WDT = ON, WDTPS = 8
 #pragma config MCLRE = ON, LPT1OSC = OFF, PBADEN = OFF, CCP2MX = PORTC
 #pragma config STVREN = ON, LVP = OFF, XINST = OFF, DEBUG = OFF
