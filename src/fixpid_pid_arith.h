@@ -10,14 +10,6 @@
 #include "fixpid_bits.h"
 #include "fixpid_shift_add.h"
 
-// is_just below, as a macro: of an inline function SDCC mistakes the integral's
-// lowest byte, on an 8051 with --stack-auto.
-#if defined(__SDCC) && !defined(__SDCC_pic16)
-#define is_just(limit, counts, integral, fraction)                             \
-    (((counts) == (limit)) ? (((uint16_t)(integral) | (fraction)) == 0u)       \
-                           : false)
-#endif
-
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
 #else
@@ -74,7 +66,11 @@ FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 // Whether an integral, Q16.16 and eight bits more, of which `counts` is the
 // upper half, is just `limit` counts.
 #if defined(__SDCC) && !defined(__SDCC_pic16)
-// above
+// A macro: of an inline function SDCC mistakes the integral's lowest byte, on
+// an 8051 with --stack-auto.
+#define is_just(limit, counts, integral, fraction)                             \
+    (((counts) == (limit)) ? (((uint16_t)(integral) | (fraction)) == 0u)       \
+                           : false)
 // Deviation 20.9: INT_MAX is a macro of <limits.h>.
 #elif INT_MAX > 32767
 FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Chip of ../gpsim/chip.hh, simulated by simavr 1.6: an ATmega328P.
+// The Chip of ../chip/chip.hh, simulated by simavr 1.6: an ATmega328P.
 //
 // simavr runs one instruction at a time and says nothing of what it wrote, so
 // the addresses of stores are decoded here. What a PIC has and an AVR has not

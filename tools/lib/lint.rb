@@ -18,9 +18,9 @@ COMPLEXITY_MAX = 8
 # The include path and the definitions that a source is compiled with: those of
 # its board, or of both boards in turn.
 def includes(file)
-  base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/gpsim]
+  base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/chip]
   return [base] if file.start_with?('src/', 'include/')
-  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/')
+  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys
   boards = BOARDS.keys if boards.empty?

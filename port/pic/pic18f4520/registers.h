@@ -1,56 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The registers of the PIC18F4520 that port.c uses, as in its data sheet
-// (DS39631), and the bits that it names.
+// The registers of the PIC18F4520 that port.c uses and that other chips have
+// not, or elsewhere, as in its data sheet (DS39631).
 #ifndef PORT_PIC18F4520_REGISTERS_H
 #define PORT_PIC18F4520_REGISTERS_H
-#include "../compiler.h"
+#include "../pic18/registers_pic18.h"
 
-PORT_REGISTER(0xF89, LATA);
-PORT_REGISTER(0xF8A, LATB);
-PORT_REGISTER(0xF8B, LATC);
 PORT_REGISTER(0xF8C, LATD);
 PORT_REGISTER(0xF8D, LATE);
-PORT_REGISTER(0xF92, TRISA);
-PORT_REGISTER(0xF93, TRISB);
-PORT_REGISTER(0xF94, TRISC);
 PORT_REGISTER(0xF95, TRISD);
 PORT_REGISTER(0xF96, TRISE);
-PORT_REGISTER(0xF9E, PIR1);
-PORT_REGISTER(0xFA0, PIE2);
-PORT_REGISTER(0xFA1, PIR2);
-PORT_REGISTER(0xFA2, IPR2);
 PORT_REGISTER(0xFB1, T3CON);
 PORT_REGISTER(0xFBA, CCP2CON);
 PORT_REGISTER(0xFBB, CCPR2L);
 PORT_REGISTER(0xFBC, CCPR2H);
-PORT_REGISTER(0xFBD, CCP1CON);
-PORT_REGISTER(0xFBE, CCPR1L);
-PORT_REGISTER(0xFC0, ADCON2);
-PORT_REGISTER(0xFC1, ADCON1);
-PORT_REGISTER(0xFC2, ADCON0);
-PORT_REGISTER(0xFC3, ADRESL);
-PORT_REGISTER(0xFC4, ADRESH);
 PORT_REGISTER(0xFCA, T2CON);
 PORT_REGISTER(0xFCB, PR2);
-PORT_REGISTER(0xFCD, T1CON);
-PORT_REGISTER(0xFD0, RCON);
-PORT_REGISTER(0xFF2, INTCON);
-
-struct port_pir1 {
-    unsigned int : 1;
-    unsigned int TMR2IF : 1;
-};
-PORT_BITS(0xF9E, struct port_pir1, PIR1bits);
-
-struct port_adcon0 {
-    unsigned int : 1;
-    unsigned int GO : 1;
-};
-PORT_BITS(0xFC2, struct port_adcon0, ADCON0bits);
-
-#define PIR1_TMR2IF 0x02u
-#define PIR2_CCP2IF 0x01u
-#define ADCON0_GO 0x02u
-#define CCP1CON_DC1B 0x30u
 
 #endif

@@ -71,7 +71,7 @@ module Harness
     end
 
     def build_function
-      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/gpsim', 'test/cost/function.cc',
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/chip', 'test/cost/function.cc',
                   'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/function")
     end
 
@@ -103,7 +103,7 @@ module Harness
     end
 
     def pic(objects)
-      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/gpsim', *INCLUDES, 'test/cost/pic.cc',
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/chip', *INCLUDES, 'test/cost/pic.cc',
                   'test/target/driver.cc', *objects, 'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/pic")
     end
 

@@ -151,7 +151,7 @@ class ModulePicMeter < ModuleMeter
 
   def run
     harness = shared("#{Host.folder}/calls_pic") do |path|
-      Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/gpsim', 'test/beside/chip.cc',
+      Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/chip', 'test/beside/chip.cc',
                   'build/gpsim/libchip.a', '-lgpsim', '-o', path)
     end
     Host.output(harness, "#{@path}.cod", *@called.functions.keys)

@@ -3,7 +3,7 @@
 // registers.h and the core registers that code, start-up and run-time library
 // refer to.
 #define PORT_REGISTERS_HERE
-#include "../registers.h"
+#include "registers.h"
 
 PORT_REGISTER(0xFA6, EECON1);
 PORT_REGISTER(0xFD8, STATUS);
