@@ -951,6 +951,7 @@ void Port::unfed()
 }
 
 const std::vector<Port::Check> Port::checks = {
+    {"start", &Port::start, true}, // and before any other
     {"tick", &Port::tick_period, true},
     {"waits", &Port::waits, true},
     {"late", &Port::late_interrupts, true},
@@ -969,12 +970,11 @@ bool Port::run(const std::vector<std::string> &names)
 {
     size_t known = 0;
 
-    start();
     for (const Check &one : checks) {
         const bool named =
             std::find(names.begin(), names.end(), one.name) != names.end();
         known += named ? 1 : 0;
-        if (named || (names.empty() && one.usual)) {
+        if (named || (names.empty() && one.usual) || &one == &checks.front()) {
             check = one.name;
             (this->*one.run)();
         }
