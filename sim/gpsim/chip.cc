@@ -57,7 +57,7 @@ struct Chip::Implementation {
 
     Console console;
     Halt halt;
-    std::stringbuf printed_by_gpsim;
+    Printed printed_by_gpsim;
     std::streambuf *real_cout = nullptr;
     std::streambuf *real_cerr = nullptr;
 

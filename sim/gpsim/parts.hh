@@ -37,6 +37,17 @@ constexpr double supply_volts = 5.0;
 constexpr double source_ohms = 1.0; // 100 would lose code 1023
 constexpr double probe_ohms = 1e9;
 
+// What gpsim prints, but for what a PIC18F26K22's Timer2 says in each period of
+// CCP1's PWM of a CCP2 that compares.
+struct Printed : std::stringbuf {
+    std::streamsize xsputn(const char *text, std::streamsize size) override
+    {
+        return std::string(text, (size_t)size) == "not pwm mode. bug?\n"
+                   ? size
+                   : std::stringbuf::xsputn(text, size);
+    }
+};
+
 // gpsim's command line, which we do not have; its messages go with the others.
 struct Console : ISimConsole {
     void Printf(const char *format, ...) override

@@ -15,7 +15,8 @@ MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-
              'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,
-             'motor_uno' => 16_000, 'oven_uno' => 16_000 }.freeze
+             'motor_pic18f26k22' => 10_000, 'oven_pic18f26k22' => 10_000,
+             'motor_atmega328p' => 16_000, 'oven_atmega328p' => 16_000 }.freeze
 
 # What one of the runs printed.
 class Logs
@@ -111,7 +112,9 @@ def interrupts
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
-TITLES_OF_CHIPS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p' => 'ATmega328P' }.freeze
+def title_of_chip(chip)
+  chip == 'atmega328p' ? 'ATmega328P' : chip.upcase
+end
 
 def stacks(chip, figures)
   return "#{figures['stack']} bytes" if chip == 'atmega328p'
@@ -126,7 +129,7 @@ def firmware
     size = SIZES.fetch(name)
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
-    ["#{name.sub(/_uno$/, '')}, #{TITLES_OF_CHIPS.fetch(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+    ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
      "#{size['ram']} of #{size['ram_size']}", stacks(size['chip'], figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end

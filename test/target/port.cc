@@ -152,6 +152,19 @@ const Board pic18f4520 = {8,
                           0xFBB,
                           {0xFBE, 0xFBD}};
 
+// The same pins, of which ANSEL has the analog ones, and another Timer2. Of the
+// watchdog's postscaler gpsim takes the bits one place too low, 128 for 8.
+const Board pic18f26k22 = [] {
+    Board board = pic18f4520;
+    board.pwm_on = {0xFBA, 0x04};
+    board.others.insert(
+        board.others.end(),
+        {{0xF38, 0xFF, 0x07}, {0xF39, 0xFF, 0}, {0xF3A, 0xFF, 0}});
+    board.half_moved = 0xF67;
+    board.watchdog *= 16;
+    return board;
+}();
+
 const Board atmega328p = {14 * 4,
                           0x5F,
                           {0x35, 0x02},
@@ -190,6 +203,9 @@ const Board &board_of(const Chip &chip)
 {
     if (chip.processor() == "atmega328p") {
         return atmega328p;
+    }
+    if (chip.processor() == "p18f26k22") {
+        return pic18f26k22;
     }
     return chip.is_pic18() ? pic18f4520 : pic16f684;
 }
@@ -278,7 +294,9 @@ class Port
 Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
 {
     if (chip.is_pic18()) {
-        chip.lenient_until("main");
+        // A PIC18F4431's port_init writes to what a PIC18F4520 has not.
+        chip.lenient_until(chip.has_symbol("ADCHS") ? "port_wait_tick"
+                                                    : "main");
         chip.set_oscillator(40e6);
     }
     for (const std::string &pin : board.channels) {

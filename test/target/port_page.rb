@@ -5,7 +5,8 @@
 # in BUILD have measured? Prints what it does not say and fails.
 build, document = ARGV
 PAGE = File.read(document)
-CYCLES_PER_SECOND = { 'pic16f684' => 2_000_000, 'pic18f4520' => 10_000_000, 'atmega328p' => 16_000_000 }.freeze
+CYCLES_PER_SECOND = { 'pic16f684' => 2_000_000, 'pic18f4520' => 10_000_000, 'pic18f26k22' => 10_000_000,
+                      'pic18f4431' => 10_000_000, 'atmega328p' => 16_000_000 }.freeze
 
 def hertz(frequency)
   frequency < 1000 ? format('%.2f Hz', frequency) : format('%g kHz', frequency / 1000.0)

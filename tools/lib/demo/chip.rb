@@ -13,7 +13,7 @@ class Chip
   # time: the longest pass of a row is the one that controls.
   def initialize(name, title, step, scenario, step_ticks: 1)
     @name = name
-    @example = name.delete_suffix('_uno') # what comes after _ is a board
+    @example = name[/^[a-z]+(_8bit)?/] # what follows is a chip
     @title = title
     @step = step
     @scenario = scenario
@@ -83,11 +83,17 @@ CHIPS = [
            { seconds: 60 }, step_ticks: 100),
   Chip.new('autotune', 'autotuner on a PIC18F4520', 'fixpid_pid_step',
            { seconds: 75 }, step_ticks: 100),
-  Chip.new('motor_uno', 'motor, AN937 on an Arduino Uno', 'fixpid_an937_step',
+  Chip.new('motor_pic18f26k22', 'motor, AN937 on a PIC18F26K22', 'fixpid_an937_step',
            {}),
-  Chip.new('oven_uno', 'oven, AN937 on an Arduino Uno', 'fixpid_an937_step',
+  Chip.new('oven_pic18f26k22', 'oven, AN937 on a PIC18F26K22', 'fixpid_an937_step',
+           { seconds: 15 }),
+  Chip.new('thermostat_pic18f26k22', 'thermostat on a PIC18F26K22', 'fixpid_pid_step',
+           { seconds: 60 }, step_ticks: 100),
+  Chip.new('motor_atmega328p', 'motor, AN937 on an Arduino Uno', 'fixpid_an937_step',
+           {}),
+  Chip.new('oven_atmega328p', 'oven, AN937 on an Arduino Uno', 'fixpid_an937_step',
            { seconds: 20 }),
-  Chip.new('thermostat_uno', 'thermostat on an Arduino Uno', 'fixpid_pid_step',
+  Chip.new('thermostat_atmega328p', 'thermostat on an Arduino Uno', 'fixpid_pid_step',
            { seconds: 60 }, step_ticks: 100)
 ].freeze
 
@@ -104,27 +110,34 @@ Agreement = Struct.new(:column, :unit, :from, :to, :most, :start) do
   end
 end
 
+MOTOR_AGREES = [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 10.0),
+                Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)].freeze
+OVEN_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 15.0, 0.05)].freeze
+THERMOSTAT_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)].freeze
 AGREEMENTS = {
   'pendulum' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
   'pendulum_8bit' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
-  'motor' => [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 10.0),
-              Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
-  'oven' => [Agreement.new('temperature_c', 'C', 0.0, 15.0, 0.05)],
-  'thermostat' => [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)],
+  'motor' => MOTOR_AGREES,
+  'oven' => OVEN_AGREES,
+  'thermostat' => THERMOSTAT_AGREES,
   'autotune' => [Agreement.new('temperature_c', 'C', 0.0, 75.0, 0.1)],
+  'motor_pic18f26k22' => MOTOR_AGREES,
+  'oven_pic18f26k22' => OVEN_AGREES,
+  'thermostat_pic18f26k22' => THERMOSTAT_AGREES,
   # Its loop comes round every quarter of a tick, in which a start gains 3 rad/s.
-  'motor_uno' => [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 15.0),
-                  Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
-  'oven_uno' => [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)],
-  'thermostat_uno' => [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)]
+  'motor_atmega328p' => [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 15.0),
+                         Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
+  'oven_atmega328p' => [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)],
+  'thermostat_atmega328p' => THERMOSTAT_AGREES
 }.freeze
 
 # To simulate, so they begin first.
-LONGEST = %w[thermostat autotune oven thermostat_uno oven_uno].freeze
+LONGEST = %w[thermostat thermostat_pic18f26k22 autotune oven oven_pic18f26k22 thermostat_atmega328p
+             oven_atmega328p].freeze
 
 def chip
   CHIPS.each(&:run_on_host)
-  run_two_at_a_time(CHIPS.sort_by { |one| LONGEST.index(one.name) || 9 })
+  run_two_at_a_time(CHIPS.sort_by { |one| LONGEST.index(one.name) || LONGEST.size })
   CHIPS.each do |one|
     Report.start("chip #{one.name}")
     check_on_chip(one)
@@ -263,15 +276,18 @@ def chip_table
   end
 end
 
+# Of panels: the examples in two columns, and one for each other chip.
+ROWS = 3
+
 def draw_chips
   plot = Plot.new('chip', 'Simulated chip minus host: the same sources, the ' \
                           'same scenario (grey: where and how far they may differ)',
-                  width: 1400, height: 760, columns: [1.0] * 3,
-                  rows: [1.0] * (CHIPS.size / 3), gap_x: 0.06, gap_y: 0.085,
+                  width: 1800, height: 760, columns: [1.0] * 4,
+                  rows: [1.0] * ROWS, gap_x: 0.05, gap_y: 0.085,
                   margins: { top: 0.91, right: 0.985 })
-  pics, unos = CHIPS.partition { |one| one.name == one.example }
-  pics.each_with_index { |one, i| difference_panel(plot, i / 2, i % 2, one) }
-  unos.each_with_index { |one, i| difference_panel(plot, i, 2, one) }
+  own, others = CHIPS.partition { |one| one.name == one.example }
+  own.each_with_index { |one, i| difference_panel(plot, i / 2, i % 2, one) }
+  others.each_with_index { |one, i| difference_panel(plot, i % ROWS, 2 + i / ROWS, one) }
   plot.draw
 end
 
@@ -289,7 +305,7 @@ def difference_panel(plot, row, column, one)
               "set xrange [#{parts.first.from}:#{parts.last.to}]",
               "set yrange [#{-top}:#{top}]",
               "set ylabel '#{AXES.fetch(parts.first.column)}'",
-              *(row == CHIPS.size / 3 - 1 ? ["set xlabel 'time, s'"] : [])])
+              *(row == ROWS - 1 ? ["set xlabel 'time, s'"] : [])])
 end
 
 AXES = { 'angle_degrees' => 'angle, degrees', 'speed_rad_s' => 'speed, rad/s',
