@@ -69,6 +69,7 @@ struct Board {
     } working;
     unsigned half_moved; // the first register of two that move the next tick
     std::vector<unsigned> duty; // registers that hold it, the last byte of each
+    unsigned clock; // the register that doubles the clock after a reset, or 0
 };
 
 // CCPR1L and CCP1CON's low bits.
@@ -116,7 +117,8 @@ const Board pic16f684 = {
     17.9e-3,
     {0x03, 0x27, 0, 1},
     0,
-    {0x13, 0x15}};
+    {0x13, 0x15},
+    0x8F};
 
 const Board pic18f4520 = {8,
                           0xFF2,
@@ -150,7 +152,8 @@ const Board pic18f4520 = {8,
                           4.5 * 32e-3, // gpsim 0.31 is slow here
                           {0xFD8, 0x1F, 0xFE0, 16},
                           0xFBB,
-                          {0xFBE, 0xFBD}};
+                          {0xFBE, 0xFBD},
+                          0};
 
 // The same pins, of which ANSEL has the analog ones, and another Timer2. Of the
 // watchdog's postscaler gpsim takes the bits one place too low, 128 for 8.
@@ -197,7 +200,8 @@ const Board atmega328p = {14 * 4,
                           32e-3,
                           {0x5F, 0x7F, 0, 1},
                           0,
-                          {0x88}};
+                          {0x88},
+                          0};
 
 const Board &board_of(const Chip &chip)
 {
@@ -268,9 +272,10 @@ class Port
     Meter *interrupt, *conversion;
     bool started = false;
     bool was_reverse = false;
-    uint64_t last_high = 0;  // cycle when a drive pin was on
-    uint64_t turned_at = 0;  // cycle, or 0 when the drive was on since
-    uint64_t off_before = 0; // cycles without drive, at that turn
+    uint64_t slow_cycles = 0; // before the clock was doubled
+    uint64_t last_high = 0;   // cycle when a drive pin was on
+    uint64_t turned_at = 0;   // cycle, or 0 when the drive was on since
+    uint64_t off_before = 0;  // cycles without drive, at that turn
     uint64_t without_drive = UINT64_MAX;      // cycles at a turn, the least
     std::map<std::string, uint64_t> went_off; // cycles, by pin of a leg
     uint64_t leg_off = UINT64_MAX;            // cycles of a leg, the least
@@ -335,6 +340,10 @@ Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
     });
     chip.on_execute(board.vector, [this] { interrupted(); });
     interrupt->on_return = [this](uint64_t) { returned(); };
+    if (board.clock != 0) {
+        chip.on_write(board.clock,
+                      [this](unsigned) { slow_cycles = chip.cycle(); });
+    }
     for (const unsigned address : board.duty) {
         chip.on_write(address, [this](unsigned) { duty_written(); });
     }
@@ -655,8 +664,9 @@ void Port::start()
                   pins.address, found, pins.value);
         }
     }
-    std::printf("off after reset, and after port_init, %" PRIu64 " cycles\n",
-                cycles);
+    std::printf("off after reset, and after port_init, %.1f ms\n",
+                1000.0 * static_cast<double>(cycles + slow_cycles) /
+                    chip.cycles_per_second());
 }
 
 // Other calls in between change the interrupt's latency, not its period.
