@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A microcontroller simulated by gpsim 0.31, ../gpsim/chip.cc, with a firmware in
-// it. An AVR is simulated by simavr, ../simavr/chip.cc, behind the same functions,
-// as far as it has what they are about.
+// A microcontroller simulated by gpsim 0.31, ../gpsim/chip.cc, with a firmware
+// in it. An AVR is simulated by simavr, ../simavr/chip.cc, behind the same
+// functions, as far as it has what they are about.
 //
 // gpsim keeps its state in global variables, so a program has one chip: a
 // second one is refused. Everything is deterministic; time is instruction

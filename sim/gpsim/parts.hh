@@ -260,21 +260,29 @@ struct GuardedStack : Stack {
         // A PIC18's has 31 levels: a pointer of 0 is its empty stack.
         return (real->stack_mask == 31) ? 31 : real->stack_mask + 1;
     }
+    // Levels that are taken. An enhanced PIC16's empty stack has a pointer of
+    // its own.
+    unsigned depth() const
+    {
+        return (real->pointer == NO_ENTRY)
+                   ? 0
+                   : (unsigned)std::max(real->pointer, 0);
+    }
     bool push(unsigned address) override
     {
         last_push = get_cycles().get();
-        if (real->pointer >= (int)size()) {
+        if (depth() >= size()) {
             fault("return stack overflow: more than " + std::to_string(size()) +
                   " levels");
             return true; // the run ends; do not let gpsim reset the chip
         }
         const bool pushed = real->push(address);
-        most = std::max(most, (unsigned)std::max(real->pointer, 0));
+        most = std::max(most, depth());
         return pushed;
     }
     unsigned pop() override
     {
-        if (real->pointer <= 0) {
+        if (depth() == 0) {
             fault("return stack underflow: a return without a call");
             return 0;
         }
@@ -317,7 +325,7 @@ struct GuardedStack : Stack {
     }
     unsigned top() const
     {
-        return real->contents[(unsigned)(real->pointer - 1) & real->stack_mask];
+        return real->contents[(depth() - 1) & real->stack_mask];
     }
 };
 

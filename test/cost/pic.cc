@@ -54,6 +54,7 @@ Steps::Steps(const std::string &cod, const controller &which,
         step.on_call = [this] { poison_stack(); };
         step.on_return = [this](uint64_t) { measure_stack(); };
     }
+    driver.poison_ram();
     driver.run_turn(); // up to the first wait
 }
 
