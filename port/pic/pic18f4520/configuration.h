@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The configuration words of the PIC18F4520, in the spelling that SDCC and XC8
 // share: 10 MHz crystal times four, watchdog of 32 ms, power-up timer,
-// brown-out reset at 4.36 V at least (40 MHz need 4.2 V), reset on a stack fault.
+// brown-out reset at 4.36 V at least (40 MHz need 4.2 V), reset on a stack
+// fault.
 #ifndef PORT_PIC18F4520_CONFIGURATION_H
 #define PORT_PIC18F4520_CONFIGURATION_H
 
