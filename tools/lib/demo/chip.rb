@@ -71,6 +71,13 @@ class Chip
   end
 end
 
+# The sensor's wire breaks, between two passes of a loop.
+CHIP_OVEN_WIRE = Stretch.new(15.05, 19.05)
+CHIP_THERMOSTAT_WIRE = Stretch.new(44.05, 48.05)
+OVEN_ON_CHIP = { seconds: 20, wire_at: CHIP_OVEN_WIRE.from, wire_for: 4 }.freeze
+THERMOSTAT_ON_CHIP = { seconds: 60, wire_at: CHIP_THERMOSTAT_WIRE.from,
+                       wire_for: 4 }.freeze
+
 CHIPS = [
   Chip.new('pendulum', 'pendulum, AN964 on a PIC16F684', 'fixpid_an964_step',
            POTENTIOMETERS),
@@ -78,23 +85,23 @@ CHIPS = [
            POTENTIOMETERS),
   Chip.new('motor', 'motor, AN937 on a PIC18F4520', 'fixpid_an937_step', {}),
   Chip.new('oven', 'oven, AN937 on a PIC18F4520', 'fixpid_an937_step',
-           { seconds: 15 }),
+           OVEN_ON_CHIP),
   Chip.new('thermostat', 'thermostat on a PIC18F4520', 'fixpid_pid_step',
-           { seconds: 60 }, step_ticks: 100),
+           THERMOSTAT_ON_CHIP, step_ticks: 100),
   Chip.new('autotune', 'autotuner on a PIC18F4520', 'fixpid_pid_step',
            { seconds: 75 }, step_ticks: 100),
   Chip.new('motor_pic18f26k22', 'motor, AN937 on a PIC18F26K22', 'fixpid_an937_step',
            {}),
   Chip.new('oven_pic18f26k22', 'oven, AN937 on a PIC18F26K22', 'fixpid_an937_step',
-           { seconds: 15 }),
+           OVEN_ON_CHIP),
   Chip.new('thermostat_pic18f26k22', 'thermostat on a PIC18F26K22', 'fixpid_pid_step',
-           { seconds: 60 }, step_ticks: 100),
+           THERMOSTAT_ON_CHIP, step_ticks: 100),
   Chip.new('motor_atmega328p', 'motor, AN937 on an Arduino Uno', 'fixpid_an937_step',
            {}),
   Chip.new('oven_atmega328p', 'oven, AN937 on an Arduino Uno', 'fixpid_an937_step',
-           { seconds: 20 }),
+           OVEN_ON_CHIP),
   Chip.new('thermostat_atmega328p', 'thermostat on an Arduino Uno', 'fixpid_pid_step',
-           { seconds: 60 }, step_ticks: 100)
+           THERMOSTAT_ON_CHIP, step_ticks: 100)
 ].freeze
 
 # How far the chip may be off the host, by column, from one time to another. The
@@ -112,8 +119,11 @@ end
 
 MOTOR_AGREES = [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 10.0),
                 Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)].freeze
-OVEN_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 15.0, 0.05)].freeze
-THERMOSTAT_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 60.0, 0.1)].freeze
+OVEN_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)].freeze
+# After the wire is whole it goes on from its last duty, with the noise that this
+# had.
+THERMOSTAT_AGREES = [Agreement.new('temperature_c', 'C', 0.0, CHIP_THERMOSTAT_WIRE.to, 0.1),
+                     Agreement.new('temperature_c', 'C', CHIP_THERMOSTAT_WIRE.to, 60.0, 0.5)].freeze
 AGREEMENTS = {
   'pendulum' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
   'pendulum_8bit' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
@@ -127,7 +137,7 @@ AGREEMENTS = {
   # Its loop comes round every quarter of a tick, in which a start gains 3 rad/s.
   'motor_atmega328p' => [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 15.0),
                          Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)],
-  'oven_atmega328p' => [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)],
+  'oven_atmega328p' => OVEN_AGREES,
   'thermostat_atmega328p' => THERMOSTAT_AGREES
 }.freeze
 
@@ -209,19 +219,24 @@ def check_oven_on_chip(one)
                  (OVEN_SET_C - run.mean('temperature_c', 10.0, 15.0)).abs,
                  0.5, 'C')
   Report.at_most('overshoot', oven_overshoot(run), 5.0, '%')
-  Report.at_most('settles within 2 % after', oven_settling(run),
-                 1.1 * oven_settling(one.host), 's')
+  Report.at_most('settles within 2 % after', oven_settling(run, 15.0),
+                 1.1 * oven_settling(one.host, 15.0), 's')
+  check_wire(run, 'open', CHIP_OVEN_WIRE.from, CHIP_OVEN_WIRE.to, 0.02)
   AGREEMENTS[one.name][0].check(one)
 end
 
 def check_thermostat_on_chip(one)
   run = one.chip
   check_warming(run)
-  check_manual(run)
+  check_manual(run, CHIP_THERMOSTAT_WIRE.from)
   limited = run.values('drive_counts', LOW_POWER.from + SEEN_S)
   Report.at_most('limit lowered: the drive, at once', limited.max, LOW_LIMIT,
                  'counts')
-  AGREEMENTS[one.name][0].check(one)
+  check_wire(run, 'open', CHIP_THERMOSTAT_WIRE.from, CHIP_THERMOSTAT_WIRE.to,
+             0.12)
+  before, after = AGREEMENTS[one.name]
+  before.check(one)
+  after.check(one, 'wire whole again: agrees with the host')
 end
 
 # The gains are as the swing was, to its noise.

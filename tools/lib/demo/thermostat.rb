@@ -18,6 +18,7 @@ def thermostat
   check_manual(run)
   check_low_power(run)
   check_door(run)
+  check_thermostat_wire
   check_thermostat_integration(run)
   draw_thermostat(run)
 end
@@ -41,7 +42,7 @@ def check_warming(run)
 end
 
 # The drive may go on from the error alone: in a period of 0.1 s, ki times it.
-def check_manual(run)
+def check_manual(run, to = LOW_POWER.from)
   by_hand = run.values('drive_counts', MANUAL.from + SEEN_S, MANUAL.to)
   Report.at_most('manual: the drive leaves its 10 % by',
                  by_hand.map { |v| (v - KEEP_WARM).abs }.max, 0.0, 'counts')
@@ -52,9 +53,9 @@ def check_manual(run)
                  largest_step(run, 'drive_counts', MANUAL.to, MANUAL.to + 1.0),
                  0.025 * 1023.0, 'counts')
   Report.at_most('back to automatic: overshoot',
-                 overshoot_percent(run, MANUAL.to, LOW_POWER.from), 0.5, '%')
+                 overshoot_percent(run, MANUAL.to, to), 0.5, '%')
   Report.at_most('back to automatic: settles within 2 % after',
-                 settled(run, MANUAL.to, LOW_POWER.from), 10.0, 's')
+                 settled(run, MANUAL.to, to), 10.0, 's')
 end
 
 def largest_step(run, column, from, to)
@@ -81,6 +82,49 @@ def check_door(run)
                  'C')
   Report.at_most('door shut: settles within 2 % after',
                  settled(run, DOOR.to, THERMOSTAT_END_S), 7.0, 's')
+end
+
+# The sensor's wire of an oven that is hot: open, it reads full scale, and at
+# ground 0. A resistor pulls it up, so an open one also reads hot.
+WIRE = Stretch.new(20.0, 25.0, 'wire broken')
+WIRE_ENDS = { 'open' => 1.0, 'at ground' => 0.0 }.freeze
+
+def check_thermostat_wire
+  never = { manual_at: 3600, low_power_at: 3600, door_at: 3600 }
+  WIRE_ENDS.each do |how, reads|
+    run = Host.run('thermostat', "thermostat-wire_#{reads.to_i}",
+                   every: 0.02, seconds: 45, wire_at: WIRE.from,
+                   wire_for: WIRE.to - WIRE.from, wire_reads: reads, **never)
+    check_wire(run, how, WIRE.from, WIRE.to, 0.12)
+    check_wire_bump(run, how)
+    Report.at_most("wire #{how}, whole again: overshoot",
+                   overshoot_percent(run, WIRE.to, 45.0), 0.5, '%')
+    Report.at_most("wire #{how}, whole again: settles within 2 % after",
+                   settled(run, WIRE.to, 45.0), 10.0, 's')
+  end
+end
+
+# The controller passes when the wire is whole. From its second pass on it sees
+# how fast the temperature falls.
+def check_wire_bump(run, how)
+  before = run.mean('drive_counts', WIRE.from - 5.0, WIRE.from)
+  back = WIRE.to + 0.02
+  Report.at_most("wire #{how}, whole again: first drive, off that of before",
+                 (run.values('drive_counts', back).first - before).abs,
+                 0.025 * 1023.0, 'counts')
+  Report.at_most("wire #{how}, whole again: largest step of the drive in 1 s",
+                 largest_step(run, 'drive_counts', back, back + 1.0),
+                 0.1 * 1023.0, 'counts')
+end
+
+# The drive is off `after` seconds after the wire broke, until it is whole.
+def check_wire(run, how, from, to, after)
+  Report.at_most("wire #{how}: the drive, #{after} s later",
+                 run.values('drive_counts', from + after, to).max,
+                 0.0, 'counts')
+  Report.at_least("wire #{how}: the temperature falls by",
+                  OVEN_SET_C - run.values('temperature_c', from, to).last,
+                  15.0, 'C')
 end
 
 def check_thermostat_integration(run)

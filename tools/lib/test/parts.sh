@@ -163,6 +163,7 @@ part_lint() {
 part_consumers() {
     need cmake make ruby
     count consumers '^ok ' '^FAILED ' test/consumers/run
+    count 'test/port_check/run' '^ok ' '^FAILED ' test/port_check/run
 }
 
 part_firmware() {
