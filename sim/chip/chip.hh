@@ -105,6 +105,8 @@ class Chip
     bool is_pic18() const;
     std::string processor() const; // "p16f684"
     unsigned program_counter() const;
+    unsigned working() const; // W; r24 of an AVR
+    void set_working(unsigned value);
     unsigned stack_depth() const;   // return addresses on the hardware stack
     unsigned stack_most() const;    // the deepest at any instruction so far
     std::string stack_unit() const; // "levels", or "bytes" of RAM

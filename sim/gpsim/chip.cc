@@ -436,6 +436,16 @@ unsigned Chip::program_counter() const
     return self->processor->pma->get_PC();
 }
 
+unsigned Chip::working() const
+{
+    return self->processor->Wget();
+}
+
+void Chip::set_working(unsigned value)
+{
+    self->processor->Wput(value);
+}
+
 unsigned Chip::stack_depth() const
 {
     return self->stack->depth();

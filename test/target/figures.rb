@@ -30,6 +30,10 @@ class Logs
     abort "figures: #{name} was not run"
   end
 
+  def names(pattern)
+    Dir.glob("#{@folder}/#{pattern}.log").map { |path| File.basename(path, '.log') }
+  end
+
   # The named numbers of the line that matches: "rows 2000 different 0".
   def numbers(name, pattern)
     line = read(name)[pattern] or abort "figures: #{name} printed no #{pattern.source}"
@@ -89,17 +93,22 @@ def pairs
   PROCESSORS.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
+# The named numbers of all forms and modes, added up.
+def all_interrupts(kind, controller, chip)
+  LOGS.names("interrupts_#{kind}{,plain,placed}-#{controller}-#{chip}-*")
+      .map { |name| LOGS.numbers(name, /interrupts .*/).to_h }
+      .reduce { |sum, one| sum.merge(one) { |_, left, right| left + right } } or
+    abort "figures: no interrupts of #{controller}, #{chip}"
+end
+
 def interrupts
   rows = pairs.map do |chip, controller|
-    good = LOGS.numbers("interrupts_tick-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    good = all_interrupts('tick', controller, chip)
     racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
     ["#{PROCESSORS[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
-  rows += POINTER_AND_OBJECT.map do |mode|
-    ticking = LOGS.numbers("interrupts_ticking-an937-pic18f4520-#{mode}", /interrupts .*/).to_h
-    ["PIC18 AN937, `fixpid_an937_tick` in the interrupt, #{mode} mode", ticking['interrupts'], '-',
-     ticking['changed'], '-']
-  end
+  ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
+  rows << ['PIC18 AN937, `fixpid_an937_tick` in the interrupt', ticking['interrupts'], '-', ticking['changed'], '-']
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
