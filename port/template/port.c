@@ -93,12 +93,12 @@ uint16_t port_read(uint8_t channel)
 // Sets the drive: the sign is the direction and the magnitude the duty, limited
 // to PORT_DRIVE_FULL; below PORT_DRIVE_LEAST it is off. Takes effect at once.
 //   * "At once" is by the end of the second PWM period, but for the direction.
-//   * No pulse is ever shorter than PORT_DRIVE_LEAST, not even between two
-//   writes
-//     of a duty that takes two registers.
+//   * No pulse is ever shorter than PORT_DRIVE_LEAST, not even between the two
+//     writes of a duty that takes two registers.
 //   * INT16_MIN has no magnitude in an int16_t: take it unsigned.
 //   * Before the direction changes, let a whole PWM period pass without duty,
-//     so that no leg of the bridge has both of its switches on.
+//     and one after it, too, where a leg of the bridge turns with it: so no leg
+//     has both of its switches on.
 void port_drive(int16_t duty)
 {
     (void)duty;
