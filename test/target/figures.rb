@@ -18,7 +18,8 @@ MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-
              'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,
-             'motor_uno' => 16_000, 'oven_uno' => 16_000 }.freeze
+             'motor_pic18f26k22' => 10_000, 'oven_pic18f26k22' => 10_000,
+             'motor_atmega328p' => 16_000, 'oven_atmega328p' => 16_000 }.freeze
 
 # What one of the runs printed.
 class Logs
@@ -30,6 +31,10 @@ class Logs
     File.read("#{@folder}/#{name}.log")
   rescue Errno::ENOENT
     abort "figures: #{name} was not run"
+  end
+
+  def names(pattern)
+    Dir.glob("#{@folder}/#{pattern}.log").map { |path| File.basename(path, '.log') }
   end
 
   # The named numbers of the line that matches: "rows 2000 different 0".
@@ -92,38 +97,42 @@ def pairs
   PROCESSORS.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
+# The named numbers of all forms and modes, added up.
+def all_interrupts(kind, controller, chip)
+  LOGS.names("interrupts_#{kind}{,plain,placed}-#{controller}-#{chip}-*")
+      .map { |name| LOGS.numbers(name, /interrupts .*/).to_h }
+      .reduce { |sum, one| sum.merge(one) { |_, left, right| left + right } } or
+    abort "figures: no interrupts of #{controller}, #{chip}"
+end
+
 def interrupts
   rows = pairs.map do |chip, controller|
-    good = LOGS.numbers("interrupts_tick-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    good = all_interrupts('tick', controller, chip)
     racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
     ["#{PROCESSORS[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
-  rows += POINTER_AND_OBJECT.map do |mode|
-    ticking = LOGS.numbers("interrupts_ticking-an937-pic18f4520-#{mode}", /interrupts .*/).to_h
-    ["PIC18 AN937, `fixpid_an937_tick` in the interrupt, #{mode} mode", ticking['interrupts'], '-',
-     ticking['changed'], '-']
-  end
+  ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
+  rows << ['PIC18 AN937, `fixpid_an937_tick` in the interrupt', ticking['interrupts'], '-', ticking['changed'], '-']
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
-TITLES_OF_CHIPS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p' => 'ATmega328P' }.freeze
+def title_of_chip(chip)
+  chip == 'atmega328p' ? 'ATmega328P' : chip.upcase
+end
 
-# Each takes the firmware's path without its ending.
-CODES = { 'pic16f684' => ->(path) { Pic14Code.new(path) }, 'pic18f4520' => ->(path) { Pic18Code.new(path) },
-          'atmega328p' => ->(path) { AvrCode.new("#{path}.elf") } }.freeze
-LEVELS = { 'pic16f684' => 8, 'pic18f4520' => 31 }.freeze
+# What was seen is no deeper than the code says.
+def deep(name, bound, seen)
+  bound >= seen ? bound : abort("figures: #{name} was seen to use a stack of #{seen}, its code says #{bound}")
+end
 
-# Of the code; what was seen is no deeper.
 def stacks(name, chip, figures)
-  depth = Stack.new(CODES.fetch(chip).call("#{FIRMWARE}/#{name}")).firmware
-  seen = LEVELS.key?(chip) ? [figures['stack'], figures['software']] : [0, figures['stack']]
-  if depth.levels < seen[0] || depth.bytes < seen[1]
-    abort "figures: #{name} used a stack of #{seen.join(' levels, ')} bytes, its code says #{depth.levels} and #{depth.bytes}"
-  end
-  return "#{depth.bytes} bytes" unless LEVELS.key?(chip)
+  code = chip == 'atmega328p' ? AvrCode.new("#{FIRMWARE}/#{name}.elf") : PicCode.of(chip).new("#{FIRMWARE}/#{name}")
+  depth = Stack.new(code).firmware
+  return "#{deep(name, depth.bytes, figures['stack'])} bytes" if chip == 'atmega328p'
 
-  levels = "#{depth.levels} of #{LEVELS.fetch(chip)}"
-  depth.bytes.zero? ? levels : "#{levels}, #{depth.bytes} of 256 bytes"
+  levels = "#{deep(name, depth.levels, figures['stack'])} of #{code.class::LEVELS}"
+  bytes = deep(name, depth.bytes, figures['software'])
+  bytes.zero? ? levels : "#{levels}, #{bytes} of 256 bytes"
 rescue Stack::Failure, Code::Failure => e
   abort "figures: #{name}: #{e.message}"
 end
@@ -133,7 +142,7 @@ def firmware
     size = SIZES.fetch(name)
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
-    ["#{name.sub(/_uno$/, '')}, #{TITLES_OF_CHIPS.fetch(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+    ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
      "#{size['ram']} of #{size['ram_size']}", stacks(name, size['chip'], figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end

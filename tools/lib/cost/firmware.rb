@@ -48,14 +48,10 @@ class UserFirmware
            name: @function, chip: chip, least: least, most: most, mean: total.fdiv(calls), calls: calls)
   end
 
-  # Of a mid-range PIC with one page of code, or of a PIC18: not of a 12-bit core
-  # (PIC12F508, PIC16F54) nor of an enhanced one (PIC12F1822, PIC16F1824).
-  CORES = /\Ap(18|16[a-z]+(?!5)\d{2,3}[a-z]?\z|12[a-z]+6\d\d[a-z]?\z)/.freeze
-
+  # Of a mid-range PIC with one page of code, enhanced or not, or of a PIC18.
   def of_code(chip)
-    return 'none for this core' unless chip.match?(CORES)
-
-    code = (chip.start_with?('p18') ? Pic18Code : Pic14Code).new(@path)
+    core = PicCode.of(chip) or return 'none for this core'
+    code = core.new(@path)
     return 'none beyond the first page of 2048 words' if code.is_a?(Pic14Code) && code.pages > 1
 
     yield(code)
