@@ -5,11 +5,9 @@
 # cycles18.asm hold gpsim to them: each says its length in a comment, and all of
 # its paths are equally long. Those of bounds/ are loops, also such that may not
 # be bounded, which are measured here. Prints `ok` or `FAILED` for each.
-require 'fileutils'
-require 'open3'
+require_relative 'programs'
 
-root = File.expand_path('../..', __dir__)
-%w[host meters].each { |name| require "#{root}/tools/lib/cost/#{name}" }
+root = ROOT
 
 # Code without a linker's map.
 module Assembled
@@ -34,12 +32,8 @@ class Assembled18 < Pic18Code
   include Assembled
 end
 
-Host.setup(root)
-FOLDER = "#{root}/build/cost/bounds"
-FileUtils.mkdir_p(FOLDER)
-
 def assemble(source)
-  path = "#{FOLDER}/#{File.basename(source, '.asm')}"
+  path = "#{Host.folder}/#{File.basename(source, '.asm')}"
   Host.output('gpasm', '-w1', '-o', "#{path}.hex", source)
   path
 end
@@ -58,12 +52,6 @@ def bound(code, name, turns = {})
   LongestPath.new(code, turns).function(code.entry(name)).cost
 rescue LongestPath::Failure, Code::Failure => e
   e.message
-end
-
-def expect(what, found, wanted)
-  good = wanted === found
-  puts good ? "ok #{what}" : "FAILED #{what}: #{found}, not #{wanted}"
-  good
 end
 
 REFUSED = { 'computed' => /computed/, 'turns' => /counts no constant/ }.freeze
@@ -89,59 +77,16 @@ Expected = Struct.new(:name, :cost, :refusal) do
   end
 end
 
-# PIC programs in gpsim, with a map as gplink writes it.
-class OnPic
-  def initialize(source, kind)
-    @path = "#{FOLDER}/#{File.basename(source, '.asm')}"
-    Host.output('gpasm', '-w1', '-c', '-o', "#{@path}.o", source)
-    Host.output('gplink', '-m', '-o', "#{@path}.hex", "#{@path}.o")
-    @kind = kind
-    Harness.build_function
-  end
-
-  def code
-    @code ||= @kind.new(@path)
-  end
-
-  def measured(name)
-    Host.output("#{Host.folder}/function", "#{@path}.cod", name, '10000')[/most (\d+)/, 1].to_i
-  end
-end
-
-# An AVR program in simavr.
-class OnAvr
-  def initialize(source)
-    @path = "#{FOLDER}/#{File.basename(source, '.s')}"
-    Host.output('avr-gcc', '-mmcu=atmega328p', '-nostartfiles', '-o', "#{@path}.elf", source)
-    Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, 'test/cost/avr/calls.c', '-lsimavr', '-o', "#{FOLDER}/calls")
-  end
-
-  def code
-    @code ||= AvrCode.new("#{@path}.elf")
-  end
-
-  def measured(name)
-    addresses = %w[done].push(name).map { |symbol| code.symbol(symbol).to_s(16) }
-    Host.output("#{FOLDER}/calls", "#{@path}.elf", 'atmega328p', addresses[0], name, addresses[1])[/most (\d+)/, 1].to_i
-  end
-end
-
 def judge(chip, program, expected)
   found = bound(program.code, expected.name)
   return [expect("#{chip} #{expected.name} is refused", found, expected.refusal)] if expected.refusal
 
-  [expect("#{chip} #{expected.name} measured", program.measured(expected.name), expected.cost),
+  [expect("#{chip} #{expected.name} measured", program.most(expected.name), expected.cost),
    expect("bound of #{chip} #{expected.name}", found, expected.cost)]
 end
 
-LOOPS = "#{root}/test/cost/bounds"
-programs = { 'pic14.asm' => ->(source) { OnPic.new(source, Pic14Code) }, 'pic18.asm' => ->(source) { OnPic.new(source, Pic18Code) },
-             'avr.s' => ->(source) { OnAvr.new(source) } }
-good += programs.flat_map do |name, program|
-  source = "#{LOOPS}/#{name}"
-  all = Expected.of(source)
-  on_chip = program.call(source)
-  all.flat_map { |one| judge(name[/\w+/], on_chip, one) }
+good += Programs.all('bounds').flat_map do |chip, program|
+  Expected.of(program.source).flat_map { |one| judge(chip, program, one) }
 end
 
 CORES_OF_CHIPS = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,

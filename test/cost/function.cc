@@ -5,10 +5,11 @@
 //
 // Runs the firmware for so many cycles, with nothing on its pins, and prints
 //
-//   p18f4520 calls 12 least 690 most 738 total 8436
+//   p18f4520 calls 12 least 690 most 738 total 8436 levels 5
 //
 // in instruction cycles: the call not counted, the return counted, interrupts
-// through these vectors (hexadecimal) that came in between not counted.
+// through these vectors (hexadecimal) that came in between not counted; and the
+// most levels of the return stack that the firmware used.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -35,10 +36,10 @@ void run(const std::string &cod, const std::string &name, uint64_t cycles,
     if (chip.stopped() == Stop::fault) {
         throw ChipError(chip.reason());
     }
-    std::printf("%s calls %lu least %lu most %lu total %lu\n",
+    std::printf("%s calls %lu least %lu most %lu total %lu levels %u\n",
                 chip.processor().c_str(), function.calls,
                 function.calls == 0 ? 0 : function.least, function.most,
-                function.total);
+                function.total, chip.stack_most());
 }
 
 } // namespace

@@ -363,6 +363,12 @@ class Pic18Code < PicCode
     word == ADDWF_FSR1L ? :w : accessed(at, word).uniq.sum { |address| PUSHED.fetch(address, 0) }
   end
 
+  # SDCC's writing through a pointer takes an argument from the stack, but not if the
+  # pointer leads to flash, where nothing can be written.
+  def left
+    (1..4).to_h { |bytes| ["_gptrput#{bytes}", -1] }
+  end
+
   def sets_stack(at)
     word = word_at_byte(at)
     return [] if word >> 4 == LFSR_1

@@ -68,7 +68,7 @@ class Stack
       flow.edges[at].each { |to, _| todo << to if reach(heights, to, after) }
     end
     found = deepest(depths)
-    Depth.new(found.levels, found.bytes, left(ends))
+    Depth.new(found.levels, found.bytes, left(entry, ends))
   end
 
   def above(height, depth)
@@ -81,8 +81,11 @@ class Stack
   end
 
   # What all returns leave; one that never returns leaves nothing.
-  def left(ends)
+  def left(entry, ends)
     at, height = ends.first
+    stated = @code.left[@code.name(entry)]
+    return stated if ends.value?(stated)
+
     refuse('not all returns leave the same on the stack', at) if ends.values.uniq.size > 1
     height || 0
   end

@@ -193,6 +193,7 @@ part_cost() {
     need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :libsimavr-dev
     build_gpsim
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
+    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/cost/stacks.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
 }

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# How deep the stack may be, of routines that say it, and of the whole programs,
+# where an interrupt of each priority comes at the deepest place and the depth is
+# measured. Prints `ok` or `FAILED` for each.
+require_relative 'programs'
+
+# "3 levels, 4 bytes", of a PIC14 "3 levels" and of an AVR "9 bytes".
+def shown(code, depth)
+  levels = "#{depth.levels} levels"
+  { Pic14Code => levels, Pic18Code => "#{levels}, #{depth.bytes} bytes" }.fetch(code.class, "#{depth.bytes} bytes")
+end
+
+def depth_of(code, name)
+  stack = Stack.new(code)
+  shown(code, name == 'main' ? stack.firmware : stack.called(stack.function(code.entry(name))))
+rescue Stack::Failure, Code::Failure => e
+  e.message
+end
+
+# name => text behind it
+def expected(source)
+  File.read(source).scan(/^(\w+): *; (?:all: )?(.*?)(?:, \d+ seen)?$/).to_h
+end
+
+def judge(chip, program)
+  expected(program.source).map do |name, text|
+    wanted = text.start_with?('refused: ') ? /#{Regexp.escape(text.delete_prefix('refused: '))}/ : text
+    expect("stack of #{chip} #{name}", depth_of(program.code, name), wanted)
+  end
+end
+
+# The deepest routine is `third`; what is seen of all, if it is not the same.
+def measured(chip, program)
+  main = File.read(program.source)[/^main:.*/]
+  expect("stack of #{chip} measured", program.depth('third'), (main[/(\d+) seen/, 1] || main[/\d+/]).to_i)
+end
+
+good = Programs.all('stacks').flat_map { |chip, program| judge(chip, program) << measured(chip, program) }
+good += Programs.all('stacks', '-DLETS_IN').map do |chip, program|
+  expect("stack of #{chip} with nested interrupts", depth_of(program.code, 'main'), /an interrupt lets others in/)
+end
+exit(good.all? ? 0 : 1)
