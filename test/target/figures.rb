@@ -120,21 +120,31 @@ def title_of_chip(chip)
   chip == 'atmega328p' ? 'ATmega328P' : chip.upcase
 end
 
+# Of an example's code, with interrupts; it fits its chip.
+def depth_of(name, size)
+  path = "#{FIRMWARE}/#{name}"
+  code = size['chip'] == 'atmega328p' ? AvrCode.new("#{path}.elf") : PicCode.of(size['chip']).new(path)
+  depth = Stack.new(code).firmware
+  room = size['chip'] == 'atmega328p' ? size['ram_size'] - size['ram'] : size.fetch('stack', 0)
+  return depth if depth.levels <= code.class::LEVELS && depth.bytes <= room
+
+  abort "figures: #{name} may need #{depth.levels} levels of #{code.class::LEVELS} and #{depth.bytes} bytes of #{room}"
+rescue Stack::Failure, Code::Failure => e
+  abort "figures: #{name}: #{e.message}"
+end
+
 # What was seen is no deeper than the code says.
 def deep(name, bound, seen)
   bound >= seen ? bound : abort("figures: #{name} was seen to use a stack of #{seen}, its code says #{bound}")
 end
 
-def stacks(name, chip, figures)
-  code = chip == 'atmega328p' ? AvrCode.new("#{FIRMWARE}/#{name}.elf") : PicCode.of(chip).new("#{FIRMWARE}/#{name}")
-  depth = Stack.new(code).firmware
-  return "#{deep(name, depth.bytes, figures['stack'])} bytes" if chip == 'atmega328p'
+def stacks(name, size, figures)
+  depth = depth_of(name, size)
+  return "#{deep(name, depth.bytes, figures['stack'])} bytes" if size['chip'] == 'atmega328p'
 
-  levels = "#{deep(name, depth.levels, figures['stack'])} of #{code.class::LEVELS}"
+  levels = "#{deep(name, depth.levels, figures['stack'])} of #{PicCode.of(size['chip'])::LEVELS}"
   bytes = deep(name, depth.bytes, figures['software'])
-  bytes.zero? ? levels : "#{levels}, #{bytes} of 256 bytes"
-rescue Stack::Failure, Code::Failure => e
-  abort "figures: #{name}: #{e.message}"
+  bytes.zero? ? levels : "#{levels}, #{bytes} of #{size['stack']} bytes"
 end
 
 def firmware
@@ -143,13 +153,14 @@ def firmware
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
     ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
-     "#{size['ram']} of #{size['ram_size']}", stacks(name, size['chip'], figures), figures['step'], figures['tick'],
+     "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end
   table(['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt',
          'of a tick'], rows)
 end
 
+SIZES.each { |name, size| depth_of(name, size) }
 document = ARGV[2]
 old = File.read(document)
 tables = { 'exact' => exact, 'interrupts' => interrupts, 'firmware' => firmware }

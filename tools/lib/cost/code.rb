@@ -14,6 +14,9 @@ class Code
   # Turns of a counter that begins with 0.
   WRAP = 256
 
+  # Of a return stack that is not in RAM.
+  LEVELS = Float::INFINITY
+
   attr_reader :functions
 
   def initialize(functions)
