@@ -91,7 +91,7 @@ end
 
 # All of a folder, by chip.
 module Programs
-  KINDS = { 'pic14' => Pic14Code, 'pic14e' => Pic14EnhancedCode, 'pic18' => Pic18Code }.freeze
+  KINDS = { 'pages' => Pic14Code, 'pic14' => Pic14Code, 'pic14e' => Pic14EnhancedCode, 'pic18' => Pic18Code }.freeze
 
   class << self
     def all(folder, *options)

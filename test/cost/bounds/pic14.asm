@@ -319,6 +319,18 @@ entered_again_turn:
         nop
         goto entered_again
 
+; Its first instruction is reached with 3 in the counter, and by its callers.
+from_both:                      ; refused: it comes from before
+        nop
+from_both_turn:
+        decfsz count, f
+        goto from_both_turn
+        btfsc PORTA, 0
+        return
+        movlw 3
+        movwf count
+        goto from_both
+
 two_entrances:                  ; refused: has 2 entrances
         movlw 3
         movwf count

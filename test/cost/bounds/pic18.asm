@@ -14,7 +14,7 @@ vector  code 0
 
         global main, plain, with_bnz, with_bz, with_movf, chosen, zero
         global cleared, nested, calling, within_bank, access
-        global skips_two_words
+        global skips_two_words, banked_f9
 
 program code
 main:
@@ -31,6 +31,7 @@ main:
         call within_bank
         call access
         call skips_two_words
+        call banked_f9
 forever:
         bra forever
 
@@ -387,6 +388,20 @@ sleeping:                       ; refused: SLEEP
 
 popping:                        ; refused: POP
         pop
+        return
+
+changing_return:                ; refused: a changed return address
+        clrf TOSL, 0
+        return
+
+jumping_by_movff:               ; refused: computed
+        dw 0xC022, 0xFFF9       ; MOVFF other, PCL, which gpasm refuses
+        return
+
+; Another register of that number, in a bank.
+banked_f9:                      ; 4
+        movlb 2
+        movwf 0x2F9, 1
         return
 
 jumping:                        ; refused: computed

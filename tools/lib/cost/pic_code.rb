@@ -132,7 +132,7 @@ class Pic14Code < PicCode
 
   # Of 2048 words, configuration words left out.
   def pages
-    program.select { |one| one.address < 0x2000 }.map { |one| one.address / 2048 + 1 }.max
+    @pages ||= program.select { |one| one.address < 0x2000 }.map { |one| (one.address + units(one) - 1) / 2048 + 1 }.max
   end
 
   # Below 0x20 are the chip's registers. A name is a number within a bank: it
@@ -199,9 +199,8 @@ class Pic14Code < PicCode
     word = word_at_byte(2 * at) & 0x3FFF
     case word
     when 0x0008, 0x0009, 0x3400..0x37FF then Instruction.new([], nil, 2, 2) # RETURN, RETFIE, RETLW
-    when 0x2000..0x27FF then Instruction.new([[at + 1, 2]], word & 0x7FF, nil, 2) # CALL
-    when 0x2800..0x2FFF then Instruction.new([[word & 0x7FF, 2]], nil, nil, 2) # GOTO
     when 0x0063 then Instruction.new([[at + 1, 1]], nil, nil, 2, nil, 'SLEEP')
+    when 0x2000..0x2FFF then paged(at, word)
     when 0x0B00..0x0BFF, 0x0F00..0x0FFF, 0x1800..0x1FFF # DECFSZ, INCFSZ, BTFSC, BTFSS
       Instruction.new([[at + 1, 1], [at + 2, 2]], nil, nil, 2)
     else
@@ -209,6 +208,13 @@ class Pic14Code < PicCode
 
       Instruction.new([[at + 1, 1]], nil, nil, 2)
     end
+  end
+
+  # CALL or GOTO, within the page.
+  def paged(at, word)
+    missing(at, 'code of several pages') if pages.to_i > 1
+    to = word & 0x7FF
+    word < 0x2800 ? Instruction.new([[at + 1, 2]], to, nil, 2) : Instruction.new([[to, 2]], nil, nil, 2)
   end
 
   def writes_pcl?(word)
@@ -306,7 +312,8 @@ class Pic18Code < PicCode
   BSR = 0xE0
   # INDF, POSTINC, POSTDEC, PREINC and PLUSW of the three pointers.
   INDIRECT = [0xEB..0xEF, 0xE3..0xE7, 0xDB..0xDF].flat_map(&:to_a).freeze
-  PCL = 0xF9
+  PCL = 0xFF9
+  RETURN_STACK = (0xFFC..0xFFF).freeze # STKPTR and the top of the stack
   UNSEEN = { 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
   EXTENDED = (0xE8..0xEB).freeze
   FAST_RETURNS = [0x0011, 0x0013].freeze # they restore WREG, STATUS and BSR
@@ -409,7 +416,9 @@ class Pic18Code < PicCode
     return Instruction.new([], nil, 2, 2) if (0x0010..0x0013).cover?(word) || high == 0x0C
     return Instruction.new([], nil, nil, 2) if word == 0x00FF # RESET
     return skip(at) if SKIPS.any? { |range| range.cover?(high) }
-    return opaque('a computed GOTO') if file_written(at) == PCL && (word & 0x100).zero?
+    written = accessed(at, word)[1]
+    return opaque('a computed GOTO') if written == PCL
+    return opaque('a changed return address') if RETURN_STACK.cover?(written)
     return waits(at, 2, 'SLEEP') if word == 0x0003
     return opaque(UNSEEN[word]) if UNSEEN.key?(word)
     return opaque('an extended instruction') if EXTENDED.cover?(high)
