@@ -56,6 +56,8 @@ good = [
   expect('settling in a time without rows', trace("#{HEAD}0,1\n") { settling('angle', 1.0, 0.1, 5.0) }, /no rows/),
   expect('a table', table("plant;iae\noven;3\n") { |rows| rows[0]['iae'] }, '3'),
   expect('a table with no number in it', table("plant;iae\noven;-nan\n"), /oven;-nan/),
+  expect('a table with "-" for a number', table("plant;iae\noven;-\n"), /oven;-/),
+  expect('a table with a negative number', table("plant;iae\noven;-1\n") { |rows| rows[0]['iae'] }, '-1'),
   expect('a row that breaks off', table("plant;iae\noven\n"), /: oven/),
   expect('a table without rows', table("plant;iae\n"), /no rows/),
   expect('a table without the column', table("plant;iae\noven;3\n") { |rows| rows[0]['settled'] }, /no settled/),

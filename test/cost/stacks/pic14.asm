@@ -20,6 +20,9 @@ interrupt code 4
         ifdef LETS_IN
         bsf INTCON, GIE
         endif
+        ifdef LETS_ALL_IN
+        movwf INTCON
+        endif
         retfie
 
 program code

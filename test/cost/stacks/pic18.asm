@@ -44,6 +44,9 @@ high_handler:
         ifdef LETS_IN
         bsf INTCON, GIEH, 0
         endif
+        ifdef LETS_ALL_IN
+        movwf INTCON, 0
+        endif
         retfie 0
 low_handler:
         movff WREG, POSTDEC1

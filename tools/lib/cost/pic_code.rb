@@ -127,6 +127,7 @@ class Pic14Code < PicCode
   BTFSS_Z = 0x1D03
   INDF = 0
   STATUS = 3
+  INTCON = 0x0B
   BSF_GIE = 0x178B
   BANK_BITS = [5, 6].freeze
 
@@ -176,9 +177,10 @@ class Pic14Code < PicCode
     table if table.any? || program.none? { |one| one.name.start_with?('S_') && range(one).cover?(at) }
   end
 
-  # A whole INTCON may be what it was.
+  # By its bit, or with a whole INTCON.
   def enables_interrupts?(at)
-    word(at) == BSF_GIE
+    word = word(at)
+    word == BSF_GIE || (word < 0x1000 && writes_file?(word) && (word & 0x7F) == INTCON)
   end
 
   def word(at)
@@ -313,6 +315,8 @@ class Pic18Code < PicCode
   # INDF, POSTINC, POSTDEC, PREINC and PLUSW of the three pointers.
   INDIRECT = [0xEB..0xEF, 0xE3..0xE7, 0xDB..0xDF].flat_map(&:to_a).freeze
   PCL = 0xFF9
+  INTCON = 0xFF2
+  BSF_GIE = [0x8EF2, 0x8CF2].freeze # GIEH and GIEL
   RETURN_STACK = (0xFFC..0xFFF).freeze # STKPTR and the top of the stack
   UNSEEN = { 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
   EXTENDED = (0xE8..0xEB).freeze
@@ -389,8 +393,12 @@ class Pic18Code < PicCode
               .then { |all| all unless all.empty? }
   end
 
+  # As on a PIC16; RETFIE does it where it ends.
   def enables_interrupts?(at)
-    [0x8EF2, 0x8CF2].include?(word_at_byte(at)) # BSF INTCON, GIEH or GIEL
+    word = word_at_byte(at)
+    return false unless accessed(at, word)[1] == INTCON
+
+    !(0x80..0x9F).cover?(word >> 8) || BSF_GIE.include?(word)
   end
 
   private

@@ -3,7 +3,7 @@
 
 # A table that the program `loops` prints: rows by the names in its first line.
 module Loops
-  NO_NUMBER = /\A[-+]?(nan|inf)/i.freeze
+  NO_NUMBER = /\A(?:[-+]?(?:nan|inf)|-\z)/i.freeze
 
   def self.table(name)
     read(Host.print('loops', "#{Report.loop}-#{name}.txt", name))
@@ -16,7 +16,7 @@ module Loops
     rows.map { |row| named(path, head, row) }
   end
 
-  # Ruby would read `nan`, and a cell that is not there, as 0.
+  # Ruby would read `nan`, `-`, and a cell that is not there, as 0.
   def self.named(path, head, row)
     row.size == head.size && row.grep(NO_NUMBER).empty? or
       raise Host::Failure, "#{path}: #{row.join(';')}"
