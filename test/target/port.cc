@@ -377,9 +377,10 @@ void Port::call(char function, uint64_t most)
     chip.poke(chip.data("turn"), 1);
     chip.run(most);
     if (chip.stopped() != Stop::requested) {
-        throw ChipError(
-            std::string("port function ") + function + ": " +
-            (chip.stopped() == Stop::none ? "does not return" : chip.reason()));
+        const std::string how =
+            chip.stopped() == Stop::none ? "does not return" : chip.reason();
+        throw ChipError(std::string(check) + ": port function " + function +
+                        ": " + how);
     }
 }
 
@@ -648,7 +649,7 @@ void Port::start()
     }
     const uint64_t cycles = chip.run(10 * turn_most);
     if (chip.stopped() != Stop::requested) {
-        throw ChipError("port_init does not return: " + chip.reason());
+        throw ChipError("start: port_init does not return: " + chip.reason());
     }
     if ((chip.peek(board.outputs) & drive) != board.drive_outputs) {
         wrong("the drive's pins are no outputs after port_init");
@@ -1029,7 +1030,7 @@ int main(int argc, char *argv[])
         return Port(argv[1]).run({argv + 2, argv + argc}) ? EXIT_SUCCESS
                                                           : EXIT_FAILURE;
     } catch (const std::exception &error) {
-        std::fprintf(stderr, "port: %s\n", error.what());
+        std::fprintf(stderr, "%s\n", error.what());
         return 2;
     }
 }
