@@ -92,6 +92,11 @@ moves:                          ; 1 levels, 1 bytes
         movf PREINC1, w, 0
         return
 
+both_move:                      ; 1 levels, 2 bytes
+        movff POSTDEC1, POSTDEC1
+        movff PREINC1, PREINC1
+        return
+
 ; It takes its argument, as SDCC's writing through a pointer does.
 takes:                          ; 1 levels, 0 bytes
         movf PREINC1, w, 0

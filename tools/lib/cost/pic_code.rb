@@ -371,7 +371,10 @@ class Pic18Code < PicCode
 
   def pushed(at)
     word = word_at_byte(at)
-    word == ADDWF_FSR1L ? :w : accessed(at, word).uniq.sum { |address| PUSHED.fetch(address, 0) }
+    return :w if word == ADDWF_FSR1L
+
+    read, written = accessed(at, word)
+    PUSHED.fetch(read, 0) + ((word >> 12) == 0xC ? PUSHED.fetch(written, 0) : 0) # MOVFF
   end
 
   # SDCC's writing through a pointer takes an argument from the stack, but not if the
