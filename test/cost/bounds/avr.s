@@ -9,6 +9,7 @@ main:
         call with_breq
         call chosen
         call zero
+        call zero_chosen
         call nested
         call calling
         call reading
@@ -43,6 +44,17 @@ chosen:                         ; 37
 chosen_turn:
         dec r20
         brne chosen_turn
+        ret
+
+; 0 is more than 10.
+zero_chosen:                    ; 775
+        clr r18
+        ldi r20, 0
+        sbrc r18, 0
+        ldi r20, 10
+zero_chosen_turn:
+        dec r20
+        brne zero_chosen_turn
         ret
 
 zero:                           ; 772
@@ -259,7 +271,7 @@ jumping:                        ; refused: ijmp
         .size \name, 2
         .endr
         .endm
-        sized main, forever, plain, with_breq, chosen, zero, nested
+        sized main, forever, plain, with_breq, chosen, zero, zero_chosen, nested
         sized not_nested, calling, touches_other, called, touches_count
         sized leaves_elsewhere, stays, z_of_other, not_every_turn, written
         sized through_x, direct, pointer, product, pair, reading

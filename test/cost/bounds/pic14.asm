@@ -14,7 +14,7 @@ twin    equ 0xA0        ; the same number as count, in bank 1
 vector  code 0
         goto main
 
-        global main, plain, with_z, with_movf, chosen, zero, cleared
+        global main, plain, with_z, with_movf, chosen, zero, zero_chosen, cleared
         global nested, calling, bank_left, within_bank, in_call
 
 program code
@@ -25,6 +25,7 @@ main:
         call with_movf
         call chosen
         call zero
+        call zero_chosen
         call cleared
         call nested
         call calling
@@ -71,6 +72,18 @@ chosen:                         ; 36
 chosen_turn:
         decfsz count, f
         goto chosen_turn
+        return
+
+; 0 is more than 10.
+zero_chosen:                    ; 774
+        bcf STATUS, C
+        movlw 0
+        btfsc STATUS, C
+        movlw 10
+        movwf count
+zero_chosen_turn:
+        decfsz count, f
+        goto zero_chosen_turn
         return
 
 zero:                           ; 771

@@ -12,7 +12,7 @@ twin    equ 0x220       ; the same number as count, in bank 2
 vector  code 0
         goto main
 
-        global main, plain, with_bnz, with_bz, with_movf, chosen, zero
+        global main, zero_chosen, plain, with_bnz, with_bz, with_movf, chosen, zero
         global cleared, nested, calling, within_bank, access
         global skips_two_words, banked_f9
 
@@ -25,6 +25,7 @@ main:
         call with_movf
         call chosen
         call zero
+        call zero_chosen
         call cleared
         call nested
         call calling
@@ -80,6 +81,18 @@ chosen:                         ; 36
 chosen_turn:
         decfsz count, f, 0
         bra chosen_turn
+        return
+
+; 0 is more than 10.
+zero_chosen:                    ; 774
+        bcf STATUS, C, 0
+        movlw 0
+        btfsc STATUS, C, 0
+        movlw 10
+        movwf count, 0
+zero_chosen_turn:
+        decfsz count, f, 0
+        bra zero_chosen_turn
         return
 
 zero:                           ; 771

@@ -35,8 +35,8 @@ class CountedLoop
     refuse('it may go on with 0 after %05x', decrement) if around?(decrement, exits(decrement, counter))
     writer = @component.find { |at| at != decrement && @flow.writes?(at, counter) }
     refuse('its counter may also change at %05x', writer) if writer
-    most = @flow.constants(@flow.before(@head) - @component, @head, counter).max
-    most.zero? ? @code.class::WRAP : most
+    found = @flow.constants(@flow.before(@head) - @component, @head, counter)
+    found.map { |count| count.zero? ? @code.class::WRAP : count }.max
   end
 
   # The tests of the counter that leave the loop at 0.
