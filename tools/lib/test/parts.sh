@@ -194,6 +194,7 @@ part_cost() {
     build_gpsim
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
     count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/cost/stacks.rb
+    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/cost/random_loops.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
 }
