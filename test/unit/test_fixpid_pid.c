@@ -1194,6 +1194,20 @@ void test_step_integral_from_end_to_end_does_not_overflow(void)
     }
 }
 
+// 32767 + 1 counts, the first sum that 24 bits do not hold, is above the limit
+// of the integral and not below it.
+void test_step_integral_of_32768_counts_is_at_its_upper_limit(void)
+{
+    config.gains = (struct fixpid_pid_gains){0, UINT32_C(1) << 24, 0, 0};
+    config.output_min = -32767;
+    config.output_max = 32767;
+    TEST_ASSERT_TRUE(init());
+    seed(32767);
+    step(0, 0);
+    TEST_ASSERT_EQUAL_INT16(32767, step(1, 0));
+    TEST_ASSERT_EQUAL_INT32(INT32_C(32767) * 65536, integral());
+}
+
 void test_step_every_term_at_its_end_gives_the_limit(void)
 {
     config.gains.ki_q24 = FIXPID_PID_KI_MAX;
@@ -1330,6 +1344,18 @@ void test_set_limits_integral_just_below_the_lower_one_is_raised(void)
     TEST_ASSERT_EQUAL_INT32(10 * 65536 - 256, integral());
     TEST_ASSERT_TRUE(set_limits(10, 255));
     TEST_ASSERT_EQUAL_INT32(10 * 65536, integral());
+}
+
+void test_set_limits_integral_just_below_the_upper_one_stays(void)
+{
+    config.gains.kp_q8 = 0;
+    config.gains.ki_q24 = 65536; // 1/256 per step and count
+    TEST_ASSERT_TRUE(init());
+    seed(10);
+    step(0, 0);
+    step(0, 1);
+    TEST_ASSERT_TRUE(set_limits(0, 10));
+    TEST_ASSERT_EQUAL_INT32(10 * 65536 - 256, integral());
 }
 
 void test_set_limits_lower_one_counts_from_the_lowest_feedforward(void)
