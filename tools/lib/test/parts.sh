@@ -214,6 +214,15 @@ part_docs() {
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
 }
 
+part_gates() {
+    need ruby cc:gcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
+        avr-g++:gcc-avr :avr-libc
+    need_ceedling
+    for gate in parts lint documents memory mutants; do
+        count "test/gates/$gate.rb" '^ok ' '^FAILED ' ruby "test/gates/$gate.rb"
+    done
+}
+
 part_mutants() {
     need ruby cc:gcc :libc6-dev
     need_ceedling
