@@ -23,6 +23,9 @@ def includes(file)
   return [base] if file.start_with?('src/', 'include/')
   return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/')
 
+  template = file[%r{^port/template(/filled)?(?=/)}]
+  return [base + ["-I#{template}", "-I#{template}/fake", '-Itest/port_check']] if template
+
   boards = BOARDS.select { |_, names| file =~ names }.keys
   boards = BOARDS.keys if boards.empty?
   boards.map { |board| base + ["-Iport/pic/#{board}"] }
