@@ -6,7 +6,8 @@
 # compiler refuses, what crashes and what does not end counts as neither. With
 # names of files only those are broken.
 # The chips' own folders of src/ are not broken here: their files compile to
-# nothing on this machine, and test/target breaks them (`planted`).
+# nothing on this machine. test/target breaks each once (`planted`), and
+# tools/lib/mutants/assembly.rb each instruction.
 require 'fileutils'
 require 'open3'
 require_relative 'mutants/breaks'

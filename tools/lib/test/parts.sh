@@ -225,6 +225,15 @@ part_gates() {
     done
 }
 
+# After the answers of the unbroken assembly: what remains are its harnesses.
+part_assembly() {
+    need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc
+    need_sdcc
+    build_gpsim
+    check 'the arithmetic on chips' test/target/run arith
+    count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/mutants/assembly.rb
+}
+
 part_mutants() {
     need ruby cc:gcc :libc6-dev
     need_ceedling
