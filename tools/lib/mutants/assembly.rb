@@ -18,9 +18,9 @@ module Instructions
            %w[andlw iorlw], %w[xorlw andlw], %w[addlw sublw], %w[comf movf], %w[negf comf], %w[clrf setf], %w[swapf movf],
            %w[bz bnz], %w[bc bnc], %w[bn bnn], %w[cpfslt cpfsgt],
            %w[add sub], %w[adc add], %w[sbc sub], %w[sbci subi], %w[brvc brvs], %w[brcc brcs], %w[breq brne], %w[brpl brmi],
-           %w[sbrc sbrs], %w[lsl lsr], %w[rol lsl], %w[ror lsr], %w[asr lsr], %w[mulsu mul], %w[muls mul], %w[and or],
+           %w[sbrc sbrs], %w[lsl lsr], %w[rol lsl], %w[ror lsr], %w[asr lsr], %w[mulsu mul], %w[muls mul], %w[fmul mul], %w[and or],
            %w[andi ori], %w[eor or], %w[com neg], %w[inc dec], %w[bst bld], %w[swap com]].freeze
-  OTHERS = %w[movwf movf movff movlw movlb mulwf mullw lfsr call rcall goto bra return retlw retfie nop pagesel banksel clrw
+  OTHERS = %w[tstfsz movwf movf movff movlw movlb mulwf mullw lfsr call rcall goto bra return retlw retfie nop pagesel banksel clrw
               sublw addlw mov movw clr ldi mul tst cp cpc cpi rjmp ret push pop ld st ldd std lds sts in out].freeze
   MNEMONICS = (TWINS.flatten + OTHERS).uniq.freeze
   # Of a word in a string or of a line between __asm and __endasm.
@@ -33,7 +33,8 @@ module Instructions
         changes(name, operands).map do |name_now, operands_now|
           from = (name + operands).rstrip
           to = (name_now + operands_now).rstrip
-          Mutant.new(file, text[0...place].count("\n") + 1, place, from, to, text[0...place] + to + text[(place + from.size)..])
+          broken = text[0...place] + to + text[(place + from.size)..]
+          Mutant.new(file, text[0...place].count("\n") + 1, place, from.squeeze(' '), to.squeeze(' '), broken)
         end
       end
     end
@@ -47,6 +48,8 @@ module Instructions
         position += line.size
         inside = line.match?(/__asm\s*$/) || (inside && !line.include?('__endasm'))
         parts = inside ? [[0, line[/\A[^;\n]*/]]] : strings(line)
+        unknown = inside && line[/\A\s+([a-z]\w*)/, 1]
+        unknown && !MNEMONICS.include?(unknown) and abort "FAILED what does #{unknown} do?"
         parts.flat_map { |offset, part| words(part).map { |at, name, operands| [starts + offset + at, name, operands] } }
       end
     end

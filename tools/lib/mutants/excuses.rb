@@ -45,7 +45,7 @@ class Excuses
     private
 
     def name(mutant, lines, functions)
-      text = lines[mutant.line - 1].sub(%r{//.*}, '').gsub(/\\[nt]/, '').delete('\\').strip.gsub(/\s+/, ' ')
+      text = lines[mutant.line - 1].sub(%r{//.*}, '').gsub(/(?:\\[nt])+/, ' ').delete('\\').strip.gsub(/\s+/, ' ')
       function = functions[mutant.line - 1]
       "#{mutant.file}#{", #{function}" if function}: #{text}: `#{mutant.from}` -> `#{mutant.to}`"
     end
