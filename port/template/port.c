@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A port to fill in: each function with what it promises to port.h. It compiles
-// as it is, and then does nothing; filled/ is one for an imaginary chip, and
-// docs/ports.md has the reasons. On a PC
+// as it is, and then does nothing; test/port_check/filled/ is one for an
+// imaginary chip, and docs/ports.md has the reasons. On a PC
 //     test/port_check/run FOLDER
 // checks each promise, once fake/ beside your port.c says how your chip
-// behaves: filled/fake/ is an example of that, too.
+// behaves: filled/ has an example of that, too.
 //
 // The seventh function, port_wait_ticks, is the same for every port: compile
 // ../port_wait_ticks.c too, if the application calls it. It calls

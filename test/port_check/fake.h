@@ -2,7 +2,7 @@
 // What test/port_check/run wants to know of a chip, to run a port on a PC: how
 // its hardware moves on, what is on the pins, and how to give it an interrupt.
 // You write these functions for your chip, in fake/chip.c beside your port.c;
-// ../../port/template/filled/fake/ is an example with every one of them.
+// filled/fake/ is an example with every one of them.
 //
 // Its registers are variables. The names that port.c uses are macros in
 // headers that stand in fake/ for those of the compiler:

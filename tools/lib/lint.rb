@@ -21,10 +21,7 @@ COMPLEXITY_MAX = 8
 def includes(file)
   base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/chip]
   return [base] if file.start_with?('src/', 'include/')
-  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/')
-
-  template = file[%r{^port/template(/filled)?(?=/)}]
-  return [base + ["-I#{template}", "-I#{template}/fake", '-Itest/port_check']] if template
+  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/', 'port/template/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys
   boards = BOARDS.keys if boards.empty?

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The template filled in for an imaginary chip with the usual parts: a timer
 // that reloads itself, a PWM, a converter of 12 bits and a watchdog.
-// `test/port_check/run port/template/filled` runs it on a PC, over fake/.
+// `test/port_check/run test/port_check/filled` runs it on a PC, over fake/.
 #include "port.h"
 
 #include <chip.h>
