@@ -7,6 +7,10 @@
 #include "fixpid_slew.h"
 #include "unity.h"
 
+// In object mode the library is built for objects of these names.
+FIXPID_DATA struct fixpid_an937 an937_controller;
+FIXPID_DATA struct fixpid_pid pid_controller;
+
 static bool seen;
 
 #undef FIXPID_CHECKED
