@@ -36,6 +36,7 @@ void an964_arith(void)
         }
         add_10x8(arith_row, k, 0, 255);
         add_10x8(arith_row, k, 0xFF, (uint8_t)~k);
+        add_10x8(arith_row, k, 0xFF, 255);
         k++;
     } while (k != 0u);
     for (x = arith_row & 127u; x < 16384u; x += STRIDE_14X10) {

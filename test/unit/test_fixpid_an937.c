@@ -676,6 +676,33 @@ void test_step_percent_output_is_limited_on_both_sides(void)
                            fixpid_an937_step_percent(&an937_controller, -128));
 }
 
+// 255 * 4000 / 16 = 63750 is below 40 * 1600, 255 * 4040 / 16 = 64387 is not
+void test_step_percent_101_counts_as_100(void)
+{
+    start(255, 0, 0, 4000, 1);
+    TEST_ASSERT_EQUAL_INT8(39,
+                           fixpid_an937_step_percent(&an937_controller, 101));
+    TEST_ASSERT_EQUAL_INT8(-39,
+                           fixpid_an937_step_percent(&an937_controller, -101));
+}
+
+// (137 * 4000 + 255 * 8000) / 16 = 161750 is 101 * 1600 and some
+void test_step_percent_output_of_101_is_100(void)
+{
+    start(137, 255, 0, 65535, 1);
+    fixpid_an937_tick(&an937_controller);
+    fixpid_an937_step_percent(&an937_controller, 100);
+    fixpid_an937_tick(&an937_controller);
+    TEST_ASSERT_EQUAL_INT8(100,
+                           fixpid_an937_step_percent(&an937_controller, 100));
+    start(137, 255, 0, 65535, 1);
+    fixpid_an937_tick(&an937_controller);
+    fixpid_an937_step_percent(&an937_controller, -100);
+    fixpid_an937_tick(&an937_controller);
+    TEST_ASSERT_EQUAL_INT8(-100,
+                           fixpid_an937_step_percent(&an937_controller, -100));
+}
+
 // (2 * 4000 + 255 * 10002) / 16 = 159906, just below 100 * 1600
 void test_step_percent_just_below_full_is_99(void)
 {

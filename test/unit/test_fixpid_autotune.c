@@ -376,6 +376,11 @@ void test_step_the_hysteresis_is_at_most_1536(void)
         step(i % 2u == 0u ? 1000 : -1000);
     }
     switches_beyond(1536);
+    TEST_ASSERT_TRUE(init());
+    for (unsigned i = 0; i < NOISE_STEPS; i++) { // one beyond 1023 each
+        step(i % 2u == 0u ? 256 : -256);
+    }
+    switches_beyond(1536);
 }
 
 // 1 + (1022 + 511 + 16) / 32 = 49 of one second difference of 1022, and more
@@ -534,6 +539,20 @@ void test_step_a_relay_for_any_wanted_swing_is_not_wider_either(void)
     config.output_min = -8192;
     config.output_max = 8192;
     centres(2, -2, -8160, 8160);
+}
+
+// 100 is 50 when halved, 129 / 256 of 99: of twice the relay of 596 counts 600,
+// of which a third is 199. The swing is cut at 49, 126 / 256 of it: 293 above
+// -298.
+void test_step_a_wanted_swing_one_beyond_the_present_one_is_halved(void)
+{
+    config.swing = 100;
+    quiet();
+    usual();
+    usual();
+    cycle(20, 20, 50, -49);
+    cycle(20, 20, 50, -49);
+    TEST_ASSERT_EQUAL_INT16(-298 + 293 - 199, step(50));
 }
 
 // 101 is 50 when halved, half of the swing: the whole of 600 again. 99 of 100
@@ -1210,6 +1229,55 @@ void test_model_what_the_hysteresis_takes_is_seen_after_each_switch(void)
     is_integrator(8, 4394368, 316);
     found_turns(-30, 3000);
     is_integrator(8, 4394368, 316);
+}
+
+static int16_t rise_of_turns(int16_t after_high, int16_t after_low)
+{
+    found_turns(after_high, after_low);
+    return autotune_controller.sums[0].rise;
+}
+
+void test_model_a_turn_of_2048_counts_is_one_of_2047(void)
+{
+    const int16_t most = rise_of_turns(-3000, 3000);
+
+    TEST_ASSERT_EQUAL_INT16(most, rise_of_turns(-2047, 2047));
+    TEST_ASSERT_EQUAL_INT16(most, rise_of_turns(-2048, 2048));
+}
+
+// The two relays' means, in 1/256 of a count, differ by this much.
+static bool has_a_gain(int32_t measured)
+{
+    found(lag_up, lag_down);
+    autotune_controller.sums[0].steps = 256;
+    autotune_controller.sums[0].all = measured;
+    autotune_controller.sums[1].steps = 256;
+    autotune_controller.sums[1].all = 0;
+    return model().gain_q8 != FIXPID_AUTOTUNE_INTEGRATING;
+}
+
+void test_model_a_difference_above_a_16th_of_the_swing_is_a_gain(void)
+{
+    found(lag_up, lag_down);
+    const int32_t swing =
+        autotune_controller.highest - autotune_controller.lowest;
+
+    TEST_ASSERT_FALSE(has_a_gain(16 * swing));
+    TEST_ASSERT_TRUE(has_a_gain(16 * swing + 1));
+}
+
+void test_model_holding_output_one_beyond_the_range_is_at_its_end(void)
+{
+    found(lag_up, lag_down);
+    const int16_t holding = model().holding;
+
+    TEST_ASSERT_TRUE(holding > config.output_min);
+    TEST_ASSERT_TRUE(holding < config.output_max);
+    autotune_controller.config.output_min = (int16_t)(holding + 1);
+    TEST_ASSERT_EQUAL_INT16(holding + 1, model().holding);
+    autotune_controller.config.output_min = config.output_min;
+    autotune_controller.config.output_max = (int16_t)(holding - 1);
+    TEST_ASSERT_EQUAL_INT16(holding - 1, model().holding);
 }
 
 void test_model_dead_time_is_half_a_step_at_least(void)

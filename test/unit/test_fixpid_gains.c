@@ -166,7 +166,10 @@ void test_from_milli_ki_at_both_ends(void)
     TEST_ASSERT_TRUE(from(0, 32767, 0, 256, 0));
     gains_are(0, FIXPID_PID_KI_MAX, 0, 0);
     is_refused(0, UINT32_MAX, 0, 1, 0);
-    is_refused(0, 256000, 0, 1000, 0); // 2^32
+    is_refused(0, 256000, 0, 1000, 0);                            // 2^32
+    TEST_ASSERT_TRUE(from(0, FIXPID_PID_KI_MAX, 0, 16777216, 0)); // as it is
+    gains_are(0, FIXPID_PID_KI_MAX, 0, 0);
+    is_refused(0, FIXPID_PID_KI_MAX + 1u, 0, 16777216, 0);
 }
 
 void test_from_milli_ki_of_a_half_rounds_up(void)

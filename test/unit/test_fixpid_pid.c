@@ -1194,6 +1194,20 @@ void test_step_integral_from_end_to_end_does_not_overflow(void)
     }
 }
 
+// 32767 + 1 counts, the first sum that 24 bits do not hold, is above the limit
+// of the integral and not below it.
+void test_step_integral_of_32768_counts_is_at_its_upper_limit(void)
+{
+    config.gains = (struct fixpid_pid_gains){0, UINT32_C(1) << 24, 0, 0};
+    config.output_min = -32767;
+    config.output_max = 32767;
+    TEST_ASSERT_TRUE(init());
+    seed(32767);
+    step(0, 0);
+    TEST_ASSERT_EQUAL_INT16(32767, step(1, 0));
+    TEST_ASSERT_EQUAL_INT32(INT32_C(32767) * 65536, integral());
+}
+
 void test_step_every_term_at_its_end_gives_the_limit(void)
 {
     config.gains.ki_q24 = FIXPID_PID_KI_MAX;
@@ -1215,19 +1229,21 @@ void test_step_every_term_at_its_end_gives_the_limit(void)
 
 void test_set_gains_refuses_field_by_field_and_changes_nothing(void)
 {
+    static const struct fixpid_pid_gains others = {300, 70000, 200, 2};
     int16_t before;
 
     step(100, 50);
     before = step(100, 100);
+    config.gains = others;
     config.gains.kp_q8 = 32768;
     TEST_ASSERT_FALSE(set_gains());
-    config.gains = valve.gains;
+    config.gains = others;
     config.gains.ki_q24 = UINT32_C(0x7FFF0001);
     TEST_ASSERT_FALSE(set_gains());
-    config.gains = valve.gains;
+    config.gains = others;
     config.gains.kd_q8 = 32256;
     TEST_ASSERT_FALSE(set_gains());
-    config.gains = valve.gains;
+    config.gains = others;
     config.gains.derivative_filter = 8;
     TEST_ASSERT_FALSE(set_gains());
     TEST_ASSERT_EQUAL_INT16(before, step(100, 100));
@@ -1315,6 +1331,40 @@ void test_set_limits_raises_the_integral_to_the_lower_one(void)
     TEST_ASSERT_EQUAL_INT32(50 * INT32_C(65536), integral());
     TEST_ASSERT_TRUE(set_limits(80, 100));
     TEST_ASSERT_EQUAL_INT32(60 * INT32_C(65536), integral());
+}
+
+void test_set_limits_integral_just_below_the_lower_one_is_raised(void)
+{
+    config.gains.kp_q8 = 0;
+    config.gains.ki_q24 = 65536; // 1/256 per step and count
+    TEST_ASSERT_TRUE(init());
+    seed(10);
+    step(0, 0);
+    step(0, 1);
+    TEST_ASSERT_EQUAL_INT32(10 * 65536 - 256, integral());
+    TEST_ASSERT_TRUE(set_limits(10, 255));
+    TEST_ASSERT_EQUAL_INT32(10 * 65536, integral());
+}
+
+void test_set_limits_integral_just_below_the_upper_one_stays(void)
+{
+    config.gains.kp_q8 = 0;
+    config.gains.ki_q24 = 65536; // 1/256 per step and count
+    TEST_ASSERT_TRUE(init());
+    seed(10);
+    step(0, 0);
+    step(0, 1);
+    TEST_ASSERT_TRUE(set_limits(0, 10));
+    TEST_ASSERT_EQUAL_INT32(10 * 65536 - 256, integral());
+}
+
+void test_set_limits_lower_one_counts_from_the_lowest_feedforward(void)
+{
+    config.gains.kp_q8 = 0;
+    TEST_ASSERT_TRUE(init());
+    set_feedforward(-32768);
+    TEST_ASSERT_TRUE(set_limits(-32758, 255));
+    TEST_ASSERT_EQUAL_INT32(10 * 65536, integral());
 }
 
 void test_set_limits_obeys_the_integral_limits(void)
@@ -1809,7 +1859,7 @@ void test_macros_fold_real_units(void)
     static const uint32_t kd[] = {
         FIXPID_PID_KD(0, 1, 0),        FIXPID_PID_KD(0.25 / 128, 1, 0),
         FIXPID_PID_KD(125.998, 1, 0),  FIXPID_PID_KD(161, 100, 7),
-        FIXPID_PID_TD(1.5, 3, 100, 4),
+        FIXPID_PID_TD(1.5, 4, 100, 4),
     };
 
     TEST_ASSERT_EQUAL_UINT32(83886, gains.ki_q24);
@@ -1829,7 +1879,7 @@ void test_macros_fold_real_units(void)
     TEST_ASSERT_EQUAL_UINT32(1, kd[1]);
     TEST_ASSERT_EQUAL_UINT32(32255, kd[2]);
     TEST_ASSERT_EQUAL_UINT32(32200, kd[3]);
-    TEST_ASSERT_EQUAL_UINT32(7200, kd[4]);
+    TEST_ASSERT_EQUAL_UINT32(9600, kd[4]);
 }
 
 // ---- Memory ----

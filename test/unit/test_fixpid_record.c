@@ -188,9 +188,13 @@ static void is_noticed(void)
 
 void test_unpack_every_1_2_and_3_wrong_bits_are_refused(void)
 {
+    for (unsigned alone = 0; alone < BITS; alone++) {
+        flip(alone);
+        is_noticed();
+        flip(alone);
+    }
     for (unsigned first = 0; first < BITS; first += TEST_STRIDE) {
         flip(first);
-        is_noticed();
         for (unsigned second = first + 1u; second < BITS; second++) {
             flip(second);
             is_noticed();

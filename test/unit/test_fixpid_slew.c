@@ -79,6 +79,14 @@ void test_step_of_65535_counts_at_once_has_no_limit(void)
     steps_to(-32768, -32768, INT32_MIN);
 }
 
+void test_step_rate_from_the_middle_to_beyond_either_end_does_not_wrap(void)
+{
+    fixpid_slew_init(&slew, UINT32_C(0xFFFF0000), UINT32_C(0xFFFF0000));
+    steps_to(32767, 32767, 2147418112);
+    fixpid_slew_reset(&slew);
+    steps_to(-32768, -32768, INT32_MIN);
+}
+
 void test_step_a_65536th_below_no_limit_is_that_much_short(void)
 {
     fixpid_slew_init(&slew, UINT32_C(0xFFFEFFFF), UINT32_C(0xFFFEFFFF));

@@ -109,6 +109,30 @@ void test_step_duties_below_0_and_above_full_count_as_those(void)
     window_gives(INT16_MAX, 8, 0);
 }
 
+// One beyond is as much as any: nothing of it is owed to the next window.
+void test_step_duty_of_one_above_full_is_not_carried_over(void)
+{
+    config = (struct fixpid_tpo_config){1, 4, 0, 0};
+    TEST_ASSERT_TRUE(init());
+    window_gives(2, 4, 0);
+    window_gives(0, 0, 0);
+}
+
+void test_step_credit_just_below_the_shortest_pulse_waits(void)
+{
+    config = (struct fixpid_tpo_config){5, 3, 2, 0};
+    TEST_ASSERT_TRUE(init());
+    window_gives(3, 0, 9); // of 2 * 5
+}
+
+void test_step_credit_just_below_a_whole_window_has_a_gap(void)
+{
+    config = (struct fixpid_tpo_config){5, 4, 0, 1};
+    TEST_ASSERT_TRUE(init());
+    window_gives(2, 1, 3);
+    window_gives(4, 3, 4); // 19 of 4 * 5
+}
+
 void test_step_duty_of_the_first_step_counts_for_the_window(void)
 {
     TEST_ASSERT_TRUE(init());

@@ -2,13 +2,15 @@
 # frozen_string_literal: true
 
 # Runs the loops, checks what must hold, draws, and reports. Called by
-# tools/demo: demo.rb MODE ROOT [--verbose] LOOP...
+# tools/demo: demo.rb MODE ROOT [--verbose] LOOP... With the mode `renew` what
+# they measure becomes what it was.
 require 'fileutils'
 require 'json'
 
 require_relative 'demo/host'
 require_relative 'demo/plot'
 require_relative 'demo/report'
+require_relative 'demo/regression'
 require_relative 'demo/docs'
 require_relative 'demo/pendulum'
 require_relative 'demo/motor'
@@ -66,6 +68,7 @@ def run_loops(loops)
     rescue Host::Failure => e
       Report.failure(e.message)
     end
+    Report.finish(name)
     puts [LOOPS.fetch(name).shows.ljust(width), Report.outcome(name).ljust(16),
           picture(name)].join('  ').rstrip
   end
@@ -87,11 +90,15 @@ def main(mode, root, *words)
   verbose = words.first == '--verbose'
   loops = words.drop(verbose ? 1 : 0)
   Host.setup(root)
+  Regression.setup(root)
+  Report.renew! if mode == 'renew'
   remove_results(loops)
   run_loops(loops)
   Report.write("#{Host.folder}/results.json")
   tell(loops, verbose)
-  exit(Report.good? && Docs.update(mode, root) ? 0 : 1)
+  Report.good? or exit 1
+  Regression.renew(loops) if mode == 'renew'
+  exit(Docs.update(mode, root) ? 0 : 1)
 end
 
 begin

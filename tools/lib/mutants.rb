@@ -1,33 +1,29 @@
 # SPDX-License-Identifier: MIT
-# Breaks the sources in src/ in every small way and names the unit test that
-# notices each break: build/test/mutants.txt. A break that no test notices must
-# stand in test/mutants/equivalent.txt with the reason why it changes nothing.
-# What the compiler refuses, what crashes and what does not end counts as neither.
+# Breaks the sources in src/ and the macros of include/ in every small way, and
+# in the ways of test/mutants/faults.txt, and names the unit test that notices
+# each break: build/test/mutants.txt. A break that no test notices must stand in
+# test/mutants/equivalent.txt with the reason why it changes nothing. What the
+# compiler refuses, what crashes and what does not end counts as neither. With
+# names of files only those are broken.
 # The chips' own folders of src/ are not broken here: their files compile to
-# nothing on this machine, and test/target breaks them (`planted`).
+# nothing on this machine. test/target breaks each once (`planted`), and
+# tools/lib/mutants/assembly.rb each instruction.
 require 'fileutils'
 require 'open3'
+require_relative 'mutants/breaks'
+require_relative 'mutants/excuses'
 
 ROOT = 'build/mutants'.freeze
 REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/mutants/equivalent.txt'.freeze
+FAULTS = 'test/mutants/faults.txt'.freeze
 UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
-
-OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
-              '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '/' => %w[*], '<<' => %w[>>], '>>' => %w[<<],
-              '&' => %w[|], '|' => %w[&], '^' => %w[|], '|=' => %w[=], '&=' => %w[|=], '^=' => %w[=], '--' => %w[++],
-              '>>=' => %w[<<=], '<<=' => %w[>>=], '+=' => %w[-=], '-=' => %w[+=], '~' => [''],
-              'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
-              'kd_q4' => %w[kp_q4], 'left' => %w[right], 'right' => %w[left], 'low' => %w[high], 'high' => %w[low],
-              'true' => %w[false], 'false' => %w[true], 'MULTIPLY' => %w[DIVIDE], 'DIVIDE' => %w[MULTIPLY],
-              'ADD' => %w[SUBTRACT], 'SUBTRACT' => %w[ADD], 'MINIMUM' => %w[MAXIMUM], 'MAXIMUM' => %w[MINIMUM],
-              'X' => %w[Y], 'Y' => %w[X] }.freeze
-TOKEN = %r{//[^\n]*|\{END, [0-9, ]*\}|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d\w*|\n|.}m.freeze
-FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Iinclude -Itest/support].freeze
+FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Itest/cost -Itest/autotune].freeze
+COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definition of /.freeze
 
 # fixpid_an964_8bit of fixpid_an964_8bit_more: what has a header.
 def noun(name)
@@ -46,6 +42,12 @@ def run_of(test, options = [])
   Run.new(test, ["test/unit/#{test}.c"], options)
 end
 
+# With all that it has of src/ compiled anew, too.
+def whole_run_of(test)
+  objects = Dir["#{ROOT}/ceedling/test/out/#{test}/*.o"].map { |object| File.basename(object, '.o') }
+  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }], [])
+end
+
 # Of fixpid_autotune also the recorded experiments.
 def autotune_runs(sources)
   %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources, []) }
@@ -57,15 +59,15 @@ def pid_runs(sources)
    Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
-# The runs in which a file is compiled, by its name in src/.
+# The runs in which a file is compiled, by its name.
 def runs_of(file)
   name = File.basename(file, '.*')
+  return [run_of('test_fixpid_constants'), whole_run_of("test_#{name}")] if file.start_with?('include/')
   return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
   return pid_runs([file]) if file.match?(/fixpid_pid\w*\.c\z/)
   return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
 
   case name
-  when 'fixpid_self' then []
   when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/fixpid_pid_arith.h')] # a shift of the second
   when 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
@@ -79,134 +81,87 @@ def runs_of(file)
   end
 end
 
-RUNS = Dir['src/*.[ch]'].sort.to_h { |file| [file, runs_of(file)] }.reject { |_, runs| runs.empty? }.freeze
-
-Mutant = Struct.new(:file, :line, :from, :to, :source)
-
-def number_replacements(token)
-  match = token.match(/\A(0x\h+|\d+)([uU]?)\z/) or return []
-
-  value = Integer(match[1])
-  [value + 1, value - 1].reject(&:negative?).map { |other| "#{other}#{match[2]}" }
-end
-
-# For each line whether it is not arithmetic: preprocessor outside of macros with
-# its continuations, assertions, parameter lists.
-def skipped_lines(lines)
-  continued = false
-  lines.map do |line|
-    skipped = continued || line =~ /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef|undef)|FIXPID_MULTIPLIER_BITS/
-    continued = skipped && line.end_with?("\\\n")
-    skipped || line =~ /FIXPID_ASSERT|struct fixpid_|define VALID|define SELF/
-  end
-end
-
-# `*pointer` and `&object`, which only the compiler would notice.
-def unary?(text, position, token)
-  %w[* &].include?(token) && text[0...position] =~ /(?:[(,=?:&|{;+-]|return)\s*\z/
-end
-
-def mutants_of(file)
-  text = File.read(file)
-  skipped = skipped_lines(text.lines)
-  mutants = []
-  position = 0
-  line = 0
-  text.scan(TOKEN) do |token|
-    unless skipped[line] || token.start_with?('//') || unary?(text, position, token)
-      (OPERATORS.fetch(token, []) + number_replacements(token)).each do |other|
-        changed = text[0...position] + other + text[(position + token.size)..]
-        mutants << Mutant.new(file, line + 1, token, other, changed)
-      end
-    end
-    position += token.size
-    line += token.count("\n")
-  end
-  mutants + dropped(file, text)
-end
-
-ASSIGNMENT = /[A-Za-z_*.\[\]0-9>-]+ [|&^+-]?= [^;{}\\]+;/.freeze
-CALL = /(?!(?:if|for|while|switch|return|sizeof|FIXPID_ASSERT)\b)\w+\([^;{}\\]*\);/.freeze
-STATEMENT = /^ +(?<what>#{ASSIGNMENT}|#{CALL})$/.freeze
-OPERATION = /(?<what>\{(?!END)[A-Z]+(?:, \w+){3}\},)/.freeze # of a table
-
-def left_out(file, text, pattern, instead)
-  text.to_enum(:scan, pattern).map do
-    match = Regexp.last_match
-    range = match.begin(:what)...match.end(:what)
-    changed = text[0...range.begin] + instead + text[range.end..]
-    Mutant.new(file, text[0...range.begin].count("\n") + 1, match[:what].gsub(/\s+/, ' '), '', changed)
-  end
-end
-
-def dropped(file, text)
-  left_out(file, text, STATEMENT, ';') + left_out(file, text, OPERATION, '')
-end
-
 def build_objects
+  FileUtils.mkdir_p('build/test')
+  File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
+             ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
   system('ceedling', '--mixin=build/test/mutants.yml', 'test:all', out: File::NULL, err: File::NULL) or
-    abort 'the unit tests do not pass before anything is broken'
+    abort 'FAILED the unit tests do not pass before anything is broken'
 end
 
-# What a test program does: the name of its first failing test, a symbol for
+# A tree of all sources for each worker, of which one is broken: src/ files
+# include each other by their place.
+def plant_trees
+  WORKERS.times do |worker|
+    FileUtils.rm_rf("#{ROOT}/#{worker}")
+    FileUtils.mkdir_p("#{ROOT}/#{worker}")
+    FileUtils.cp_r(%w[src include], "#{ROOT}/#{worker}")
+  end
+end
+
+def in_tree(source, tree)
+  source.start_with?('src/') ? "#{tree}/#{source}" : source
+end
+
+def compiler(run, tree, *arguments)
+  ['gcc', *FLAGS, *run.options, "-I#{tree}/include", "-I#{tree}/src", "-I#{UNITY}", *arguments,
+   *run.sources.map { |source| in_tree(source, tree) }]
+end
+
+# The program of a run, or nil if the compiler refuses it. A compiler that fails
+# without a word about the code says nothing about a break.
+def build(run, tree)
+  program = "#{tree}/program"
+  output, status = Open3.capture2e(*compiler(run, tree, '-o', program), *run.objects)
+  return program if status.success?
+
+  output.match?(COMPLAINT) && !output.match?(/No space left|internal compiler error|Cannot allocate/) or
+    abort "FAILED the compiler does not work:\n#{output}"
+  nil
+end
+
+# What a test program does: the names of the tests that fail, a symbol for
 # another end, or nil.
 def run_test(program)
   output, status = Open3.capture2e(program, rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1])
-  return output[/^[^:\n]+:\d+:(\w+):FAIL/, 1] if output =~ /:FAIL/
+  return output.scan(/^[^:\n]+:\d+:(\w+):FAIL/).flatten if output =~ /:FAIL/
   return :endless if status.termsig == Signal.list['XCPU']
 
   output =~ /^OK$/ ? nil : :crashed
 end
 
-# A tree of all sources, of which one is broken: src/ files include each other
-# by their place.
-def in_tree(source, tree)
-  source.start_with?('src/') ? "#{tree}/#{source}" : source
+def notice_in(run, tree)
+  program = build(run, tree) or return :refused
+  run_test(program)
 end
 
-def notice_in(run, tree)
-  program = "#{tree}/program"
-  sources = run.sources.map { |source| in_tree(source, tree) }
-  system('gcc', *FLAGS, *run.options, "-I#{tree}/src", "-I#{UNITY}", *sources, *run.objects, '-o', program,
-         out: File::NULL, err: File::NULL) or return :refused
-
-  run_test(program)
+# Yields with the text in place of the file.
+def broken(tree, file, text)
+  whole = File.read("#{tree}/#{file}")
+  File.write("#{tree}/#{file}", text)
+  yield
+ensure
+  File.write("#{tree}/#{file}", whole) if whole
 end
 
 def notice(mutant, worker)
   tree = "#{ROOT}/#{worker}"
-  whole = File.read(mutant.file)
-  File.write("#{tree}/#{mutant.file}", mutant.source)
-  RUNS.fetch(mutant.file).each do |run|
-    caught = notice_in(run, tree)
-    return caught if caught
+  broken(tree, mutant.file, mutant.source) do
+    caught = nil
+    RUNS.fetch(mutant.file).each { |run| caught ||= notice_in(run, tree) }
+    caught ||= :not_compiled if same_for_the_compiler?(mutant, tree)
+    caught.is_a?(Array) ? caught.first : caught
   end
-  same_for_the_compiler?(mutant, tree) ? :not_compiled : nil
-ensure
-  File.write("#{tree}/#{mutant.file}", whole)
 end
 
 def preprocessed(file, tree)
-  RUNS.fetch(file).map do |run|
-    sources = run.sources.map { |source| in_tree(source, tree) }
-    Open3.capture2('gcc', *FLAGS, *run.options, "-I#{tree}/src", "-I#{UNITY}", '-E', '-P', *sources).first
-  end
+  RUNS.fetch(file).map { |run| Open3.capture3(*compiler(run, tree, '-E', '-P')).first }
 end
 
 # Whether it is in what no run compiles: it makes no difference after the
 # preprocessor.
 def same_for_the_compiler?(mutant, tree)
   UNBROKEN.fetch(mutant.file) == preprocessed(mutant.file, tree)
-end
-
-def describe(mutant)
-  "#{mutant.file}:#{mutant.line}: `#{mutant.from}` -> `#{mutant.to}`"
-end
-
-# How equivalent.txt names a mutant: by the text of its line, not its number.
-def key(mutant)
-  text = File.readlines(mutant.file)[mutant.line - 1].sub(%r{//.*}, '').delete('\\').strip.gsub(/\s+/, ' ')
-  "#{mutant.file}: #{text}: `#{mutant.from}` -> `#{mutant.to}`"
 end
 
 # [mutant, what noticed it] of all, in order.
@@ -227,37 +182,80 @@ def results_of(mutants)
     end
   end
   workers.each(&:join)
-  mutants.map { |mutant| [mutant, results[mutant]] }
+  mutants.map { |mutant| [mutant, results.fetch(mutant)] }
 end
 
-FileUtils.mkdir_p('build/test')
-File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
-           ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
-build_objects
-WORKERS.times do |worker|
-  FileUtils.rm_rf("#{ROOT}/#{worker}")
-  FileUtils.mkdir_p("#{ROOT}/#{worker}")
-  FileUtils.cp_r('src', "#{ROOT}/#{worker}")
+# A line for a file: every survivor is excused, and every excuse true.
+def judge(file, results, keys, excuses)
+  survivors = results.select { |_, caught| caught.nil? }.map { |mutant, _| keys.fetch(mutant) }
+  unexplained = survivors.reject { |key| excuses.cover?(key) }
+  stale = excuses.stale(file, survivors)
+  good = unexplained.empty? && stale.empty?
+  puts "#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test"
+  puts unexplained.map { |key| "Nobody notices: #{key}" }
+  puts stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }
+  good
 end
+
+# What a compiler or an operating system ends is no test's merit.
+def tell(results)
+  ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught }.transform_values(&:size)
+  ends.default = 0
+  puts "#{results.size} mutants: #{ends[:named]} noticed by a test, #{ends[nil]} by none; see #{REPORT}"
+  puts "apart: #{ends[:refused]} refused by the compiler, #{ends[:crashed]} crashed, " \
+       "#{ends[:endless]} endless, #{ends[:not_compiled]} not compiled on this machine"
+end
+
+# Each fault of the list must be noticed by the test that it names.
+Fault = Struct.new(:test, :file, :script) do
+  def source
+    found, status = Open3.capture2('sed', '-e', script, file)
+    status.success? && found != File.read(file) or abort "FAILED #{FAULTS}: changes nothing: #{file} #{script}"
+    found
+  end
+
+  def run
+    program = Dir['test/unit/*.c'].find { |path| File.read(path).include?("void #{test}(") } or
+      abort "FAILED #{FAULTS}: no #{test}"
+    whole_run_of(File.basename(program, '.c'))
+  end
+
+  def noticed?(tree)
+    caught = broken(tree, file, source) { notice_in(run, tree) }
+    good = caught.is_a?(Array) && caught.include?(test)
+    puts "#{good ? 'ok' : 'FAILED'} #{test} notices #{script} in #{file}#{": #{caught.inspect}" unless good}"
+    good
+  end
+end
+
+def faults
+  return [] unless File.exist?(FAULTS)
+
+  File.readlines(FAULTS, chomp: true).grep(/\A\w/).map { |line| Fault.new(*line.split(' ', 3)) }
+end
+
+build_objects
+plant_trees
+RUNS = Dir['src/*.[ch]', 'include/*.h'].sort.reject { |file| Breaks.of(file).empty? }
+                                       .to_h { |file| [file, runs_of(file)] }.freeze
 RUNS.values.flatten.uniq.each do |run|
   caught = notice_in(run, "#{ROOT}/0")
-  abort "#{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
+  abort "FAILED #{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
 end
 UNBROKEN = RUNS.keys.to_h { |file| [file, preprocessed(file, "#{ROOT}/0")] }.freeze
-known = File.exist?(EQUIVALENT) ? File.readlines(EQUIVALENT, chomp: true).grep(/^src/) : []
+excuses = Excuses.new(EQUIVALENT)
 only = ARGV # files
-results = results_of(RUNS.keys.select { |file| only.empty? || only.include?(file) }.flat_map { |file| mutants_of(file) })
-named, others = results.partition { |_, caught| caught.is_a?(String) }
-apart = others.group_by { |_, caught| caught }.transform_values { |pairs| pairs.map(&:first) }
-survivors = apart.fetch(nil, [])
+files = RUNS.keys.select { |file| only.empty? || only.include?(file) }
+mutants = files.to_h { |file| [file, Breaks.of(file)] }
+results = results_of(mutants.values.flatten)
 File.open(REPORT, 'w') do |report|
-  results.each { |mutant, caught| report.puts "#{describe(mutant)}: #{caught || 'nobody'}" }
+  results.each { |mutant, caught| report.puts "#{mutant}: #{caught || 'nobody'}" }
 end
-unexplained = survivors.map { |mutant| key(mutant) }.uniq - known
-stale = only.empty? ? known - survivors.map { |mutant| key(mutant) } : []
-puts "#{results.size} mutants: #{named.size} noticed by a test, #{survivors.size} by none; see #{REPORT}"
-puts "apart: #{apart.fetch(:refused, []).size} refused by the compiler, #{apart.fetch(:crashed, []).size} crashed, " \
-     "#{apart.fetch(:endless, []).size} endless, #{apart.fetch(:not_compiled, []).size} not compiled on this machine"
-puts 'Nobody notices:', unexplained unless unexplained.empty?
-puts "No longer true in #{EQUIVALENT}:", stale unless stale.empty?
-exit(unexplained.empty? && stale.empty? ? 0 : 1)
+good = results.group_by { |mutant, _| mutant.file }.map do |file, found|
+  judge(file, found, Excuses.keys(mutants.fetch(file), File.read(file)), excuses)
+end
+good += faults.select { |fault| only.empty? || only.include?(fault.file) }.map { |fault| fault.noticed?("#{ROOT}/0") }
+strangers = excuses.strangers(RUNS.keys)
+puts strangers.map { |key| "FAILED #{EQUIVALENT} names what is not broken: #{key}" }
+tell(results)
+exit(good.all? && strangers.empty? ? 0 : 1)

@@ -32,7 +32,7 @@ class Chip
     options += ['--every', @every.to_s] if @every
     Host.execute({}, "#{Host.root}/build/gpsim/#{@name}",
                  firmware, '--csv', csv, '--meter', @step, *options, { out: log })
-    @chip = Trace.new(csv)
+    @chip = Trace.new(csv, Host.seconds(@example, @scenario))
     @lines = File.read(log)
     @start_s = find(/^ready: ([\d.]+) s/)
   end

@@ -1,24 +1,26 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# A recorded run: rows of numbers with named columns. Whatever else stands there
-# is a failure, and so is a question about a time without rows.
+# A recorded run: rows of numbers with named columns, the first of which is the
+# time: from 0, in even steps, to `last` at least. Whatever else stands there is a
+# failure, and so is a question about a time of which rows are missing.
 class Trace
   attr_reader :path
 
-  def initialize(path)
+  def initialize(path, last = 0.0)
     @path = path
     head, *lines = File.readlines(path, chomp: true)
     @names = head.to_s.split(',')
     @rows = lines.each_with_index.map { |line, i| numbers(line, i + 2) }
     @rows.empty? and raise Host::Failure, "#{path} has no rows"
+    check_times(last)
   end
 
   # The values of a column while from <= time < to; at least one.
   def values(name, from = -Float::INFINITY, to = Float::INFINITY)
     column = @names.index(name) or raise Host::Failure, "no column #{name}"
     rows = @rows.select { |row| row[0] >= from && row[0] < to }
-    rows.empty? and
+    rows.empty? || (to.finite? && to > @rows.last[0] + 1.5 * @period) and
       raise Host::Failure, "#{path} has no rows from #{from} to #{to}"
     rows.map { |row| row[column] }
   end
@@ -58,6 +60,14 @@ class Trace
   end
 
   private
+
+  def check_times(last)
+    times = @rows.map(&:first)
+    @period = times.last / [times.size - 1, 1].max
+    late = times.each_with_index.find { |time, row| (time - row * @period).abs > 0.01 * @period + 1e-6 }
+    late and raise Host::Failure, "#{path} misses a row before #{late.first}"
+    times.last + 0.5 * @period < last and raise Host::Failure, "#{path} ends at #{times.last}, not at #{last}"
+  end
 
   def numbers(line, number)
     cells = line.split(',', -1)
@@ -102,7 +112,15 @@ module Host
       scenario.each { |key, value| options += ['--set', "#{key}=#{value}"] }
       execute({}, "#{@programs}/#{program}", *options,
               { out: "#{folder}/#{name}.txt" })
-      Trace.new(csv)
+      Trace.new(csv, seconds(program, scenario))
+    end
+
+    # How long a scenario lasts: as it says, or as the program does.
+    def seconds(program, scenario)
+      scenario.fetch(:seconds) do
+        help = IO.popen(["#{@programs}/#{program}", '--help'], &:read)
+        Float(help[/^ +seconds +.*\((\S+)\)$/, 1] || raise(Failure, "#{program} does not say how long it runs"))
+      end
     end
 
     # What the program of the run `name` printed.

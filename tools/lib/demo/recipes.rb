@@ -3,23 +3,29 @@
 
 # The recipes of docs/recipes.md: each a program that runs a loop, what must be
 # seen of it, and one picture of those that have something to show.
+#
+# What a recipe promises, its loop must show: within 2 % of the setpoint in half of
+# the time until the next event, a twentieth beyond it at most, and what the recipe is
+# about. Without the recipe it must be so much worse that a reader sees it in the
+# picture, or the recipe is not worth its lines.
 def recipes
-  check_cascade(cascade = recipe('cascade'))
-  check_override(override = recipe('override'))
-  check_ramp(ramp = recipe('ramp'))
-  check_ssr(ssr = recipe('ssr'))
-  check_dead_band(dead_band = recipe('dead_band'))
-  check_scheduling(recipe('scheduling'))
-  check_sample_time(recipe('sample_time'))
-  check_menu(Loops.read(Host.recipe('menu', 'recipes-menu.txt')))
-  check_interrupt(recipe('interrupt'))
-  check_converter(recipe('converter'))
-  check_sensor_break(sensor = recipe('sensor_break'))
+  check_cascade(cascade = recipe('cascade', 5999))
+  check_override(override = recipe('override', 3999))
+  check_ramp(ramp = recipe('ramp', 599.9))
+  check_ssr(ssr = recipe('ssr', 1799.9))
+  check_dead_band(dead_band = recipe('dead_band', 3999))
+  check_scheduling(recipe('scheduling', 2999))
+  check_sample_time(recipe('sample_time', 1199.9))
+  check_menu(Loops.read(Host.recipe('menu', 'recipes-menu.txt'), 5))
+  check_interrupt(recipe('interrupt', 999))
+  check_converter(recipe('converter', 1999))
+  check_sensor_break(sensor = recipe('sensor_break', 599.9))
   draw_recipes(cascade, override, ramp, ssr, dead_band, sensor)
 end
 
-def recipe(name)
-  Trace.new(Host.recipe(name, "recipes-#{name}.csv"))
+# Its run, to `last` at least.
+def recipe(name, last)
+  Trace.new(Host.recipe(name, "recipes-#{name}.csv"), last)
 end
 
 # Steps of the largest change of a column between two rows of a stretch.

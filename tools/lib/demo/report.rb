@@ -5,8 +5,12 @@
 # a file for programs.
 module Report
   Check = Struct.new(:loop, :what, :relation, :limit, :measured, :unit) do
+    # What is missing, and what is no number, is never within a limit.
     def ok?
-      measured.public_send(relation, limit)
+      number = measured.is_a?(Numeric) && limit.is_a?(Numeric) && measured.finite?
+      return measured.public_send(relation, limit) if number
+
+      relation == :== && !measured.nil? && !measured.is_a?(Numeric) && measured == limit
     end
 
     # A line of the table.
@@ -52,6 +56,23 @@ module Report
 
     def exactly(what, measured, value, unit = '')
       @checks << Check.new(@loop, what, :==, value, measured, unit)
+    end
+
+    # A value that nobody requires, but that is as it was; an integer or a text.
+    def unchanged(what, value)
+      before = Regression.of(@loop, what, value)
+      @checks << Check.new(@loop, "#{what}, as it was", :==, @renew ? value.to_s : before, value.to_s, '')
+    end
+
+    # What changed is no failure while it is taken anew.
+    def renew!
+      @renew = true
+    end
+
+    # All has been measured that was, and something was checked at all.
+    def finish(name)
+      Regression.missing(name).each { |what| exactly("#{what}, as it was", 'gone', 'measured') } unless @renew
+      failure("#{name} checked nothing") if @checks.none? { |c| c.loop.split.first == name }
     end
 
     # A number for the documents that is not a check by itself.

@@ -85,7 +85,7 @@ module Tables
 
     def five
       numbers = Report.numbers['others']
-      rows = LOOP_LIMITS.keys.flat_map do |plant|
+      rows = SETTLED_LIMITS.keys.flat_map do |plant|
         numbers[plant].map { |row| loop_row(row) }
       end
       loops(rows)

@@ -219,8 +219,26 @@ part_docs() {
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
 }
 
+part_gates() {
+    need ruby cc:gcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
+        avr-g++:gcc-avr :avr-libc
+    need_ceedling
+    for gate in parts lint documents memory mutants; do
+        count "test/gates/$gate.rb" '^ok ' '^FAILED ' ruby "test/gates/$gate.rb"
+    done
+}
+
+# After the answers of the unbroken assembly: what remains are its harnesses.
+part_assembly() {
+    need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc
+    need_sdcc
+    build_gpsim
+    check 'the arithmetic on chips' test/target/run arith
+    count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/mutants/assembly.rb
+}
+
 part_mutants() {
     need ruby cc:gcc :libc6-dev
     need_ceedling
-    check 'mutants' ruby tools/lib/mutants.rb
+    count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/mutants.rb
 }

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# tools/lib/mutants.rb on a library of two functions: tests that notice every break,
+# tests that do not, and excuses that are not true.
+require_relative 'planted'
+require "#{PROJECT}/tools/lib/mutants/breaks"
+require "#{PROJECT}/tools/lib/mutants/excuses"
+
+HEADER = "#ifndef FIXPID_TOY_H\n#define FIXPID_TOY_H\nint fixpid_toy_low(int x);\nint fixpid_toy_high(int x);\n#endif\n"
+SOURCE = <<~TEXT
+  #include "fixpid_toy.h"
+
+  int fixpid_toy_low(int x)
+  {
+      int value = x;
+
+      if (value < 0) {
+          value = 0;
+      }
+      return value;
+  }
+
+  int fixpid_toy_high(int x)
+  {
+      int value = x;
+
+      if (value > 9) {
+          value = 0;
+      }
+      return value;
+  }
+TEXT
+SAME = ['src/fixpid_toy.c, fixpid_toy_low: if (value < 0) {: `<` -> `<=`',
+        'src/fixpid_toy.c, fixpid_toy_low: if (value < 0) {: `0` -> `1`'].freeze
+LOW = "TEST_ASSERT_EQUAL_INT(0, fixpid_toy_low(-1));\nTEST_ASSERT_EQUAL_INT(2, fixpid_toy_low(2));"
+HIGH = "TEST_ASSERT_EQUAL_INT(9, fixpid_toy_high(9));\nTEST_ASSERT_EQUAL_INT(0, fixpid_toy_high(10));"
+FAULT = "test_high src/fixpid_toy.c s/value > 9/value > 9 + (x == 10)/\n"
+
+def test(low, high)
+  "#include \"fixpid_toy.h\"\n#include \"unity.h\"\nvoid setUp(void)\n{\n}\nvoid tearDown(void)\n{\n}\n" \
+    "void test_low(void)\n{\n#{low}\n}\nvoid test_high(void)\n{\n#{high}\n}\n"
+end
+
+PROJECT_FILE = ":project:\n  :build_root: build/ceedling\n  :use_mocks: FALSE\n:paths:\n  :test: [test/unit/**]\n" \
+               "  :source: [src/**]\n  :include: [include/**]\n  :support: [test/support]\n"
+
+def mutants(low: LOW, high: HIGH, excuses: SAME, faults: FAULT, programs: {})
+  files = { 'project.yml' => PROJECT_FILE, 'include/fixpid_toy.h' => HEADER, 'src/fixpid_toy.c' => SOURCE,
+            'test/unit/test_fixpid_toy.c' => test(low, high), 'test/support/nothing.h' => '',
+            'test/mutants/equivalent.txt' => excuses.map { |line| "#{line}\n" }.join, 'test/mutants/faults.txt' => faults }
+  files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
+  Planted.tree(files) do |folder|
+    Planted.run('ruby', "#{PROJECT}/tools/lib/mutants.rb", programs: "#{folder}/bin")
+  end
+end
+
+Planted.passed('tests that notice every break', mutants)
+Planted.refused('a bound that nobody asks about', mutants(high: HIGH.lines.last, faults: ''),
+                /Nobody notices: src.fixpid_toy.c, fixpid_toy_high: if .value > 9. \{: `>` -> `>=`/, /^FAILED src.fixpid_toy.c/)
+# `value = 0;` is in both functions, and a test notices one of them.
+Planted.refused('an excuse for the same line of another function',
+                mutants(low: LOW.lines.last, excuses: SAME + ['src/fixpid_toy.c, fixpid_toy_high: value = 0;: `0` -> `1`']),
+                /Nobody notices: src.fixpid_toy.c, fixpid_toy_low: value = 0;: `0` -> `1`/,
+                /No longer true .*: src.fixpid_toy.c, fixpid_toy_high: value = 0;/)
+Planted.refused('an excuse for a line that is gone', mutants(excuses: SAME + ['src/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
+                /No longer true .*value--/)
+Planted.refused('an excuse for a file that is gone', mutants(excuses: SAME + ['src/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
+Planted.refused('an excuse twice', mutants(excuses: SAME + SAME), /named twice/)
+Planted.refused('a line that is no excuse', mutants(excuses: SAME + ['And all others.']), /not an excuse/)
+Planted.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)
+Planted.refused('a fault that no test notices', mutants(faults: "test_high src/fixpid_toy.c s/value > 9/value > 9 + (x == 11)/\n"), /^FAILED test_high/)
+Planted.refused('a fault that changes nothing', mutants(faults: "test_high src/fixpid_toy.c s/value > 10/value/\n"), /changes nothing/)
+Planted.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/)
+Planted.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
+  case $* in
+  *program*) echo 'ld: No space left on device: error: nothing' >&2; exit 1 ;;
+  esac
+  exec /usr/bin/gcc "$@"
+TEXT
+
+# What is broken of a line: from, to.
+def breaks(line, file: 'src/x.c')
+  Breaks.of(file, "void f(void)\n{\n    #{line}\n}\n").map { |mutant| [mutant.from, mutant.to] }
+end
+
+Planted.expect('a bound and its neighbours', breaks('if (a < limit) {'), [['<', '<='], ['<', '>'], ['<', '< -1 +']])
+Planted.expect('a bound that is a number', breaks('if (a >= 5u) {'), [['>=', '>'], ['>=', '<'], ['5u', '6u'], ['5u', '4u']])
+Planted.expect('a call that is left out', breaks('reset(self);'), [['reset(self);', '']])
+Planted.expect('an assignment that is left out', breaks('a -= b;'), [['-=', '+='], ['a -= b;', '']])
+Planted.expect('exclusive or, not and complement', breaks('return (a ^ ~b) & !c;'),
+               [['^', '|'], ['~', ''], ['&', '|'], ['!', '']])
+Planted.expect('an assertion, a comment and an address', breaks('FIXPID_ASSERT(a < b); // a < b') + breaks('return &a; // 7'), [])
+Planted.expect('a macro of a header for users', Breaks.of('include/x.h', "#define LIMIT 5u\n#define F(x) \\\n    ((x) < 0.5)\nint f(int a[5]);\n")
+                                                   .map { |mutant| [mutant.line, mutant.from, mutant.to] },
+               [[3, '<', '<='], [3, '<', '>'], [3, '0.5', '-0.5'], [3, '0.5', '1.5']])
+alike = "int f(void)\n{\n    a = 0u & 0u;\n    a = 0u & 0u;\n}\n"
+keys = Excuses.keys(Breaks.of('src/x.c', alike), alike)
+Planted.expect('an excuse names one break', keys.values.uniq.size, keys.size)
+Planted.expect('and counts from above', keys.values.grep(/0u` -> `1u/).map { |key| key[/\(.*\)/] },
+               ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
+Planted.finish
