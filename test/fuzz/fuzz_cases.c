@@ -58,8 +58,13 @@ static void compare(const struct controller *controller)
     }
     for (const struct member *member = controller->members;
          member->name != NULL; member++) {
-        fprintf(stderr, "%s: %ld, defined as %ld\n", member->name,
-                member_of(&answer, member), member_of(&expected, member));
+        const long given = member_of(&answer, member);
+        const long defined = member_of(&expected, member);
+
+        if (given != defined) {
+            fprintf(stderr, "%s %ld, defined as %ld\n", member->name, given,
+                    defined);
+        }
     }
     abort();
 }
