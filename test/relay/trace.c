@@ -263,10 +263,15 @@ static void experiment(enum kind kind)
     say_results();
 }
 
+void trace_experiment(uint32_t number)
+{
+    experiment((enum kind)(number % KINDS));
+}
+
 void trace_experiments(long runs)
 {
     numbers_seed(1984);
     for (long run = 0; run < runs; run++) {
-        experiment((enum kind)(run % KINDS));
+        trace_experiment((uint32_t)run);
     }
 }

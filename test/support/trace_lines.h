@@ -5,7 +5,9 @@
 #define TRACE_LINES_H
 #include <stdint.h>
 
-// The program's own: that many experiments, each call of which is said.
+// The program's own: one experiment, whose number chooses its kind, or that
+// many of them. Each call is said.
+void trace_experiment(uint32_t number);
 void trace_experiments(long runs);
 
 // A line: the kind of the call, what it was given and what it answered.

@@ -15,9 +15,14 @@ class TraceReplay
   def read(line)
     @lines += 1
     kind, *values = line.split
+    return @input = values.first if kind == 'x'
+
     values.map!(&:to_i)
     expected, found = send(kind, values)
-    abort "line #{@lines}, #{line.chomp}: the model says #{expected.inspect}" unless expected == found
+    return if expected == found
+
+    puts "input #{@input}" if @input
+    abort "line #{@lines}, #{line.chomp}: the model says #{expected.inspect}"
   end
 
   def i(values)

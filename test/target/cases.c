@@ -147,7 +147,7 @@ static void an937_ask(union question *question)
 static void an937_calls(const struct an937_question *asked, uint8_t *accepted)
 {
     const bool legal = asked->limit != 0u && asked->period != 0u;
-    const struct reference_an937 old = an937;
+    struct reference_an937 old;
 
     if ((asked->calls & CALL_INIT) != 0u) {
         reference_an937_init(&an937, 0, 0, 0, 0, 1);
@@ -160,6 +160,7 @@ static void an937_calls(const struct an937_question *asked, uint8_t *accepted)
         }
     }
     if ((asked->calls & CALL_RESET) != 0u) {
+        old = an937;
         reference_an937_init(&an937, old.kp, old.ki, old.kd, old.limit,
                              old.period);
     }

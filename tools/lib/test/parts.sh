@@ -111,6 +111,10 @@ part_autotune() {
     count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
 }
 
+part_fuzz() {
+    count 'test/fuzz/run' '^ok ' '^FAILED ' test/fuzz/run
+}
+
 part_avr() {
     need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
     need_ceedling
