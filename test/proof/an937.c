@@ -23,7 +23,8 @@ static number value_of(const union fixpid_an937_number *n)
 }
 
 // What stands for fixpid_number_term in the proofs of a whole step.
-int32_t fixpid_number_term_contract(uint8_t gain, const union fixpid_an937_number *n)
+int32_t fixpid_number_term_contract(uint8_t gain,
+                                    const union fixpid_an937_number *n)
 {
     pre(inside(value_of(n), -65535, 65535));
     return (int32_t)TIMES(gain, value_of(n));
@@ -54,8 +55,8 @@ static bool sound(const struct fixpid_an937 *x)
         !sound_number(&x->delta, 65535)) {
         return false;
     }
-    if ((x->step_flags &
-         (uint8_t)~(FIXPID_AN937_SUM_NEGATIVE | STEP_FLAGS)) != 0u) {
+    if ((x->step_flags & (uint8_t) ~(FIXPID_AN937_SUM_NEGATIVE | STEP_FLAGS)) !=
+        0u) {
         return false;
     }
     if (x->accumulated_error_limit == 0u) { // refused
@@ -195,8 +196,7 @@ void prove_read(void)
     claim(((stat1 & FIXPID_AN937_A_ERR_ZERO) != 0u) == (accumulated == 0));
     claim(((stat1 & FIXPID_AN937_ERR_ZERO) != 0u) == (error == 0));
     claim((stat1 & 0x20u) == 0u);
-    claim(fixpid_an937_stat2(&c) ==
-          ((delta == 0) ? FIXPID_AN937_D_ERR_Z : 0u));
+    claim(fixpid_an937_stat2(&c) == ((delta == 0) ? FIXPID_AN937_D_ERR_Z : 0u));
     claim((fixpid_an937_flags(&c) & 0xF8u) == 0u);
     claim(same(&c, &was));
 }

@@ -41,17 +41,16 @@ end
 # Whether a proof holds, and its line.
 def prove(proof)
   answer = Cbmc.new(proof, BUILD).run
-  figures = format('%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB', answer.to_h)
-  return [true, "#{proof.name}: #{figures}"] if answer.verdict == :proved
+  return [false, "#{proof.name}: #{answer.why}"] unless answer.verdict == :proved
 
-  [false, "#{proof.name}: #{answer.why}"]
+  figures = format('%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB', answer.to_h)
+  [true, "#{proof.name}: #{figures}"]
 end
 
 # Whether a break is noticed, and its line.
 def refute(broken)
   answer = broken.in_tree(BUILD) { |tree| Cbmc.new(broken.proof, BUILD, tree).run }
-  return [true, format('%<name>s: noticed, %<seconds>.1f s', name: broken.name, seconds: answer.seconds)] if
-    answer.verdict == :refuted
+  return [true, "#{broken.name}: noticed, #{answer.seconds.round(1)} s"] if answer.verdict == :refuted
 
   [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
 end
