@@ -486,6 +486,8 @@ static void claim_gains(const struct fixpid_pid_gains *gains)
     claim(c.kd == gains->kd_q8);
     claim((c.options & FILTER) == gains->derivative_filter);
     claim((given > 32767) || (kept == given));
+    claim(((c.options & KI_COARSE) != 0u) ||
+          inside(kept - given, -128, 128)); // to the nearest
     claim(inside(kept - given, -32768, 32768));
     claim(inside((kept - given) * 250, -given, given));
 }

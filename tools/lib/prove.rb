@@ -49,9 +49,8 @@ def prove(proof)
   answer = judge_of(proof).new(proof, BUILD).run
   return [false, "#{proof.name}: #{answer.why}"] unless answer.verdict == :proved
 
-  figures = format(proof.exhausted? ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB',
-                   answer.to_h)
-  [true, "#{proof.name}: #{figures}"]
+  figures = proof.exhausted? ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB'
+  [true, "#{proof.name}: #{format(figures, answer.to_h)}"]
 end
 
 # Whether a break is noticed, and its line.
@@ -76,7 +75,8 @@ end
 
 $stdout.sync = true
 breaks = Breaks.all(proofs)
-breaks = mode == 'quick' ? breaks.uniq { |broken| broken.proof.group } : breaks.select { |broken| chosen.include?(broken.proof) }
+breaks = breaks.select { |broken| chosen.include?(broken.proof) }
+breaks = breaks.uniq { |broken| broken.proof.group } if mode == 'quick'
 complaints = Proofs.complaints(proofs) + Breaks.complaints(proofs, Breaks.all(proofs))
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
