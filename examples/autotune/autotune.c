@@ -85,8 +85,10 @@ static void control(void)
         if (experiment_is(FIXPID_AUTOTUNE_DONE)) {
             take_result();
         }
-    } else {
+    } else if (sensed(measurement)) {
         port_drive(fixpid_pid_step(&oven, setpoint, measurement));
+    } else {
+        port_drive(0); // the controller rests until the sensor is there again
     }
 }
 

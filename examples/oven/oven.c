@@ -43,13 +43,7 @@
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an937 oven;
 
-// The error is four times the difference in counts of the converter, so that
-// its 1023 counts are the note's 4000.
-static int16_t temperature_error(void)
-{
-    const int16_t setpoint = set_temperature();
-    return (int16_t)(setpoint - temperature());
-}
+static bool lost = false; // the last pass had no sensor
 
 // A heater cannot cool, so its duty is 0..PORT_DRIVE_FULL.
 static int16_t heater_duty(int32_t output)
@@ -63,7 +57,8 @@ static int16_t heater_duty(int32_t output)
     return (int16_t)(output / OUTPUT_PER_DUTY);
 }
 
-// There is at most one control tick, as 255 ms are less than its period.
+// There is at most one control tick, as 255 ms are less than its period. One
+// without a sensor makes the controller start anew: the heater has been off.
 static void count_milliseconds(uint8_t ticks)
 {
     static uint16_t waited_ms = 0;
@@ -71,7 +66,27 @@ static void count_milliseconds(uint8_t ticks)
     waited_ms = (uint16_t)(waited_ms + ticks);
     if (waited_ms >= CONTROL_TICK_MS) {
         waited_ms = (uint16_t)(waited_ms - CONTROL_TICK_MS);
-        fixpid_an937_tick(&oven);
+        if (lost) {
+            fixpid_an937_reset(&oven);
+        } else {
+            fixpid_an937_tick(&oven);
+        }
+    }
+}
+
+// The error is four times the difference in counts of the converter, so that
+// its 1023 counts are the note's 4000. Without a sensor the heater is off.
+static void control(void)
+{
+    const int16_t setpoint = set_temperature();
+    const int16_t measurement = temperature();
+    const int16_t error = (int16_t)(setpoint - measurement);
+
+    lost = !sensed(measurement);
+    if (lost) {
+        port_drive(0);
+    } else {
+        port_drive(heater_duty(fixpid_an937_step(&oven, error)));
     }
 }
 
@@ -85,8 +100,7 @@ int main(void)
     (void)fixpid_an937_init(&oven, &config);
     while (port_running()) {
         count_milliseconds(port_wait_tick());
-        const int16_t error = temperature_error();
-        port_drive(heater_duty(fixpid_an937_step(&oven, error)));
+        control();
     }
     return 0;
 }

@@ -69,11 +69,36 @@ static void follow_selector(void)
     last = now;
 }
 
+// The controller takes over from a duty, without a memory of temperatures that
+// it has not seen.
+static void go_on_from(int16_t duty)
+{
+    fixpid_pid_reset(&thermostat);
+    fixpid_pid_seed(&thermostat, duty);
+    enter(position);
+}
+
+// Without a sensor the heater is off. When there is one again the controller
+// goes on from the duty that it gave last.
 static void control(void)
 {
+    static int16_t duty = 0;
+    static bool lost = false;
+
     follow_selector();
     const int16_t setpoint = set_temperature();
-    port_drive(fixpid_pid_step(&thermostat, setpoint, temperature()));
+    const int16_t measurement = temperature();
+    if (!sensed(measurement)) {
+        lost = true;
+        port_drive(0);
+        return;
+    }
+    if (lost) {
+        lost = false;
+        go_on_from(duty);
+    }
+    duty = fixpid_pid_step(&thermostat, setpoint, measurement);
+    port_drive(duty);
 }
 
 int main(void)

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A port to fill in: each function with what it promises to port.h. It compiles
-// as it is, and then does nothing; the simplest whole one is
-// ../pic/pic16f684/port.c, and docs/ports.md has the reasons.
+// as it is, and then does nothing; test/port_check/filled/ is one for an
+// imaginary chip, and docs/ports.md has the reasons. On a PC
+//     test/port_check/run FOLDER
+// checks each promise, once fake/ beside your port.c says how your chip
+// behaves: filled/ has an example of that, too.
 //
 // The seventh function, port_wait_ticks, is the same for every port: compile
-// ../port_wait_ticks.c too, if the application calls it.
+// ../port_wait_ticks.c too, if the application calls it. It calls
+// port_wait_tick for each tick, and so feeds the watchdog while it waits.
 #include "port.h"
 
 // The interrupt counts in the first, and only the interrupt writes to it; the
@@ -38,6 +42,7 @@ static void feed_watchdog(void)
 //   * Let the watchdog be on by the configuration, so that no program can
 //     forget it.
 //   * Enable the timer's interrupt; nothing else may interrupt.
+//   * The duty register may hold anything after a reset.
 void port_init(void)
 {
 }
@@ -64,7 +69,10 @@ uint8_t port_ticks(void)
     return ticks;
 }
 
-// The same, but waits for a tick: at least 1.
+// The same, but waits for a tick: at least 1. More than 1 says that the loop
+// takes longer than a tick.
+//   * Ticks that came before are told at once, without waiting for another.
+//   * It does not feed the watchdog while it waits: that is after the tick.
 uint8_t port_wait_tick(void)
 {
     while (ticks_counted == ticks_taken) {
@@ -73,7 +81,8 @@ uint8_t port_wait_tick(void)
 }
 
 // One conversion of a channel, 0..1023 over the converter's reference.
-//   * Choose the channel, let the input capacitor settle, convert.
+//   * Choose the channel, let the input capacitor settle, convert; wait for the
+//     end, so that the result is of this conversion and not of the last.
 //   * A converter of 12 bits is shifted down by 2, one of 8 bits up by 2.
 uint16_t port_read(uint8_t channel)
 {
@@ -83,9 +92,13 @@ uint16_t port_read(uint8_t channel)
 
 // Sets the drive: the sign is the direction and the magnitude the duty, limited
 // to PORT_DRIVE_FULL; below PORT_DRIVE_LEAST it is off. Takes effect at once.
+//   * "At once" is by the end of the second PWM period, but for the direction.
+//   * No pulse is ever shorter than PORT_DRIVE_LEAST, not even between the two
+//     writes of a duty that takes two registers.
 //   * INT16_MIN has no magnitude in an int16_t: take it unsigned.
 //   * Before the direction changes, let a whole PWM period pass without duty,
-//     so that no leg of the bridge has both of its switches on.
+//     and one after it, too, where a leg of the bridge turns with it: so no leg
+//     has both of its switches on.
 void port_drive(int16_t duty)
 {
     (void)duty;

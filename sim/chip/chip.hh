@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A microcontroller simulated by gpsim 0.31, ../gpsim/chip.cc, with a firmware in
-// it. An AVR is simulated by simavr, ../simavr/chip.cc, behind the same functions,
-// as far as it has what they are about.
+// A microcontroller simulated by gpsim 0.31, ../gpsim/chip.cc, with a firmware
+// in it. An AVR is simulated by simavr, ../simavr/chip.cc, behind the same
+// functions, as far as it has what they are about.
 //
 // gpsim keeps its state in global variables, so a program has one chip: a
 // second one is refused. Everything is deterministic; time is instruction
@@ -105,6 +105,8 @@ class Chip
     bool is_pic18() const;
     std::string processor() const; // "p16f684"
     unsigned program_counter() const;
+    unsigned working() const; // W; r24 of an AVR
+    void set_working(unsigned value);
     unsigned stack_depth() const;   // return addresses on the hardware stack
     unsigned stack_most() const;    // the deepest at any instruction so far
     std::string stack_unit() const; // "levels", or "bytes" of RAM

@@ -57,7 +57,7 @@ struct Chip::Implementation {
 
     Console console;
     Halt halt;
-    std::stringbuf printed_by_gpsim;
+    Printed printed_by_gpsim;
     std::streambuf *real_cout = nullptr;
     std::streambuf *real_cerr = nullptr;
 
@@ -436,9 +436,19 @@ unsigned Chip::program_counter() const
     return self->processor->pma->get_PC();
 }
 
+unsigned Chip::working() const
+{
+    return self->processor->Wget();
+}
+
+void Chip::set_working(unsigned value)
+{
+    self->processor->Wput(value);
+}
+
 unsigned Chip::stack_depth() const
 {
-    return (unsigned)std::max(self->stack->real->pointer, 0);
+    return self->stack->depth();
 }
 
 unsigned Chip::stack_most() const
@@ -499,7 +509,7 @@ void Chip::on_read(unsigned address, Action action)
 void Chip::Implementation::enter(Meter *meter, bool is_interrupt)
 {
     const unsigned back_at = stack->top();
-    const unsigned depth = (unsigned)stack->real->pointer;
+    const unsigned depth = stack->depth();
     if (!frames.empty() && (frames.back().meter == meter) &&
         (frames.back().depth == depth) &&
         (frames.back().return_address == back_at)) {
@@ -522,7 +532,7 @@ void Chip::Implementation::watch_return(unsigned address)
 
 void Chip::Implementation::leave(unsigned address)
 {
-    const unsigned depth = (unsigned)stack->real->pointer;
+    const unsigned depth = stack->depth();
     while (!frames.empty() && (frames.back().return_address == address) &&
            (frames.back().depth == depth + 1)) {
         const Frame frame = frames.back();

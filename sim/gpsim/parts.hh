@@ -37,6 +37,17 @@ constexpr double supply_volts = 5.0;
 constexpr double source_ohms = 1.0; // 100 would lose code 1023
 constexpr double probe_ohms = 1e9;
 
+// What gpsim prints, but for what a PIC18F26K22's Timer2 says in each period of
+// CCP1's PWM of a CCP2 that compares.
+struct Printed : std::stringbuf {
+    std::streamsize xsputn(const char *text, std::streamsize size) override
+    {
+        return std::string(text, (size_t)size) == "not pwm mode. bug?\n"
+                   ? size
+                   : std::stringbuf::xsputn(text, size);
+    }
+};
+
 // gpsim's command line, which we do not have; its messages go with the others.
 struct Console : ISimConsole {
     void Printf(const char *format, ...) override
@@ -249,21 +260,29 @@ struct GuardedStack : Stack {
         // A PIC18's has 31 levels: a pointer of 0 is its empty stack.
         return (real->stack_mask == 31) ? 31 : real->stack_mask + 1;
     }
+    // Levels that are taken. An enhanced PIC16's empty stack has a pointer of
+    // its own.
+    unsigned depth() const
+    {
+        return (real->pointer == NO_ENTRY)
+                   ? 0
+                   : (unsigned)std::max(real->pointer, 0);
+    }
     bool push(unsigned address) override
     {
         last_push = get_cycles().get();
-        if (real->pointer >= (int)size()) {
+        if (depth() >= size()) {
             fault("return stack overflow: more than " + std::to_string(size()) +
                   " levels");
             return true; // the run ends; do not let gpsim reset the chip
         }
         const bool pushed = real->push(address);
-        most = std::max(most, (unsigned)std::max(real->pointer, 0));
+        most = std::max(most, depth());
         return pushed;
     }
     unsigned pop() override
     {
-        if (real->pointer <= 0) {
+        if (depth() == 0) {
             fault("return stack underflow: a return without a call");
             return 0;
         }
@@ -306,7 +325,7 @@ struct GuardedStack : Stack {
     }
     unsigned top() const
     {
-        return real->contents[(unsigned)(real->pointer - 1) & real->stack_mask];
+        return real->contents[(depth() - 1) & real->stack_mask];
     }
 };
 

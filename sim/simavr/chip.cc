@@ -29,7 +29,8 @@ constexpr uint32_t usual_hz = 16000000;
 constexpr uint32_t data_offset = 0x800000; // of the linker's data addresses
 constexpr unsigned millivolts = 5000;      // supply and reference
 constexpr unsigned codes_most = 1023;
-constexpr unsigned sreg_interrupts = 0x80;
+constexpr unsigned sreg_bits = 8;
+constexpr unsigned working_register = 24;
 
 // What simavr says where a timer is set that has no clock yet.
 constexpr const char *stands_still = "avr_timer_write_ocr";
@@ -430,7 +431,9 @@ void Chip::write(unsigned address, unsigned value)
     avr_t &avr = *self->avr;
 
     if (address == R_SREG) {
-        avr_sreg_set(&avr, S_I, (value & sreg_interrupts) != 0);
+        for (unsigned bit = 0; bit < sreg_bits; bit++) {
+            avr_sreg_set(&avr, (uint8_t)bit, (value >> bit) & 1u);
+        }
         return;
     }
     for (unsigned i = 0; i < avr.interrupts.vector_count; i++) {
@@ -494,6 +497,16 @@ std::string Chip::processor() const
 unsigned Chip::program_counter() const
 {
     return self->avr->pc;
+}
+
+unsigned Chip::working() const
+{
+    return peek(working_register);
+}
+
+void Chip::set_working(unsigned value)
+{
+    poke(working_register, value);
 }
 
 unsigned Chip::stack_most() const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The oven's world: cold at power-on, with a temperature to reach, and a person
-// who turns the selector, opens the door and may choose another temperature.
+// who turns the selector, opens the door and may choose another temperature or
+// break the sensor's wire.
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -30,6 +32,9 @@ enum oven_option {
     DOOR_AT,
     DOOR_FOR,
     DOOR_LOSS,
+    WIRE_AT,
+    WIRE_FOR,
+    WIRE_READS,
     STEP
 };
 
@@ -46,6 +51,9 @@ struct world_option scene_options[] = {
     {"door_at", 90.0, 0.0, HOUR_S, "the door opens, s"},
     {"door_for", 5.0, 0.0, HOUR_S, "until it is shut, s"},
     {"door_loss", 2.0, 1.0, 100.0, "loss with an open door, times"},
+    {"wire_at", HOUR_S, 0.0, HOUR_S, "the sensor's wire breaks, s"},
+    {"wire_for", 5.0, 0.0, HOUR_S, "until it is whole, s"},
+    {"wire_reads", 1.0, 0.0, 1.0, "which then reads, of full scale"},
     {"plant_step", 1e-3, 1e-6, 1e-1, "longest step of the integrator, s"},
 };
 const size_t scene_option_count =
@@ -62,6 +70,7 @@ static double closed_k_w; // thermal resistance with the door shut
 static double setpoint_c;
 static enum selector selector;
 static bool door_open;
+static bool wire_broken;
 
 // Half a millisecond, as the times are multiples of a whole one.
 static bool within(double time_s, double start_s, double length_s)
@@ -88,6 +97,8 @@ void scene_update(double time_s)
 
     door_open = within(time_s, scene_options[DOOR_AT].value,
                        scene_options[DOOR_FOR].value);
+    wire_broken = within(time_s, scene_options[WIRE_AT].value,
+                         scene_options[WIRE_FOR].value);
     oven_plant.thermal_resistance_k_w =
         closed_k_w / (door_open ? scene_options[DOOR_LOSS].value : 1.0);
 }
@@ -119,6 +130,10 @@ double scene_voltage(uint8_t channel, double *noise)
     case PORT_TEMPERATURE:
         fraction = (oven_plant.state[OVEN_BODY] / SENSOR_RANGE_C) + HALF_COUNT;
         *noise = NOISE_COUNTS / COUNTS;
+        if (wire_broken) {
+            fraction = fmin(scene_options[WIRE_READS].value, 1.0 - HALF_COUNT);
+            *noise = 0.0;
+        }
         break;
     default:
         break;

@@ -26,6 +26,10 @@ class Assembled14 < Pic14Code
   include Assembled
 end
 
+class Assembled14Enhanced < Pic14EnhancedCode
+  include Assembled
+end
+
 class Assembled18 < Pic18Code
   include Assembled
 end
@@ -64,7 +68,9 @@ end
 
 REFUSED = { 'computed' => /computed/, 'turns' => /counts no constant/ }.freeze
 
-good = { 'cycles14' => Assembled14, 'cycles18' => Assembled18 }.flat_map do |name, kind|
+KINDS = { 'cycles14' => Assembled14, 'cycles14e' => Assembled14Enhanced, 'cycles18' => Assembled18 }.freeze
+
+good = KINDS.flat_map do |name, kind|
   source = "#{root}/test/target/simulator/#{name}.asm"
   path = assemble(source)
   code = kind.new(path, labels(path))
@@ -73,4 +79,7 @@ good = { 'cycles14' => Assembled14, 'cycles18' => Assembled18 }.flat_map do |nam
   checks << expect("bound of #{name} turns, as stated", bound(code, 'turns', { 'turns' => 5 }), known.fetch('turns'))
   checks << expect("lengths of #{name}", known.size, 8..99)
 end
+CORES = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,
+          'p12lf1822' => Pic14EnhancedCode, 'p18f26k22' => Pic18Code, 'p12f509' => nil, 'p10f200' => nil }.freeze
+good += CORES.map { |chip, core| expect("core of #{chip}", [PicCode.of(chip)], [core]) }
 exit(good.all? ? 0 : 1)

@@ -24,7 +24,8 @@ extern "C" {
 namespace
 {
 
-constexpr unsigned poison = 0xA5;
+// Not the byte that all RAM begins with: the step saves what it finds.
+constexpr unsigned poison = 0x5A;
 constexpr unsigned stack_pointer = 0xFE1; // FSR1 of a PIC18
 constexpr unsigned watched_calls = 2000;  // the rows
 
@@ -54,6 +55,7 @@ Steps::Steps(const std::string &cod, const controller &which,
         step.on_call = [this] { poison_stack(); };
         step.on_return = [this](uint64_t) { measure_stack(); };
     }
+    driver.poison_ram();
     driver.run_turn(); // up to the first wait
 }
 

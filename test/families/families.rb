@@ -5,7 +5,7 @@
 # bit, and what their steps cost there: see test/families/run.
 require 'etc'
 require_relative '../../tools/lib/cost/subjects'
-require_relative 'attiny85'
+require_relative 'metered'
 require_relative 'msp430'
 require_relative 'ucsim'
 
@@ -15,17 +15,23 @@ ALL = TITLES.keys.to_h { |name| [name, BOTH] }.freeze
 S51 = { simulator: %w[s51 -t 52 -X 12M], order: 'little', interface: 'xram[0xffff]', memory: 'iram', cycle_ns: 1000.0 }.freeze
 SPDK = ENV.fetch('SPDK', 'spdk').freeze
 NO_RAM_8051 = [/Could not get \d+ consecutive bytes/, 'no: its variables do not fit into 128 bytes'].freeze
+NO_RAM_PIC16 = [/No target memory available for section "UDL_/, 'no: a bank does not hold its variables'].freeze
+PIC16 = { run: PicRun, refused: { 'pid' => NO_RAM_PIC16 }, limits: {} }.freeze
+SMALL = ALL.reject { |name, _| name == 'pid' }.freeze
 NO_RAM_PADAUK = [/RAM value \d+ too large/, 'no: its variables do not fit into the RAM'].freeze
 
 # `refused` says why a controller is not for a family, and how its linker says so;
 # `limits` are of the worst step of the object mode or the pointer mode, whichever
 # costs less.
 FAMILIES = [
-  Attiny85.new(name: 'attiny85', title: 'ATtiny85', modes: ALL, refused: {}, limits: {}),
+  MeteredChip.new(name: 'pic16f887', title: 'PIC16F887', modes: SMALL, **PIC16),
+  MeteredChip.new(name: 'pic16f1788', title: 'PIC16F1788', modes: { **SMALL, 'an937' => %w[object] }, **PIC16),
+  MeteredChip.new(name: 'pic18f26k22', title: 'PIC18F26K22', run: PicRun, modes: ALL, refused: {}, limits: {}),
+  MeteredChip.new(name: 'attiny85', title: 'ATtiny85', run: AvrRun, modes: ALL, refused: {}, limits: {}),
   Ucsim.new(name: 'stm8', title: 'STM8', modes: ALL, refused: {}, compiler: %w[-mstm8], linker: [],
             simulator: %w[sstm8 -t S208], order: 'big', interface: 'rom[0x57ff]', memory: 'rom', cycle_ns: 500.0,
             limits: { 'an937' => 770, 'an964' => 335, 'an964_8bit' => 345, 'pid' => 1710 }),
-  Ucsim.new(name: '8051-small', title: '8051, small', modes: ALL.reject { |name, _| name == 'pid' },
+  Ucsim.new(name: '8051-small', title: '8051, small', modes: SMALL,
             refused: { 'pid' => NO_RAM_8051 }, compiler: %w[-mmcs51 --model-small], linker: %w[--iram-size 256],
             limits: { 'an937' => 755, 'an964' => 590, 'an964_8bit' => 415 }, **S51),
   Ucsim.new(name: '8051-stack-auto', title: '8051, small, `--stack-auto`', modes: TITLES.keys.to_h { |name| [name, %w[object]] },
@@ -59,6 +65,11 @@ DEFECTS = {
   'fixpid_an964_bytes.h' => ['round_up & 31u', 'round_up & 15u'],
   'fixpid_an964_8bit_narrow.h' => ['round_up & 3u', 'round_up & 1u'],
   'fixpid_an964_8bit_arith.h' => ['round_up & 3u', 'round_up & 1u'],
+  'pic14/fixpid_an964_pic14.c' => ['andlw 31', 'andlw 15'],
+  'pic14/fixpid_an964_8bit_pic14.c' => ['andlw 3\n', 'andlw 1\n'],
+  'pic18/fixpid_an937_pic18.c' => ['addwfc  PRODH, f, a', 'nop'],
+  'pic18/fixpid_an964_pic18.c' => ['andlw   31', 'andlw   15'],
+  'pic18/fixpid_an964_8bit_pic18.c' => [/andlw   3$/, 'andlw   1'],
   'fixpid_pid.c' => ['counts >= SELF.integral_max', 'counts > SELF.integral_max']
 }.freeze
 

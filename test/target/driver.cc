@@ -58,6 +58,17 @@ Driver::Driver(const std::string &cod, const controller &which)
     });
 }
 
+// Main may begin with its loop.
+void Driver::poison_ram()
+{
+    chip.on_execute(chip.code("main"), [this, done = false]() mutable {
+        if (!done) {
+            chip.fill_ram(poison);
+        }
+        done = true;
+    });
+}
+
 void Driver::take_turn()
 {
     question asked;

@@ -21,6 +21,10 @@ class Driver
     // Before each question that initialises, the controller's object is filled
     // with arbitrary bytes.
 
+    // Where main begins, all RAM is filled with them, too, whatever start-up
+    // has cleared. A port relies on that.
+    void poison_ram();
+
     // Question after question: `ask` gives the next or ends the run with false,
     // `judge` gets what came back. Throws ChipError for anything else that ends
     // the run, or if gpsim had anything to say.

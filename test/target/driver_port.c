@@ -6,12 +6,20 @@
 volatile uint8_t turn;
 
 // Which function: 'r'ead, 'd'rive, 't'icks, 'w'ait_tick or, with the number of
-// them in `channel`, wait_ticks 'n'.
+// them in `channel`, wait_ticks 'n'. Else `channel` counts the board's.
 volatile uint8_t call;
 volatile uint8_t channel;
 volatile uint16_t reading;
 volatile int16_t duty;
 volatile uint8_t ticks_told;
+
+// The board's channels, in the order of its pins.
+#if defined(PORT_ANGLE)
+static const uint8_t channels[] = {PORT_ANGLE, PORT_KP, PORT_KI, PORT_KD};
+#else
+static const uint8_t channels[] = {PORT_SETPOINT, PORT_TACHOMETER,
+                                   PORT_TEMPERATURE};
+#endif
 
 int main(void)
 {
@@ -21,7 +29,7 @@ int main(void)
         while (turn == 0u) {
         }
         if (call == (uint8_t)'r') {
-            reading = port_read(channel);
+            reading = port_read(channels[channel]);
         } else if (call == (uint8_t)'d') {
             port_drive(duty);
         } else if (call == (uint8_t)'t') {

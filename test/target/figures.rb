@@ -15,7 +15,8 @@ MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-
              'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,
-             'motor_uno' => 16_000, 'oven_uno' => 16_000 }.freeze
+             'motor_pic18f26k22' => 10_000, 'oven_pic18f26k22' => 10_000,
+             'motor_atmega328p' => 16_000, 'oven_atmega328p' => 16_000 }.freeze
 
 # What one of the runs printed.
 class Logs
@@ -27,6 +28,10 @@ class Logs
     File.read("#{@folder}/#{name}.log")
   rescue Errno::ENOENT
     abort "figures: #{name} was not run"
+  end
+
+  def names(pattern)
+    Dir.glob("#{@folder}/#{pattern}.log").map { |path| File.basename(path, '.log') }
   end
 
   # The named numbers of the line that matches: "rows 2000 different 0".
@@ -88,21 +93,28 @@ def pairs
   PROCESSORS.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
+# The named numbers of all forms and modes, added up.
+def all_interrupts(kind, controller, chip)
+  LOGS.names("interrupts_#{kind}{,plain,placed}-#{controller}-#{chip}-*")
+      .map { |name| LOGS.numbers(name, /interrupts .*/).to_h }
+      .reduce { |sum, one| sum.merge(one) { |_, left, right| left + right } } or
+    abort "figures: no interrupts of #{controller}, #{chip}"
+end
+
 def interrupts
   rows = pairs.map do |chip, controller|
-    good = LOGS.numbers("interrupts_tick-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    good = all_interrupts('tick', controller, chip)
     racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
     ["#{PROCESSORS[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
-  rows += POINTER_AND_OBJECT.map do |mode|
-    ticking = LOGS.numbers("interrupts_ticking-an937-pic18f4520-#{mode}", /interrupts .*/).to_h
-    ["PIC18 AN937, `fixpid_an937_tick` in the interrupt, #{mode} mode", ticking['interrupts'], '-',
-     ticking['changed'], '-']
-  end
+  ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
+  rows << ['PIC18 AN937, `fixpid_an937_tick` in the interrupt', ticking['interrupts'], '-', ticking['changed'], '-']
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
-TITLES_OF_CHIPS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520', 'atmega328p' => 'ATmega328P' }.freeze
+def title_of_chip(chip)
+  chip == 'atmega328p' ? 'ATmega328P' : chip.upcase
+end
 
 def stacks(chip, figures)
   return "#{figures['stack']} bytes" if chip == 'atmega328p'
@@ -117,7 +129,7 @@ def firmware
     size = SIZES.fetch(name)
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
-    ["#{name.sub(/_uno$/, '')}, #{TITLES_OF_CHIPS.fetch(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+    ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
      "#{size['ram']} of #{size['ram_size']}", stacks(size['chip'], figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end

@@ -61,6 +61,7 @@ class Replay
         : tested(which), rows(rows_of(which, paths)), random_steps(steps),
           driver(cod, which)
     {
+        driver.poison_ram();
         driver.ask = [this](question &asked) { return ask(asked); };
         driver.judge = [this](const answer &given) { judge(given); };
     }

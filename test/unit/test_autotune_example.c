@@ -146,6 +146,18 @@ void test_main_control_starts_from_what_holds_the_temperature(void)
     TEST_ASSERT_GREATER_THAN_INT16(process.holding, driven);
 }
 
+void test_main_broken_wire_of_the_sensor_switches_off_at_once(void)
+{
+    swing();
+    const int16_t before = period(SET);
+    TEST_ASSERT_GREATER_THAN_INT16(0, before);
+    for (int i = 0; i < 1000; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, period(1023));
+        TEST_ASSERT_EQUAL_INT16(0, period(0));
+    }
+    TEST_ASSERT_EQUAL_INT16(before, period(SET));
+}
+
 static int passes;
 
 static bool for_some_passes(int calls)

@@ -36,6 +36,16 @@ static void expect_pass(uint8_t ticks, uint16_t setpoint, uint16_t temperature,
     port_drive_Expect(duty);
 }
 
+// To the end of a slow tick.
+static void reach_slow_tick(void)
+{
+    lost = false;
+    oven.tick_pending = 0;
+    do {
+        count_milliseconds(1);
+    } while (oven.tick_pending == 0);
+}
+
 static void run(void)
 {
     port_running_ExpectAndReturn(false);
@@ -54,7 +64,7 @@ void test_main_heater_never_cools(void)
 {
     port_init_Expect();
     expect_pass(1, 400, 500, 0);
-    expect_pass(1, 0, 1023, 0);
+    expect_pass(1, 0, 1015, 0);
     run();
 }
 
@@ -73,9 +83,7 @@ void test_main_temperatures_are_averaged_over_four_conversions(void)
 
 void test_main_integral_moves_once_in_the_slow_tick(void)
 {
-    do {
-        count_milliseconds(1); // to the end of a slow tick
-    } while (oven.tick_pending == 0);
+    reach_slow_tick();
     port_init_Expect();
     expect_pass(200, 500, 498, 1);
     expect_pass(199, 500, 498, 1);
@@ -89,7 +97,39 @@ void test_main_integral_moves_once_in_the_slow_tick(void)
 void test_main_drive_is_limited_to_full(void)
 {
     port_init_Expect();
-    expect_pass(255, 1023, 0, 4092 / 8);
-    expect_pass(255, 1023, 0, PORT_DRIVE_FULL);
+    expect_pass(255, 1023, 8, 4060 / 8);
+    expect_pass(255, 1023, 8, 2 * 4060 / 8);
+    expect_pass(255, 1023, 8, 2 * 4060 / 8);
+    expect_pass(255, 1023, 8, PORT_DRIVE_FULL);
+    run();
+}
+
+// A short interruption leaves the controller as it was, 2 counts of I here.
+void test_main_heater_is_off_while_the_wire_of_the_sensor_is_broken(void)
+{
+    reach_slow_tick();
+    port_init_Expect();
+    expect_pass(255, 500, 498, 1);
+    expect_pass(145, 500, 498, 2);
+    expect_pass(1, 500, 1016, 0);
+    expect_pass(1, 500, 1023, 0);
+    expect_pass(1, 500, 498, 2);
+    expect_pass(1, 500, 7, 0);
+    expect_pass(1, 500, 0, 0);
+    expect_pass(1, 500, 498, 2);
+    run();
+}
+
+void test_main_controller_starts_anew_after_a_slow_tick_without_sensor(void)
+{
+    reach_slow_tick();
+    port_init_Expect();
+    expect_pass(255, 500, 498, 1);
+    expect_pass(145, 500, 498, 2);
+    expect_pass(255, 500, 1023, 0);
+    expect_pass(255, 500, 1023, 0);
+    expect_pass(1, 500, 498, 1);
+    expect_pass(255, 500, 498, 1);
+    expect_pass(34, 500, 498, 2);
     run();
 }

@@ -129,7 +129,7 @@ void test_manual_keeps_warm_whatever_the_temperature(void)
     (void)turned_to(SELECTOR_AUTOMATIC, SET);
     TEST_ASSERT_EQUAL_INT16(102, turned_to(SELECTOR_MANUAL, SET));
     TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, COLD));
-    TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, 1023));
+    TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, 1015));
 }
 
 void test_manual_to_automatic_goes_on_from_the_same_drive(void)
@@ -163,8 +163,48 @@ void test_low_power_does_not_wind_up(void)
 void test_drive_never_cools_and_is_limited_to_full(void)
 {
     (void)turned_to(SELECTOR_AUTOMATIC, SET);
-    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 1023));
-    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 0));
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 1015));
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 8));
+}
+
+void test_broken_wire_of_the_sensor_switches_off_at_once(void)
+{
+    static const uint16_t broken[] = {0, 7, 1016, 1023};
+
+    (void)turned_to(SELECTOR_AUTOMATIC, COLD);
+    for (int i = 0; i < 4; i++) {
+        TEST_ASSERT_GREATER_THAN_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
+        TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, broken[i]));
+    }
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_MANUAL, 1023));
+}
+
+// 240 counts are 20 degrees too cold: ki of that is 0.035 * 320.
+void test_whole_wire_of_the_sensor_goes_on_from_the_same_drive(void)
+{
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    const int16_t before = period(SELECTOR_AUTOMATIC, SET);
+    TEST_ASSERT_EQUAL_INT16(102, before);
+    run(SELECTOR_AUTOMATIC, 1023, 1000);
+    TEST_ASSERT_EQUAL_INT16(before, period(SELECTOR_AUTOMATIC, 240));
+    TEST_ASSERT_INT16_WITHIN(1, before + 11, period(SELECTOR_AUTOMATIC, 240));
+}
+
+void test_selector_is_followed_while_the_wire_of_the_sensor_is_broken(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, COLD);
+    run(SELECTOR_AUTOMATIC, 1023, 2);
+    (void)turned_to(SELECTOR_OFF, 1023);
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_OFF, COLD));
+    run(SELECTOR_OFF, 1023, 2);
+    (void)turned_to(SELECTOR_MANUAL, 1023);
+    TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, COLD));
+    run(SELECTOR_MANUAL, 1023, 2);
+    (void)turned_to(SELECTOR_LOW_POWER, 1023);
+    run(SELECTOR_LOW_POWER, COLD, 100);
+    TEST_ASSERT_EQUAL_INT16(127, period(SELECTOR_LOW_POWER, COLD));
 }
 
 void test_broken_wire_of_the_selector_switches_off(void)

@@ -16,7 +16,7 @@ endif()
 # The project's first object gives the .cod its chip.
 string(CONCAT CMAKE_C_LINK_EXECUTABLE
               "\"${GPLINK}\" -m${SDCC_LINK_FOLDERS} -o <TARGET> <LINK_FLAGS>"
-              " <OBJECTS> ${sdcc_start} <LINK_LIBRARIES> libsdcc.lib")
+              " <OBJECTS> ${sdcc_start} <LINK_LIBRARIES> ${SDCC_LIBRARY}")
 
 if(SDCC_ONE_BANK)
   string(CONCAT CMAKE_C_COMPILE_OBJECT

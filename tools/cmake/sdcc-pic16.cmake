@@ -13,7 +13,7 @@
 # NAME.hex with NAME.cod and NAME.map beside it. Links SDCC's run-time library
 # and its start-up that clears RAM (crt0iz), and nothing of the chip: where SDCC
 # comes without its device libraries, as Debian's does, the project declares its
-# registers (fixpid's are in port/pic/pic18f4520). The options are those that
+# registers (fixpid's are in port/pic/pic18/). The options are those that
 # made fixpid's controllers fastest.
 set(SDCC_PORT pic16)
 set(SDCC_DEFAULT_CHIP 18f4520)

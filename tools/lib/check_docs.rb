@@ -9,6 +9,7 @@ require 'open3'
 require_relative 'docs/code_blocks'
 require_relative 'docs/facts'
 require_relative 'docs/forms'
+require_relative 'docs/other_chips'
 require_relative 'docs/packages'
 require_relative 'docs/recipes'
 
@@ -204,6 +205,8 @@ def renewed(path, text)
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', bounds_table), 'forms', Forms.table)
+  when 'docs/ports.md'
+    part(text, 'other chips', OtherChips.table)
   when 'docs/recipes.md'
     @failures.concat(Recipes.missing(text).map { |name| "#{path} does not show #{name}" })
     Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }

@@ -1,47 +1,47 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# firmware_sizes.rb FOLDER NAME...: what the firmwares FOLDER/NAME.map, and of an
-# AVR FOLDER/NAME.elf, take of their chip. Prints a table of these and writes FOLDER/sizes.json for all that
-# are in FOLDER.
+# firmware_sizes.rb FOLDER NAME...: what the firmwares FOLDER/NAME.map and .cod,
+# and of an AVR FOLDER/NAME.elf, take of their chip. Prints a table of these and
+# writes FOLDER/sizes.json for all that are in FOLDER.
 require 'json'
 require 'open3'
-
-# Where flash ends and which addresses are RAM; a program address of a PIC16 is
-# a word of two bytes in the map.
-CHIPS = {
-  'pic16f684' => { flash: 2048, unit: 'words', ram: [0x20..0x7F, 0xA0..0xBF] },
-  'pic18f4520' => { flash: 32_768, unit: 'bytes', ram: [0x000..0x5FF] }
-}.freeze
+require_relative 'gputils'
 
 SECTION = /^\s*(\S+)\s+(code|idata|romdata|udata)\s+0x(\h+)\s+(program|data)\s+0x(\h+)\s*$/
 SYMBOL = /^\s*(\S+)\s+0x(\h+)\s+data\s+\S+\s/
 
-# One firmware, from the linker's map.
+# One firmware, from the linker's map. A program address of a PIC16 is a word of two
+# bytes there.
 class Firmware
+  PROCESSOR = 453 # in the first block of .cod: a length, and as many letters
+
   def initialize(map)
     @map = File.read(map)
-    @chip = { '.config_2007_' => 'pic16f684', '.config_300006_' => 'pic18f4520' }
-            .find { |section, _| @map.include?(section) }&.last
-    abort "firmware: no configuration word in #{map}" unless @chip
+    cod = File.binread(map.sub(/map$/, 'cod'))
+    processor = cod[PROCESSOR + 1, cod.getbyte(PROCESSOR)].downcase
+    @chip = "pic#{processor}"
+    @memory = Memory.new(processor)
     @sections = @map.scan(SECTION).map do |name, _, address, place, size|
       { name: name, address: address.hex, place: place, size: size.hex }
     end
   end
 
   def sizes
-    facts = CHIPS.fetch(@chip)
-    { chip: @chip, flash: flash, flash_size: facts[:flash], flash_unit: facts[:unit],
-      ram: addresses.size, ram_size: facts[:ram].sum(&:size) }.merge(parts_of_ram)
+    { chip: @chip, flash: flash, flash_size: @memory.flash_end + 1, flash_unit: words? ? 'words' : 'bytes',
+      ram: addresses.size, ram_size: @memory.ram_size }.merge(parts_of_ram)
   end
 
   private
 
+  def words?
+    !@chip.start_with?('pic18')
+  end
+
   # Configuration words lie beyond the end.
   def flash
-    per_unit = CHIPS[@chip][:unit] == 'words' ? 2 : 1
-    @sections.select { |s| s[:place] == 'program' && s[:address] < CHIPS[@chip][:flash] }
-             .sum { |s| s[:size] / per_unit }
+    @sections.select { |s| s[:place] == 'program' && s[:address] <= @memory.flash_end }
+             .sum { |s| s[:size] / (words? ? 2 : 1) }
   end
 
   # The bytes of RAM that are taken, each counted once: sections may overlap, and
@@ -49,13 +49,13 @@ class Firmware
   def addresses
     @addresses ||= @sections.select { |s| s[:place] == 'data' }
                             .flat_map { |s| (s[:address]...(s[:address] + s[:size])).to_a }
-                            .uniq.select { |a| CHIPS[@chip][:ram].any? { |range| range.cover?(a) } }
+                            .uniq.select { |address| @memory.ram?(address) }
   end
 
   # Of it: what SDCC passes arguments and saves registers in on a PIC16, and the
   # software stack of a PIC18.
   def parts_of_ram
-    return { shared: section_size('sharebank') } if @chip == 'pic16f684'
+    return { shared: section_size('sharebank') } if words?
 
     symbols = @map.scan(SYMBOL).to_h
     { stack: symbols.fetch('_stack_end').hex - symbols.fetch('_stack').hex + 1 }
@@ -97,7 +97,7 @@ def of_it(size)
 end
 
 def row(name, size)
-  format('%-14s %-11s %6d of %5d %s %s   %4d of %4d bytes %s (%s)', name, size[:chip].upcase,
+  format('%-23s %-11s %6d of %5d %s %s   %4d of %4d bytes %s (%s)', name, size[:chip].upcase,
          size[:flash], size[:flash_size], size[:flash_unit], percent(size[:flash], size[:flash_size]),
          size[:ram], size[:ram_size], percent(size[:ram], size[:ram_size]), of_it(size))
 end
@@ -109,7 +109,7 @@ sizes = Dir["#{folder}/*.hex"].sort.to_h do |hex|
   [File.basename(hex, '.hex'), firmware.sizes]
 end
 File.write("#{folder}/sizes.json", "#{JSON.pretty_generate(sizes)}\n")
-puts 'firmware       chip         flash                         RAM'
+puts 'firmware                chip         flash                         RAM'
 ARGV.each { |name| puts row(name, sizes.fetch(name)) }
 too_big = ARGV.select { |name| sizes[name][:flash] > sizes[name][:flash_size] }
 abort "firmware: does not fit its chip: #{too_big.join(', ')}" unless too_big.empty?

@@ -20,7 +20,7 @@ COMPLEXITY_MAX = 8
 def includes(file)
   base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/chip]
   return [base] if file.start_with?('src/', 'include/')
-  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/')
+  return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/', 'port/template/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys
   boards = BOARDS.keys if boards.empty?

@@ -5,7 +5,8 @@
 # does need_spdk with a Padauk's simulator, which Debian's package has not.
 
 # need_sdcc: exports SDCC, the compiler, and SDCC_LIB, the folder above
-# pic14/libsdcc.lib, pic16/libsdcc.lib and pic16/crt0iz.o. Takes the caller's
+# pic14/libsdcc.lib, pic14/libsdcce.lib, of the enhanced PIC16s,
+# pic16/libsdcc.lib and pic16/crt0iz.o. Takes the caller's
 # SDCC, the `sdcc` of PATH if it has both ports and their libraries, or the
 # private one in the user's cache, which it builds when there is none. From
 # the project's folder, or with `root` set to it.
@@ -17,7 +18,7 @@ need_sdcc() {
         return 0
     fi
     sdcc_works sdcc && return 0
-    sdcc_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/sdcc-4.2.0
+    sdcc_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/sdcc-4.2.0-2
     sdcc_works "$sdcc_home/bin/sdcc" && return 0
     say "no sdcc with the ports pic14 and pic16: building a private one," \
         "once, in $sdcc_home"
@@ -45,6 +46,7 @@ sdcc_works() {
         sed -n '/^libdir:/,/^libpath:/s,/pic16$,,p')
     while read -r sdcc_folder; do
         if [ -f "$sdcc_folder/pic14/libsdcc.lib" ] &&
+            [ -f "$sdcc_folder/pic14/libsdcce.lib" ] &&
             [ -f "$sdcc_folder/pic16/libsdcc.lib" ] &&
             [ -f "$sdcc_folder/pic16/crt0iz.o" ]; then
             SDCC=$(command -v "$1")

@@ -127,15 +127,17 @@ uint16_t port_read(uint8_t channel)
     return (uint16_t)(((uint16_t)ADRESH << 8) | low);
 }
 
-// The data sheet's way to turn a bridge around without both of its switches on:
-// no duty for a whole PWM period. The end of a period starts the one without
-// duty, and the next end turns the bridge.
+// No leg of the bridge has both of its switches on: one goes off with the duty
+// and the other with P1M1, and their partners go on a whole PWM period later.
+// The end of a period takes the duty away, the next end turns the bridge, and
+// the one after it brings the new duty.
 static void turn_around(uint8_t bridge)
 {
     drive_off();
     wait_for_end_of_period();
     // Masked, or SDCC 4.2.0 may move the plain copy before the call.
     CCP1CON = (uint8_t)(bridge & BRIDGE_REVERSE);
+    wait_for_end_of_period();
 }
 
 void port_drive(int16_t duty)

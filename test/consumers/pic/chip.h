@@ -4,7 +4,11 @@
 #define CHIP_H
 #include <stdint.h>
 
-#ifdef __SDCC_pic14
+#if defined(__SDCC_PIC14_ENHANCED)
+__sfr __at(0x0C) PORTA;
+__sfr __at(0x0E) PORTC;
+static __code uint16_t __at(0x8007) configuration_word = 0x3FE4;
+#elif defined(__SDCC_pic14)
 #ifdef REGISTER_IN_BANK_1 // any: it is not run
 __sfr __at(0x85) PORTA;
 #else

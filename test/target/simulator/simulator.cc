@@ -93,6 +93,12 @@ const Lengths lengths_14 = {{"nops", 4},     {"jump", 4},    {"skip", 4},
                             {"no_skip", 4},  {"loop", 18},   {"nested", 8},
                             {"computed", 5}, {"literal", 2}, {"turns", 16}};
 
+const Lengths lengths_14e = {{"nops", 4},   {"branch", 4},   {"backward", 4},
+                             {"banks", 4},  {"shifts", 5},   {"carries", 4},
+                             {"moves", 5},  {"pages", 3},    {"loop", 18},
+                             {"nested", 8}, {"computed", 5}, {"literal", 2},
+                             {"turns", 16}};
+
 // With TBLRD and TBLWT at two cycles, after the wrapper's correction: gpsim's
 // own count is one.
 const Lengths lengths_18 = {{"nops", 4},
@@ -117,6 +123,12 @@ void cycles_14(Chip &chip)
 {
     routines_take(chip, lengths_14);
     interrupts_are_kept_apart(chip, 0x04, 0x0B, 25);
+}
+
+void cycles_14e(Chip &chip)
+{
+    routines_take(chip, lengths_14e);
+    expect_equal(chip.stack_most(), 16, "levels of the stack");
 }
 
 void cycles_18(Chip &chip)
@@ -468,6 +480,7 @@ struct Case {
 
 const Case cases[] = {
     {"cycles_14", "cycles14", cycles_14},
+    {"cycles_14e", "cycles14e", cycles_14e},
     {"cycles_18", "cycles18", cycles_18},
     {"memory_14", "defects14", memory_is_poisoned},
     {"memory_18", "defects18", memory_is_poisoned},
@@ -487,6 +500,12 @@ const Case cases[] = {
     {"restart_14", "defects14",
      [](Chip &c) { is_caught(c, 6, "restarted at the reset vector"); }},
     {"endless_14", "defects14", [](Chip &c) { runs_for_ever(c, 7); }},
+    {"overflow_14e", "cycles14e",
+     [](Chip &c) {
+         is_caught(c, 1, "return stack overflow: more than 16 levels");
+     }},
+    {"underflow_14e", "cycles14e",
+     [](Chip &c) { is_caught(c, 2, "return stack underflow"); }},
     {"overflow_18", "defects18",
      [](Chip &c) { is_caught(c, 0, "return stack overflow"); }},
     {"underflow_18", "defects18",

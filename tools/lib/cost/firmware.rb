@@ -45,11 +45,10 @@ class UserFirmware
            name: @function, chip: chip, least: least, most: most, mean: total.fdiv(calls), calls: calls)
   end
 
-  # Of a mid-range PIC with one page of code, or of a PIC18.
+  # Of a mid-range PIC with one page of code, enhanced or not, or of a PIC18.
   def bound(chip)
-    return 'none for this core' unless chip.match?(/\Ap(18|16[a-z]+\d{2,3}[a-z]?\z|12)/)
-
-    code = (chip.start_with?('p18') ? Pic18Code : Pic14Code).new(@path)
+    core = PicCode.of(chip) or return 'none for this core'
+    code = core.new(@path)
     return 'none beyond the first page of 2048 words' if code.is_a?(Pic14Code) && code.pages > 1
 
     "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles"

@@ -218,14 +218,14 @@ class PicMeter < Meter
   end
 
   def link(output, *arguments)
-    chip = @subject.chip.name
-    paths = %W[. include src test/target test/cost port port/pic port/pic/#{chip}].map { |folder| "-I#{folder}" }
-    Host.output('tools/lib/build_pic', chip, output, *banks, *paths, *@subject.defines, *arguments)
+    chip = @subject.chip
+    paths = %W[. include src test/target test/cost port port/pic #{chip.board}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build_pic', chip.name, output, *chip.build_pic, *banks, *paths, *@subject.defines, *arguments)
   end
 
-  # In pointer mode a PIC16's variables fill both.
+  # In pointer mode a PIC16's variables fill both; others have four and more.
   def banks
-    words? && @subject.build == 'pointer' ? ['--all-banks'] : []
+    words? && (@subject.build == 'pointer' || @subject.chip.like) ? ['--all-banks'] : []
   end
 
   def run
@@ -237,7 +237,7 @@ class PicMeter < Meter
   end
 
   def code_of(path)
-    (words? ? Pic14Code : Pic18Code).new(path)
+    PicCode.of(@subject.chip.name).new(path)
   end
 
   def words?

@@ -66,7 +66,7 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
   end
 
   def self.all
-    CHIPS.reject { |chip| %w[pic16f684 attiny85].include?(chip.name) || chip.kind == :riscv }.flat_map do |chip|
+    CHIPS.reject { |chip| %w[pic16f684 attiny85].include?(chip.name) || chip.like || chip.kind == :riscv }.flat_map do |chip|
       builds = chip.kind == :pic ? %w[pointer] : chip.builds
       CALLED_MODULES.select { |called| called.on?(chip.kind) }.product(builds).map { |called, build| new(called, chip, build) }
     end

@@ -21,6 +21,17 @@ class PicCode < Code
     @bytes = read_hex("#{path}.hex")
   end
 
+  # The core of a chip, pic16f684 or gpsim's p16f684; nil for another, such as the
+  # small ones whose number begins with 5.
+  def self.of(chip)
+    case chip.sub(/\Ap(ic)?/, '')
+    when /\A18/ then Pic18Code
+    when /\A1[26][a-z]+5/ then nil
+    when /\A1[26][a-z]+1\d{3}/ then Pic14EnhancedCode
+    when /\A(12|16[a-z]+\d{2,3}[a-z]?\z)/ then Pic14Code
+    end
+  end
+
   def self.sections(map)
     File.read(map).scan(SECTION).map { |name, at, place, bytes| Section.new(name, at.hex, place, bytes.hex) }
   end
@@ -87,10 +98,10 @@ class PicCode < Code
   end
 end
 
-# A mid-range PIC with at most 2048 words: addresses are words.
+# A mid-range PIC, of whose code 2048 words are followed: addresses are words.
 class Pic14Code < PicCode
-  FLASH = 2048
-  RAM = [0x20..0x7F, 0xA0..0xBF].freeze
+  FLASH = 0x2000
+  RAM = [0x20..0x7F, 0xA0..0xEF, 0x110..0x16F, 0x190..0x1EF].freeze # of four banks
   DECF = 0x0380
   DECFSZ = 0x0B80
   MOVWF = 0x0080
@@ -114,7 +125,7 @@ class Pic14Code < PicCode
     return unless word(at) == (MOVWF | counter)
 
     before = word(at - 1)
-    before & 0xFF if (before & 0x3C00) == 0x3000
+    before & 0xFF if (before & 0x3F00) == 0x3000
   end
 
   def counts_to_zero?(at)
@@ -160,10 +171,38 @@ class Pic14Code < PicCode
   end
 end
 
+# An enhanced mid-range PIC, which has more banks and more instructions.
+class Pic14EnhancedCode < Pic14Code
+  FLASH = 0x8000
+  RAM = [0x20..0x7F, *(1..25).map { |bank| (128 * bank + 0x20)..(128 * bank + 0x6F) }].freeze
+  MORE_ON_FILES = [0x35, 0x36, 0x37, 0x3B, 0x3D].freeze # LSLF, LSRF, ASRF, SUBWFB, ADDWFC
+
+  private
+
+  def decode(at)
+    case word(at)
+    when 0x000A, 0x000B then opaque('a computed CALL or GOTO') # CALLW, BRW
+    when 0x3200..0x33FF then Instruction.new([[branch(at), 2]], nil, nil, 2) # BRA
+    when 0x3500..0x37FF then plain(at, 1, 1)
+    else super
+    end
+  end
+
+  # Nine bits with a sign.
+  def branch(at)
+    offset = word(at) & 0x1FF
+    at + 1 + (offset > 0xFF ? offset - 0x200 : offset)
+  end
+
+  def writes_file?(word)
+    super || (MORE_ON_FILES.include?(word >> 8) && (word & 0x80).nonzero?)
+  end
+end
+
 # A PIC18.
 class Pic18Code < PicCode
-  FLASH = 32_768
-  RAM = [0x000..0x5FF].freeze
+  FLASH = 65_536
+  RAM = [0x000..0xF37].freeze # as far as any has it
   SKIPS = [0x2C..0x2F, 0x3C..0x3F, 0x48..0x4B, 0x4C..0x4F, 0x60..0x67, 0xA0..0xBF].freeze
   DECF = [0x06, 0x07].freeze
   DECFSZ = [0x2E, 0x2F].freeze

@@ -49,6 +49,9 @@ Variant = Struct.new(:controller, :chip, :name, :defines, :sources)
 VARIANTS = [
   Variant.new('an964', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
   Variant.new('an964_8bit', 'pic16f684', 'C', %w[FIXPID_NO_ASSEMBLY], []),
+  *%w[pic16f887 pic16f1788].product(%w[an964 an964_8bit]).map do |chip, controller|
+    Variant.new(controller, chip, 'C', %w[FIXPID_NO_ASSEMBLY], [])
+  end,
   Variant.new('an937', 'pic18f4520', 'C', %w[FIXPID_NO_ASSEMBLY], []),
   Variant.new('an937', 'pic18f4520', 'access-RAM',
               %w[FIXPID_AN937_PLACE=__at(0x20) FIXPID_AN937_SIGNALS_PLACE=__at(0x38)], []),
@@ -61,8 +64,19 @@ VARIANTS = [
   Variant.new('an964_8bit', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], [])
 ].freeze
 
-# `builds` are modes on a PIC, options elsewhere; `cost` is what is counted.
-Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, keyword_init: true)
+# `builds` are modes on a PIC, options elsewhere; `cost` is what is counted. A PIC
+# that is `like` one which `pics` name has its controllers and needs no port.
+Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, :like, keyword_init: true) do
+  # Where its configuration.h and its support/ are.
+  def board
+    like ? 'test/cost/pic' : "port/pic/#{name}"
+  end
+
+  # Of tools/lib/build_pic.
+  def build_pic
+    like ? ['--board', board] : []
+  end
+end
 
 MODES = %w[object pointer].freeze
 OPTIONS = %w[-O2 -Os].freeze
@@ -70,6 +84,9 @@ OPTIONS = %w[-O2 -Os].freeze
 CHIPS = [
   Chip.new(name: 'pic16f684', title: 'PIC16F684', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words'),
   Chip.new(name: 'pic18f4520', title: 'PIC18F4520', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes'),
+  Chip.new(name: 'pic16f887', title: 'PIC16F887', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684'),
+  Chip.new(name: 'pic16f1788', title: 'PIC16F1788', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684'),
+  Chip.new(name: 'pic18f26k22', title: 'PIC18F26K22', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes', like: 'pic18f4520'),
   Chip.new(name: 'atmega328p', title: 'ATmega328P', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'attiny85', title: 'ATtiny85', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
@@ -149,7 +166,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   class << self
     def all
       CHIPS.flat_map do |chip|
-        CONTROLLERS.select { |one| chip.kind != :pic || one.pics.include?(chip.name) }
+        CONTROLLERS.select { |one| chip.kind != :pic || one.pics.include?(chip.like || chip.name) }
                    .flat_map { |controller| of(controller, chip) }
       end
     end

@@ -19,16 +19,17 @@ def oven
   pid = run_oven('oven', 'oven')
   check_p_only(p_only)
   check_pi_and_pid(pi, pid)
+  wire = check_oven_wire
   check_oven_integration(pid)
-  draw_oven(p_only, pi, pid)
+  draw_oven(p_only, pi, pid, wire['open'])
 end
 
 def offset_c(run)
   OVEN_SET_C - run.mean('temperature_c', 25.0, 30.0)
 end
 
-def oven_settling(run)
-  run.settling('temperature_c', OVEN_SET_C, BAND_C)
+def oven_settling(run, to = Float::INFINITY)
+  run.settling('temperature_c', OVEN_SET_C, BAND_C, 0.0, to)
 end
 
 def oven_overshoot(run)
@@ -55,6 +56,25 @@ def check_pi_and_pid(pi, pid)
                  oven_settling(pid), 0.6 * oven_settling(pi), 's')
 end
 
+# The sensor's wire of the hot oven breaks: see thermostat.rb.
+OVEN_WIRE_FROM_S = 15.0
+OVEN_WIRE_TO_S = 25.0
+OVEN_WIRE_END_S = 50.0
+
+def check_oven_wire
+  WIRE_ENDS.to_h do |how, reads|
+    run = Host.run('oven', "oven-wire_#{reads.to_i}",
+                   every: 0.02, seconds: OVEN_WIRE_END_S, wire_at: OVEN_WIRE_FROM_S,
+                   wire_for: OVEN_WIRE_TO_S - OVEN_WIRE_FROM_S, wire_reads: reads)
+    check_wire(run, how, OVEN_WIRE_FROM_S, OVEN_WIRE_TO_S, 0.02)
+    Report.at_most("wire #{how}, whole again: overshoot",
+                   overshoot_percent(run, OVEN_WIRE_TO_S, OVEN_WIRE_END_S), 5.0, '%')
+    Report.at_most("wire #{how}, whole again: settles within 2 % after",
+                   settled(run, OVEN_WIRE_TO_S, OVEN_WIRE_END_S), 15.0, 's')
+    [how, run]
+  end
+end
+
 def check_oven_integration(pid)
   half = run_oven('oven', 'oven-half_step', plant_step: 0.5e-3)
   difference = largest_difference(pid, half, 'temperature_c')
@@ -62,10 +82,10 @@ def check_oven_integration(pid)
                  difference, 0.001, 'C')
 end
 
-# The note's three figures, and the inside of the last.
-def draw_oven(p_only, pi, pid)
-  plot = Plot.new('oven', 'Oven, AN937: P only, PI and PID', width: 1000,
-                  columns: [1.0, 1.0, 1.0], rows: [1.6, 1.1, 1.1],
+# The note's three figures with what is inside, and what happens without a sensor.
+def draw_oven(p_only, pi, pid, wire)
+  plot = Plot.new('oven', 'Oven, AN937: P only, PI and PID', width: 1330,
+                  columns: [1.0, 1.0, 1.0, 1.0], rows: [1.6, 1.1, 1.1],
                   gap_x: 0.03)
   temperature_panel(plot, 0, 'P only: an offset stays (Figure 5)',
                     p_only_curves(p_only))
@@ -76,11 +96,21 @@ def draw_oven(p_only, pi, pid)
       temperature_panel(plot, column, title,
                         [Plot.curve(run, 'temperature_c', settled, Plot::BLUE)])
     end
-  [p_only[64], pi, pid].each_with_index do |run, column|
+  temperature_panel(plot, 3, 'PID: the sensor\'\'s wire breaks',
+                    [Plot.curve(wire, 'temperature_c', 'temperature', Plot::BLUE)])
+  [p_only[64], pi, pid, wire].each_with_index do |run, column|
     oven_terms_panel(plot, column, run)
     oven_drive_panel(plot, column, run)
   end
   plot.draw
+end
+
+# The last column is longer, and the wire is broken where it is grey.
+def oven_time(column)
+  return ['set xrange [0:15]'] if column < 3
+
+  ["set xrange [0:#{OVEN_WIRE_END_S}]",
+   grey(1, Stretch.new(OVEN_WIRE_FROM_S, OVEN_WIRE_TO_S), 1)]
 end
 
 # One scale for a row of panels: only the first shows its numbers.
@@ -99,14 +129,14 @@ def temperature_panel(plot, column, title, curves)
   setpoint = "#{OVEN_SET_C} title 'setpoint' linecolor '#{Plot::BLACK}' " \
              'dashtype 2'
   plot.panel(0, column, [*curves, setpoint],
-             ['set xrange [0:15]', "set title '#{title}'", "set format x ''",
+             [*oven_time(column), "set title '#{title}'", "set format x ''",
               'set yrange [0:100]', 'set key bottom right maxrows 2',
               *shared_y(column, 'temperature, °C')])
 end
 
 def oven_terms_panel(plot, column, run)
   plot.panel(1, column, Plot.terms(run),
-             ['set xrange [0:15]', "set format x ''", 'set yrange [-4000:15000]',
+             [*oven_time(column), "set format x ''", 'set yrange [-4000:15000]',
               'set ytics 4000', *(column.zero? ? ["set key title 'kp 64'"] : []),
               *shared_y(column, 'terms, counts')])
 end
@@ -115,6 +145,6 @@ def oven_drive_panel(plot, column, run)
   curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
                        Plot::PURPLE, width: 1.2)]
   plot.panel(2, column, curves,
-             ['set xrange [0:15]', "set xlabel 'time, s'", 'set yrange [0:110]',
+             [*oven_time(column), "set xlabel 'time, s'", 'set yrange [0:110]',
               'set ytics 25', *shared_y(column, 'drive, %')])
 end

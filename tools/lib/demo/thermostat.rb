@@ -7,17 +7,24 @@ Stretch = Struct.new(:from, :to, :title)
 MANUAL = Stretch.new(20.0, 35.0, 'manual, 10 %')
 LOW_POWER = Stretch.new(55.0, 70.0, 'limit 12.5 %')
 DOOR = Stretch.new(90.0, 95.0, 'door open')
-THERMOSTAT_END_S = 110.0
+BREAK = Stretch.new(110.0, 115.0, 'wire broken')
+THERMOSTAT_END_S = 130.0
 KEEP_WARM = 102
 LOW_LIMIT = 127
 SEEN_S = 0.35 # a turn of the selector counts when it is read twice
 
+def run_thermostat(name, **scenario)
+  Host.run('thermostat', name, every: 0.02, seconds: THERMOSTAT_END_S, wire_at: BREAK.from,
+                               wire_for: BREAK.to - BREAK.from, **scenario)
+end
+
 def thermostat
-  run = Host.run('thermostat', 'thermostat', every: 0.02)
+  run = run_thermostat('thermostat')
   check_warming(run)
   check_manual(run)
   check_low_power(run)
   check_door(run)
+  check_thermostat_wire
   check_thermostat_integration(run)
   draw_thermostat(run)
 end
@@ -41,7 +48,7 @@ def check_warming(run)
 end
 
 # The drive may go on from the error alone: in a period of 0.1 s, ki times it.
-def check_manual(run)
+def check_manual(run, to = LOW_POWER.from)
   by_hand = run.values('drive_counts', MANUAL.from + SEEN_S, MANUAL.to)
   Report.at_most('manual: the drive leaves its 10 % by',
                  by_hand.map { |v| (v - KEEP_WARM).abs }.max, 0.0, 'counts')
@@ -52,9 +59,9 @@ def check_manual(run)
                  largest_step(run, 'drive_counts', MANUAL.to, MANUAL.to + 1.0),
                  0.025 * 1023.0, 'counts')
   Report.at_most('back to automatic: overshoot',
-                 overshoot_percent(run, MANUAL.to, LOW_POWER.from), 0.5, '%')
+                 overshoot_percent(run, MANUAL.to, to), 0.5, '%')
   Report.at_most('back to automatic: settles within 2 % after',
-                 settled(run, MANUAL.to, LOW_POWER.from), 10.0, 's')
+                 settled(run, MANUAL.to, to), 10.0, 's')
 end
 
 def largest_step(run, column, from, to)
@@ -75,24 +82,66 @@ def check_low_power(run)
 end
 
 def check_door(run)
-  low = run.values('temperature_c', DOOR.from, THERMOSTAT_END_S).min
+  low = run.values('temperature_c', DOOR.from, BREAK.from).min
   Report.number('door_dip_c', OVEN_SET_C - low)
   Report.at_most('door open: the temperature falls by', OVEN_SET_C - low, 10.0,
                  'C')
   Report.at_most('door shut: settles within 2 % after',
-                 settled(run, DOOR.to, THERMOSTAT_END_S), 7.0, 's')
+                 settled(run, DOOR.to, BREAK.from), 7.0, 's')
+end
+
+# The sensor's wire of an oven that is hot: open, it reads full scale, and at
+# ground 0. A resistor pulls it up, so an open one also reads hot.
+WIRE = Stretch.new(20.0, 25.0, 'wire broken')
+WIRE_ENDS = { 'open' => 1.0, 'at ground' => 0.0 }.freeze
+
+def check_thermostat_wire
+  never = { manual_at: 3600, low_power_at: 3600, door_at: 3600 }
+  WIRE_ENDS.each do |how, reads|
+    run = Host.run('thermostat', "thermostat-wire_#{reads.to_i}",
+                   every: 0.02, seconds: 45, wire_at: WIRE.from,
+                   wire_for: WIRE.to - WIRE.from, wire_reads: reads, **never)
+    check_wire(run, how, WIRE.from, WIRE.to, 0.12)
+    check_wire_bump(run, how)
+    Report.at_most("wire #{how}, whole again: overshoot",
+                   overshoot_percent(run, WIRE.to, 45.0), 0.5, '%')
+    Report.at_most("wire #{how}, whole again: settles within 2 % after",
+                   settled(run, WIRE.to, 45.0), 10.0, 's')
+  end
+end
+
+# The controller passes when the wire is whole. From its second pass on it sees
+# how fast the temperature falls.
+def check_wire_bump(run, how)
+  before = run.mean('drive_counts', WIRE.from - 5.0, WIRE.from)
+  back = WIRE.to + 0.02
+  Report.at_most("wire #{how}, whole again: first drive, off that of before",
+                 (run.values('drive_counts', back).first - before).abs,
+                 0.025 * 1023.0, 'counts')
+  Report.at_most("wire #{how}, whole again: largest step of the drive in 1 s",
+                 largest_step(run, 'drive_counts', back, back + 1.0),
+                 0.1 * 1023.0, 'counts')
+end
+
+# The drive is off `after` seconds after the wire broke, until it is whole.
+def check_wire(run, how, from, to, after)
+  Report.at_most("wire #{how}: the drive, #{after} s later",
+                 run.values('drive_counts', from + after, to).max,
+                 0.0, 'counts')
+  Report.at_least("wire #{how}: the temperature falls by",
+                  OVEN_SET_C - run.values('temperature_c', from, to).last,
+                  15.0, 'C')
 end
 
 def check_thermostat_integration(run)
-  half = Host.run('thermostat', 'thermostat-half_step', every: 0.02,
-                                                        plant_step: 0.5e-3)
+  half = run_thermostat('thermostat-half_step', plant_step: 0.5e-3)
   Report.at_most('half the integrator\'s step changes the temperature by',
                  largest_difference(run, half, 'temperature_c'), 0.001, 'C')
 end
 
 def draw_thermostat(run)
-  plot = Plot.new('thermostat', 'An oven held at 80 °C: from cold, by hand, ' \
-                                'on less power, with the door open',
+  plot = Plot.new('thermostat', 'An oven held at 80 °C: from cold, by hand, on less power, ' \
+                                'with the door open, without its sensor',
                   height: 720, rows: [1.6, 1.0, 1.0], gap_y: 0.04,
                   margins: { top: 0.935, bottom: 0.08 })
   thermostat_temperature(plot, run)
@@ -110,16 +159,20 @@ THERMOSTAT_STORY = [
   [LOW_POWER.to, 'full power:', 'no windup'],
   [DOOR.from, 'door', 'open'],
   [DOOR.to, 'door', 'shut'],
+  [BREAK.from, 'wire', 'broken'],
+  [BREAK.to, 'wire', 'whole'],
   [THERMOSTAT_END_S]
 ].freeze
 
 # What the person does, as grey stretches.
 def stretches(top)
-  [MANUAL, LOW_POWER, DOOR].each_with_index.map do |stretch, i|
-    "set object #{i + 1} rectangle from #{stretch.from}, graph 0 to " \
-      "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
-      'solid noborder'
-  end
+  [MANUAL, LOW_POWER, DOOR, BREAK].each_with_index.map { |stretch, i| grey(i + 1, stretch, top) }
+end
+
+def grey(number, stretch, top)
+  "set object #{number} rectangle from #{stretch.from}, graph 0 to " \
+    "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
+    'solid noborder'
 end
 
 def story
@@ -139,7 +192,7 @@ def thermostat_temperature(plot, run)
                          width: 2.2),
               Plot.curve(run, 'setpoint_c', 'setpoint', Plot::BLACK,
                          style: 'dashtype 2', width: 1.2)],
-             [*stretches(1), *story, *key_between('vertical'), 'set xrange [0:110]', "set format x ''",
+             [*stretches(1), *story, *key_between('vertical'), "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:110]', 'set ytics 20', *y_label(0, 'temperature, °C')])
 end
 
@@ -150,12 +203,12 @@ def thermostat_drive(plot, run)
                          Plot::PURPLE),
               Plot.curve(run, limit, 'limit', Plot::BLACK, style: 'dashtype 3',
                                                            width: 1.2)],
-             [*stretches(1), *key_between, 'set xrange [0:110]', "set format x ''",
+             [*stretches(1), *key_between, "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:130]', 'set ytics 50', *y_label(0, 'drive, %')])
 end
 
 def thermostat_terms(plot, run)
   plot.panel(2, 0, Plot.terms(run, scale: 100.0 / 1023.0),
-             [*stretches(1), *key_between, 'set xrange [0:110]', "set xlabel 'time, s'",
+             [*stretches(1), *key_between, "set xrange [0:#{THERMOSTAT_END_S}]", "set xlabel 'time, s'",
               'set yrange [-75:110]', 'set ytics 50', *y_label(0, 'P, I and D, %')])
 end

@@ -163,11 +163,13 @@ part_lint() {
 part_consumers() {
     need cmake make ruby
     count consumers '^ok ' '^FAILED ' test/consumers/run
+    count 'test/port_check/run' '^ok ' '^FAILED ' test/port_check/run
 }
 
 part_firmware() {
     need clang
     need_sdcc
+    count 'chips of tools/firmware' '^ok ' '^FAILED ' test/firmware/run
     check 'tools/firmware' tools/firmware
     count 'the sources under XC8' '^ok ' '^FAILED ' test/xc8_check/run
 }
@@ -208,7 +210,7 @@ part_demo() {
 }
 
 part_docs() {
-    need ruby cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
+    need ruby gpasm:gputils cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
     check 'documentation' ruby tools/lib/check_docs.rb
     check 'without dpkg' without_packages \
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'

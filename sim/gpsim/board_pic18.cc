@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The board of the motor and ovens: PWM on CCP1 (RC2), the direction on RC0.
+// The board of the motor and ovens: PWM on CCP1 (RC2), the direction on RC0 of
+// a PIC18, which BOARD_PROCESSOR names.
 #include "board.hh"
+
+#include <string_view>
 
 #include "port_board.h"
 
@@ -9,7 +12,9 @@ namespace
 
 constexpr unsigned latc = 0xF8B, trisc = 0xF94;
 constexpr unsigned ccp1con = 0xFBD, ccpr1l = 0xFBE;
-constexpr unsigned adcon0 = 0xFC2, t2con = 0xFCA;
+constexpr unsigned adcon0 = 0xFC2;
+constexpr unsigned t2con =
+    std::string_view(BOARD_PROCESSOR) == "p18f26k22" ? 0xFBA : 0xFCA;
 
 constexpr unsigned direction_pin = 0x01; // RC0; high is reverse
 constexpr unsigned drive_pins = 0x05;
@@ -19,7 +24,7 @@ constexpr unsigned go = 0x02; // of ADCON0, the rest is the channel
 } // namespace
 
 const Board board = {
-    "p18f4520",
+    BOARD_PROCESSOR,
     40e6, // 10 MHz times the HSPLL's 4
     1000, // 0.1 ms
     {0x08},

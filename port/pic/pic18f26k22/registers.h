@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The registers of the PIC18F26K22 that port.c uses and that other chips have
+// not, or elsewhere, as in its data sheet (DS41412).
+#ifndef PORT_PIC18F26K22_REGISTERS_H
+#define PORT_PIC18F26K22_REGISTERS_H
+#include "../pic18/registers_pic18.h"
+
+PORT_REGISTER(0xF38, ANSELA);
+PORT_REGISTER(0xF39, ANSELB);
+PORT_REGISTER(0xF3A, ANSELC);
+PORT_REGISTER(0xF49, CCPTMRS0);
+PORT_REGISTER(0xF66, CCP2CON);
+PORT_REGISTER(0xF67, CCPR2L);
+PORT_REGISTER(0xF68, CCPR2H);
+PORT_REGISTER(0xFBA, T2CON);
+PORT_REGISTER(0xFBB, PR2);
+
+#endif
