@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "fixpid_autotune.h"
+#include "numbers.h"
 #include "poison.h"
 #include "unity.h"
 
@@ -1525,4 +1526,98 @@ void test_model_holding_output_far_beyond_the_range_is_at_its_end(void)
     is_over(FIXPID_AUTOTUNE_DONE);
     is_model((struct fixpid_autotune_model){0, 42, 306, 519, 3139328, 640,
                                             INT16_MIN, 0, 1});
+}
+
+// ---- Flipped bits ----
+
+static void done(void)
+{
+    found(integrator_up, integrator_down);
+}
+
+static void refuses_sums(void)
+{
+    nothing_is_known();
+    done();
+    (void)model();
+}
+
+void test_result_sums_that_no_cycles_have_are_refused(void)
+{
+    struct fixpid_autotune_sums *const sums = &autotune_controller.sums[1];
+
+    done();
+    sums->steps = 32768;
+    refuses_sums();
+    sums->on_steps = 0;
+    refuses_sums();
+    sums->on_steps = sums->steps;
+    refuses_sums();
+    sums->all = (int32_t)sums->steps * 32767 + 1;
+    refuses_sums();
+    sums->all = INT32_MIN;
+    refuses_sums();
+    sums->on = (int32_t)sums->on_steps * -32767 - 1;
+    refuses_sums();
+}
+
+// Without a cycle there is nothing to divide by.
+void test_result_no_number_of_cycles_divides_by_nothing(void)
+{
+    struct fixpid_pid_config pid = {0};
+
+    done();
+    autotune_controller.config.cycles = 0;
+    (void)fixpid_autotune_result(&autotune_controller, 0, 16, &pid);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX, pid.gains.kp_q8);
+}
+
+void test_step_a_flipped_bit_of_the_output_keeps_it_within_its_range(void)
+{
+    TEST_ASSERT_TRUE(init());
+    autotune_controller.output = 32767;
+    TEST_ASSERT_EQUAL_INT16(300, step(0));
+    autotune_controller.output = -32768;
+    TEST_ASSERT_EQUAL_INT16(-300, step(0));
+    autotune_controller.output = 299;
+    TEST_ASSERT_EQUAL_INT16(299, step(0));
+}
+
+// Nothing undefined comes of any bytes, which the sanitizers see, and it ends.
+void test_result_of_any_bytes_is_legal(void)
+{
+    unsigned given = 0;
+
+    numbers_seed(66);
+    for (unsigned turn = 0; turn < 3000u; turn++) {
+        struct fixpid_autotune_model process;
+        struct fixpid_pid_config pid = {0};
+
+        numbers_fill(&autotune_controller, sizeof autotune_controller);
+        autotune_controller.state = FIXPID_AUTOTUNE_DONE;
+        autotune_controller.config.cycles &= 7u;
+        for (unsigned relay = 0; relay < 2u; relay++) {
+            struct fixpid_autotune_sums *const sums =
+                &autotune_controller.sums[relay];
+
+            sums->steps >>= 1;
+            sums->on_steps = (uint16_t)(sums->on_steps & sums->steps);
+            sums->all /= (int32_t)(1u << (turn & 15u));
+            sums->on = -((sums->on & INT32_MAX) >> (turn & 15u));
+        }
+        (void)fixpid_autotune_model(&autotune_controller, &process);
+        if (fixpid_autotune_result(&autotune_controller, (uint8_t)(turn % 7u),
+                                   16, &pid)) {
+            given++;
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX,
+                                             pid.gains.kp_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT32(FIXPID_PID_KI_MAX,
+                                             pid.gains.ki_q24);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KD_MAX,
+                                             pid.gains.kd_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT8(FIXPID_PID_FILTER_MAX,
+                                            pid.gains.derivative_filter);
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(100, given);
 }
