@@ -7,11 +7,13 @@
 #define numbers_next random_next
 #define numbers_below random_below
 #define numbers_int16 random_int16
+#define numbers_fill random_fill
 #include "numbers.c"
 #undef numbers_seed
 #undef numbers_next
 #undef numbers_below
 #undef numbers_int16
+#undef numbers_fill
 
 static const uint8_t *next_byte;
 static size_t left;
@@ -71,4 +73,13 @@ int16_t numbers_int16(void)
     const uint32_t kind = numbers_below(64);
 
     return kind < NASTY_COUNT ? nasty[kind] : (int16_t)number_of(2);
+}
+
+void numbers_fill(void *object, size_t size)
+{
+    uint8_t *const bytes = object;
+
+    for (size_t at = 0; at < size; at++) {
+        bytes[at] = (uint8_t)number_of(1);
+    }
 }
