@@ -79,7 +79,6 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
         SELF.config.cycles = 0;
         SELF.config.output_min = 0;
         SELF.config.output_max = 0;
-        SELF.config.output_rest = 0;
     }
     fixpid_autotune_reset(self);
     return accepted;
