@@ -7,7 +7,7 @@ require 'json'
 # What was measured of the same sources with the same tools is not measured
 # again: build/cost/memory/, a file for each subject.
 class Memory
-  SOURCES = %w[include/*.h port/pic/**/* sim/{chip,gpsim}/* src/**/* test/avr/vectors_table.rb
+  SOURCES = %w[include/*.h port/*.[ch] port/pic/**/* sim/{chip,gpsim}/* src/**/* test/avr/vectors_table.rb
               test/beside/* test/cost/**/* test/support/*.[ch] test/target/*.{c,h,cc,hh} test/target/{arm,qemu,riscv,shim}/**/* test/vectors/*
               tools/cost tools/lib/build_pic tools/lib/one_bank* tools/lib/cost.rb tools/lib/cost/**/*].freeze
   TOOLS = %w[gcc g++ gpasm gplink avr-gcc avr-as arm-none-eabi-gcc qemu-system-arm
