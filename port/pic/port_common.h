@@ -3,7 +3,7 @@
 // which includes it once, after its registers.h and the two bytes of ticks.
 #ifndef PORT_PIC_PORT_COMMON_H
 #define PORT_PIC_PORT_COMMON_H
-#include "port.h"
+#include "port_ticks.h"
 
 // Full drive off, at the end of the PWM period at the latest. The low bits go
 // first: CCPR1L = 0 with low bits would be one of the pulses never made.
@@ -18,24 +18,6 @@ static void wait_for_end_of_period(void)
     PIR1 &= (uint8_t)~PIR1_TMR2IF;
     while (PIR1bits.TMR2IF == 0u) {
     }
-}
-
-uint8_t port_ticks(void)
-{
-    const uint8_t ticks = (uint8_t)(ticks_counted - ticks_taken);
-
-    ticks_taken += ticks;
-    if (ticks != 0u) {
-        PORT_CLEAR_WATCHDOG();
-    }
-    return ticks;
-}
-
-uint8_t port_wait_tick(void)
-{
-    while (ticks_counted == ticks_taken) {
-    }
-    return port_ticks();
 }
 
 #endif

@@ -58,6 +58,8 @@ bool port_running(void) // Deviation 5.5: a constant in port_board.h
 // Ticks since the last call to this or to one that waits, saturating at 255; 0
 // if there was none. Feeds the watchdog when there was one, and only then: a
 // dead timer resets the chip.
+// (../port_ticks.h has this function and the next, for ticks that are counted
+// as here. They stand here to be read.)
 uint8_t port_ticks(void)
 {
     const uint8_t ticks = (uint8_t)(ticks_counted - ticks_taken);

@@ -110,23 +110,10 @@ void port_init(void)
     sei();
 }
 
-uint8_t port_ticks(void)
-{
-    const uint8_t ticks = (uint8_t)(ticks_counted - ticks_taken);
+#define PORT_CLEAR_WATCHDOG() wdt_reset()
 
-    ticks_taken = (uint8_t)(ticks_taken + ticks);
-    if (ticks != 0u) {
-        wdt_reset();
-    }
-    return ticks;
-}
-
-uint8_t port_wait_tick(void)
-{
-    while (ticks_counted == ticks_taken) {
-    }
-    return port_ticks();
-}
+// Deviation 20.1: it uses what is above.
+#include "port_ticks.h"
 
 uint16_t port_read(uint8_t channel)
 {
