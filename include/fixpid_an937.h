@@ -185,7 +185,8 @@ int32_t fixpid_an937_proportional(FIXPID_DATA const struct fixpid_an937 *self);
 int32_t fixpid_an937_integral(FIXPID_DATA const struct fixpid_an937 *self);
 int32_t fixpid_an937_derivative(FIXPID_DATA const struct fixpid_an937 *self);
 
-// AN937 a_error, within +-accumulated_error_limit.
+// AN937 a_error, within +-accumulated_error_limit; within the limit before,
+// between a new one and the next tick.
 int32_t fixpid_an937_accumulated_error(
     FIXPID_DATA const struct fixpid_an937 *self);
 

@@ -54,7 +54,7 @@ FIXPID_INLINE void fixpid_number_add(
     uint8_t *flags)
 {
     const int32_t most = (int32_t)limit;
-    int32_t sum = number->value + addend->value;
+    int32_t sum = fixpid_add32(number->value, addend->value);
 
     if (sum > most) {
         sum = most;
@@ -78,7 +78,10 @@ FIXPID_INLINE int32_t fixpid_number_term(
 FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
-    return (int32_t)gain * number->value;
+    // A number of more than 17 bits, which only flipped ones can make, would
+    // overflow as a signed one.
+    // Deviation 10.8: a pattern of two's complement
+    return (int32_t)((uint32_t)number->value * gain);
 }
 #endif
 
@@ -95,7 +98,7 @@ FIXPID_INLINE int32_t
 fixpid_sum_with_term(int32_t sum, uint8_t gain,
                      FIXPID_DATA const union fixpid_an937_number *number)
 {
-    return sum + fixpid_number_term(gain, number);
+    return fixpid_add32(sum, fixpid_number_term(gain, number));
 }
 
 // floor(x / 16). pre: x < 2^24
@@ -106,7 +109,7 @@ FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
 
 #endif
 
-#define FIXPID_AN937_SUM_MAX INT32_C(0xFFFFFF) // 24 bits
+#define FIXPID_AN937_SUM_MAX UINT32_C(0xFFFFFF) // 24 bits
 
 // Equation 4: the sum of the three terms, limited to a 24-bit magnitude and
 // divided by 16 toward zero. Sets SUM_SATURATED and SUM_NEGATIVE in `flags`.
@@ -115,18 +118,20 @@ fixpid_an937_output(FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
 {
     // |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
     int32_t sum = fixpid_sum_with_term(0, self->kp_q4, &self->error);
+    uint32_t magnitude;
 
     sum = fixpid_sum_with_term(sum, self->ki_q4, &self->accumulated_error);
     sum = fixpid_sum_with_term(sum, self->kd_q4, &self->delta);
+    magnitude = (uint32_t)sum;
     if (sum < 0) {
         *flags |= FIXPID_AN937_SUM_NEGATIVE;
-        sum = -sum;
+        magnitude = ~magnitude + 1u;
     }
-    if ((uint8_t)((uint32_t)sum >> 24) != 0u) {
+    if ((uint8_t)(magnitude >> 24) != 0u) {
         *flags |= FIXPID_AN937_SUM_SATURATED;
-        sum = FIXPID_AN937_SUM_MAX;
+        magnitude = FIXPID_AN937_SUM_MAX;
     }
-    sum = (int32_t)fixpid_sixteenth((uint32_t)sum);
+    sum = (int32_t)fixpid_sixteenth(magnitude);
     return ((*flags & FIXPID_AN937_SUM_NEGATIVE) != 0u) ? -sum : sum;
 }
 

@@ -12,6 +12,7 @@
 // Values with a sign are two's complement patterns in unsigned words, as
 // fixpid_bits.h says: a PIC16 would spend most of the step on signed compares.
 #define BYTE_ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
+#define BYTE_GAIN_MAX 0x7Fu
 #define BYTE_SUM_MAX ((uint16_t)FIXPID_AN964_8BIT_SUM_LIMIT)
 #define BYTE_SUM_MIN ((uint16_t)(UINT32_C(0x10000) - BYTE_SUM_MAX))
 #define BYTE_TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)
@@ -154,7 +155,9 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
         sum_of_terms = BYTE_TERMS_MAX;
         SELF.output_limited = FIXPID_AN964_8BIT_OUTPUT_LIMITED;
     }
-    output = fixpid_7x7_div32(SELF.gains.kp, (uint8_t)sum_of_terms);
+    // The mask keeps the output within its limits if a bit of kp was flipped.
+    output =
+        fixpid_7x7_div32(SELF.gains.kp & BYTE_GAIN_MAX, (uint8_t)sum_of_terms);
     // Negated in any case: SDCC copies a variable that is changed under an if.
     result = fixpid_negated(output);
     if ((negative & 1u) == 0u) {

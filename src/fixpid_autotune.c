@@ -77,6 +77,8 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
     SELF.config.options = config->options;
     if (!accepted) {
         SELF.config.cycles = 0;
+        SELF.config.output_min = 0;
+        SELF.config.output_max = 0;
         SELF.config.output_rest = 0;
     }
     fixpid_autotune_reset(self);
@@ -145,10 +147,10 @@ static void add_deviation(FIXPID_DATA struct fixpid_autotune *self,
     FIXPID_DATA struct fixpid_autotune_sums *const sums =
         fixpid_autotune_sums_of_phase(self);
 
-    sums->all += deviation; // within 32767^2
+    sums->all = fixpid_add32(sums->all, deviation); // within 32767^2
     sums->steps++;
     if (SELF.side == AT_HIGH) {
-        sums->on += deviation;
+        sums->on = fixpid_add32(sums->on, deviation);
         sums->on_steps++;
     }
     if (SELF.elapsed == 1u) {
@@ -247,6 +249,18 @@ static int16_t deviation_from(int16_t setpoint, int16_t measurement)
     return (int16_t)difference;
 }
 
+// Within the range as it stands, also if a bit of the output was flipped.
+static int16_t limited_output(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    if (SELF.output > SELF.config.output_max) {
+        return SELF.config.output_max;
+    }
+    if (SELF.output < SELF.config.output_min) {
+        return SELF.config.output_min;
+    }
+    return SELF.output;
+}
+
 int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
                              int16_t setpoint, int16_t measurement)
 {
@@ -266,5 +280,5 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
             step_relay(self, deviation);
         }
     }
-    return SELF.output;
+    return limited_output(self);
 }

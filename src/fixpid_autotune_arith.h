@@ -79,13 +79,17 @@ static void multiply(FIXPID_DATA struct number16 *result,
          (int16_t)(a->exponent + b->exponent));
 }
 
-// a / b. pre: b is not 0
+// a / b; 0 if b is 0, which flipped bits may make of what never is.
 static void divide(FIXPID_DATA struct number16 *result,
                    FIXPID_DATA const struct number16 *a,
                    FIXPID_DATA const struct number16 *b)
 {
-    make(result, ((uint32_t)a->mantissa << 16) / b->mantissa,
-         (int16_t)(a->exponent - b->exponent - 16));
+    if (b->mantissa == 0u) {
+        make(result, 0, 0);
+    } else {
+        make(result, ((uint32_t)a->mantissa << 16) / b->mantissa,
+             (int16_t)(a->exponent - b->exponent - 16));
+    }
 }
 
 // a with 15 bits more, at an exponent that is not below its own: below 2^31.

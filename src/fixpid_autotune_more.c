@@ -13,6 +13,8 @@
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u
 #define KI_MIN 8u
+#define STEPS_MAX 32767u
+#define DEVIATION_MAX UINT32_C(32767)
 #define WEIGHT_ONE 256u
 
 // Farther than any two outputs are from each other, in 1/256 of a count.
@@ -458,9 +460,9 @@ static bool is_zero(FIXPID_DATA const struct sheet *sheet, uint8_t which)
 
 static uint32_t magnitude(int32_t x)
 {
-    const int32_t positive = (x < 0) ? -x : x;
+    const uint32_t pattern = (uint32_t)x;
 
-    return (uint32_t)positive;
+    return (x < 0) ? (~pattern + 1u) : pattern;
 }
 
 static int32_t with_sign_of(int32_t sign, uint32_t value)
@@ -496,6 +498,27 @@ static int32_t output_q8(FIXPID_DATA const struct fixpid_autotune *self,
                             sums->steps, 256);
 }
 
+// Whether the sums can be those of cycles, each of which has steps at high and
+// at low: flipped bits may have made others of them.
+static bool sums_make_sense(FIXPID_DATA const struct fixpid_autotune_sums *sums)
+{
+    const uint32_t steps = sums->steps;
+
+    if (steps > STEPS_MAX) {
+        return false;
+    }
+    if (sums->on_steps == 0u) {
+        return false;
+    }
+    if (sums->on_steps >= steps) {
+        return false;
+    }
+    if (magnitude(sums->all) > (steps * DEVIATION_MAX)) {
+        return false;
+    }
+    return magnitude(sums->on) <= (sums->on_steps * DEVIATION_MAX);
+}
+
 // The numbers of one relay. False if its sums make no sense.
 static bool measure_relay(FIXPID_DATA struct sheet *sheet,
                           FIXPID_DATA const struct fixpid_autotune *self,
@@ -505,6 +528,9 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
         &SELF.sums[relay];
     int32_t area;
 
+    if (!sums_make_sense(sums)) {
+        return false;
+    }
     // Each within 32767^2, and 16376. Each cycle has steps at high and at low.
     area = with_sign_of(sums->all, part_of(magnitude(sums->all), sums->steps,
                                            sums->on_steps)) -

@@ -66,6 +66,27 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 
 #endif
 
+// a + b and a - b of numbers whose sum fits, and modulo 2^32 of others, which
+// only flipped bits of a controller can make: plain C leaves those undefined.
+// SDCC gives the plain sum the same, and its pic16 port keeps a copy of each
+// `static inline` function.
+#if defined(__SDCC)
+#define fixpid_add32(a, b) ((a) + (b))
+#define fixpid_sub32(a, b) ((a) - (b))
+#else
+FIXPID_INLINE int32_t fixpid_add32(int32_t a, int32_t b)
+{
+    // Deviation 10.8: a pattern of two's complement
+    return (int32_t)((uint32_t)a + (uint32_t)b);
+}
+
+FIXPID_INLINE int32_t fixpid_sub32(int32_t a, int32_t b)
+{
+    // Deviation 10.8: as above
+    return (int32_t)((uint32_t)a - (uint32_t)b);
+}
+#endif
+
 // a * b. post: at most 65025. SDCC multiplies bytes only where there is no
 // cast, and then keeps all 16 bits.
 #if defined(__SDCC)

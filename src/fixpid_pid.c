@@ -237,8 +237,9 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     derivative = mul16(SELF.kd, fall);
     if ((SELF.options & FILTER) != 0u) {
         // Both are within 2^30 - 2^24.
-        derivative +=
-            SELF.derivative - shift_right_by(SELF.derivative, SELF.options);
+        derivative = fixpid_add32(
+            derivative,
+            SELF.derivative - shift_right_by(SELF.derivative, SELF.options));
         if (derivative > DERIVATIVE_MAX) {
             derivative = DERIVATIVE_MAX;
         }
@@ -275,7 +276,8 @@ static void integrate(FIXPID_DATA struct fixpid_pid *self,
     SIGNALS.fraction = SELF.integral_fraction;
     if ((SELF.options & KI_COARSE) != 0u) {
         // within 2^23 + 2^30
-        set_candidate(signals, shift_right_floor(SELF.integral, 8) + change);
+        set_candidate(
+            signals, fixpid_add32(shift_right_floor(SELF.integral, 8), change));
         SIGNALS.integral += (int32_t)(uint8_t)SELF.integral;
         return;
     }
@@ -293,8 +295,8 @@ static void take_over(FIXPID_DATA struct fixpid_pid *self,
                       FIXPID_DATA struct signals *signals)
 {
     // within 2^31 - 2^15
-    set_candidate(signals,
-                  shift_right_floor(SELF.integral, 8) - SIGNALS.p_d_ff);
+    set_candidate(signals, fixpid_sub32(shift_right_floor(SELF.integral, 8),
+                                        SIGNALS.p_d_ff));
     SIGNALS.fraction = 0;
     SIGNALS.error = 0;
 }
@@ -325,7 +327,8 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
         // inside
     }
     // within 2^31 - 2^15 + 128
-    output = SIGNALS.p_d_ff + shift_right_floor(SIGNALS.integral, 8) + 128;
+    output = fixpid_add32(SIGNALS.p_d_ff,
+                          shift_right_floor(SIGNALS.integral, 8) + 128);
     output = shift_right_floor(output, 8);
     if (output > SELF.output_max) {
         output = SELF.output_max;
@@ -350,6 +353,26 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
     return (int16_t)output;
 }
 
+// The output held by hand, which set_manual and set_limits keep within the
+// output's limits; a flipped bit does not. (SDCC keeps a copy of a function
+// even if nobody calls it.)
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
+static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
+{
+    const int16_t output = (int16_t)shift_right_floor(SELF.integral, 16);
+
+    if (output > SELF.output_max) {
+        return SELF.output_max;
+    }
+    if (output < SELF.output_min) {
+        return SELF.output_min;
+    }
+    return output;
+}
+#else
+#define held_output(self) ((int16_t)0)
+#endif
+
 int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
                         int16_t measurement)
 {
@@ -367,17 +390,20 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
     SIGNALS.p_d_ff = mul16(SELF.kp, SELF.proportional_error);
     differentiate(self, signals);
     // within 2^30 - 2^15 + 2^30 - 2^24 + 2^23
-    SIGNALS.p_d_ff += SELF.derivative + shift_left(FEEDFORWARD, 8);
+    SIGNALS.p_d_ff = add32_with_derivative(
+        fixpid_add32(SIGNALS.p_d_ff, shift_left(FEEDFORWARD, 8)),
+        SELF.derivative);
     if ((SELF.status & HELD) == 0u) {
         integrate(self, signals);
     } else if ((SELF.status & FIXPID_PID_MANUAL) == 0u) {
         take_over(self, signals);
     } else {
         SELF.status = FIXPID_PID_MANUAL;
+        output = held_output(self);
         if (HAS_TRACK) {
-            SELF.output = (int16_t)shift_right_floor(SELF.integral, 16);
+            SELF.output = output;
         }
-        return (int16_t)shift_right_floor(SELF.integral, 16);
+        return output;
     }
     output = limit_and_remember(self, signals);
     if (HAS_TRACK) {

@@ -12,6 +12,7 @@
 
 #if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
 #include "pic18/fixpid_pid_pic18.h"
+#define add32_with_derivative(a, derivative) fixpid_add32(a, derivative)
 #else
 
 // `value` within low..high. pre: low <= high
@@ -100,6 +101,9 @@ FIXPID_INLINE int16_t complement(int16_t x)
 #if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "avr/fixpid_pid_avr.h" // Deviation 20.1: it builds on the above
 #else
+
+// a + derivative. pre: it fits, unless bits were flipped
+#define add32_with_derivative(a, derivative) fixpid_add32(a, derivative)
 
 // (Older compilers for ARM say that they have the instructions and do not.)
 #if defined(__ARM_FEATURE_SAT) && !defined(FIXPID_NO_ASSEMBLY) &&              \

@@ -30,11 +30,11 @@ static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
 {
     // within 2^31 - 2^15 - 2^24, so that a limit is within 2^31
     const int32_t terms =
-        mul16(SELF.kp, SELF.proportional_error) + SELF.derivative;
+        fixpid_add32(mul16(SELF.kp, SELF.proportional_error), SELF.derivative);
     int32_t limit = (int32_t)SELF.output_max - SELF.feedforward;
     limit = shift_left(limit, 8);
     if (terms < 0) {
-        limit -= terms;
+        limit = fixpid_sub32(limit, terms);
     }
     if (shift_right_floor(SELF.integral, 8) >= limit) {
         set_integral(self, limit);
@@ -42,7 +42,7 @@ static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
     limit = (int32_t)SELF.output_min - SELF.feedforward;
     limit = shift_left(limit, 8);
     if (terms > 0) {
-        limit -= terms;
+        limit = fixpid_sub32(limit, terms);
     }
     if (shift_right_floor(SELF.integral, 8) < limit) {
         set_integral(self, limit);

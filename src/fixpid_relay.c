@@ -21,6 +21,7 @@
 #define CYCLES_MAX 8u
 #define CYCLES_SEEN_MAX 24u
 #define PERIOD_MIN 6u
+#define PERIOD_MAX UINT32_C(65532) // two halves, each below the timeout
 #define PID_PERIOD_MIN 20u
 
 #define FOUR_OVER_PI_Q8 UINT32_C(326)
@@ -392,6 +393,33 @@ static bool tune_derivative(struct fixpid_pid_gains *gains,
     return kd_q8 <= FIXPID_PID_KD_MAX;
 }
 
+// Whether the sums can be those of cycles, for which the bounds of all that
+// follows are: flipped bits may have made others of them.
+static bool sums_make_sense(FIXPID_DATA const struct fixpid_relay *self)
+{
+    const uint32_t cycles = SELF.averaged;
+
+    if (cycles == 0u) {
+        return false;
+    }
+    if (cycles > CYCLES_MAX) {
+        return false;
+    }
+    if (SELF.period_sum < (PERIOD_MIN * cycles)) {
+        return false;
+    }
+    if (SELF.period_sum > (PERIOD_MAX * cycles)) {
+        return false;
+    }
+    if (SELF.swing_sum < cycles) {
+        return false;
+    }
+    if (SELF.last_period == 0u) {
+        return false;
+    }
+    return SELF.error_sum <= (UINT16_MAX * (uint32_t)SELF.last_period);
+}
+
 // False if a gain is out of its range.
 static bool apply(FIXPID_DATA const struct fixpid_relay *self,
                   const struct rule *rule, struct fixpid_pid_gains *gains)
@@ -435,6 +463,9 @@ bool fixpid_relay_result(FIXPID_DATA const struct fixpid_relay *self,
         return false;
     }
     if (rule > LAST_RULE) {
+        return false;
+    }
+    if (!sums_make_sense(self)) {
         return false;
     }
     if (!serves(self, rule)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_tpo.h"
 
+#include "fixpid_bits.h"
+
 #undef OBJECT
 #include "fixpid_self.h"
 
@@ -74,7 +76,8 @@ static void open_window(FIXPID_DATA struct fixpid_tpo *self, int16_t duty)
     // Below pulse_least is carried over at most: with the window's
     // 32767 * 32767 it stays below 2 * 32767^2 = 2147352578. Not below
     // -32766 * 32767, where a window without a gap was too long.
-    SELF.credit += (int32_t)limited(duty, SELF.full) * (int32_t)SELF.window;
+    SELF.credit = fixpid_add32(SELF.credit, (int32_t)limited(duty, SELF.full) *
+                                                (int32_t)SELF.window);
     SELF.left = SELF.window;
     SELF.on = 0;
     SELF.whole = 0;
@@ -104,6 +107,6 @@ bool fixpid_tpo_step(FIXPID_DATA struct fixpid_tpo *self, int16_t duty)
             return false;
         }
     }
-    SELF.credit -= SELF.full;
+    SELF.credit = fixpid_sub32(SELF.credit, SELF.full);
     return true;
 }

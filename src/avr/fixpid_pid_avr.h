@@ -50,6 +50,13 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 
+// As assembly, for gcc would take this sum and the one of the derivative for
+// one, and spend 50 cycles more.
+FIXPID_INLINE int32_t add32_with_derivative(int32_t a, int32_t derivative)
+{
+    return add32_sat(a, derivative);
+}
+
 // Four products, those with the upper byte of x signed, 19 cycles. gcc keeps r1
 // at 0 and does not mind r0.
 FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)

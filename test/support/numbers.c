@@ -36,3 +36,12 @@ int16_t numbers_int16(void)
     }
     return (int16_t)((int32_t)numbers_below(65536) - 32768);
 }
+
+void numbers_fill(void *object, size_t size)
+{
+    uint8_t *const bytes = object;
+
+    for (size_t at = 0; at < size; at++) {
+        bytes[at] = (uint8_t)(numbers_next() >> 24);
+    }
+}

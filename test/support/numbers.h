@@ -2,6 +2,7 @@
 // Operands for tests: the nasty ones in a table, the others pseudo-random.
 #ifndef NUMBERS_H
 #define NUMBERS_H
+#include <stddef.h>
 #include <stdint.h>
 
 // Around 0, around every limit of the controllers and at the ends of the type.
@@ -17,5 +18,8 @@ uint32_t numbers_below(uint32_t count);
 
 // Any int16_t; every other one is a nasty one.
 int16_t numbers_int16(void);
+
+// Any bytes, as a memory may hold.
+void numbers_fill(void *object, size_t size);
 
 #endif

@@ -729,3 +729,33 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
         padding,
         poison_left(&an937_controller, sizeof(an937_controller), init_bad));
 }
+
+// Nothing undefined comes of it either, which the sanitizers see.
+void test_step_of_any_bytes_stays_within_its_limits(void)
+{
+    numbers_seed(937);
+    for (unsigned turn = 0; turn < 20000u; turn++) {
+        int32_t output;
+
+        numbers_fill(&an937_controller, sizeof(an937_controller));
+        output = fixpid_an937_step(&an937_controller, numbers_int16());
+        TEST_ASSERT_INT32_WITHIN(1048575, 0, output);
+        TEST_ASSERT_INT8_WITHIN(
+            100, 0, fixpid_an937_step_percent(&an937_controller, 100));
+        (void)fixpid_an937_integral(&an937_controller);
+        (void)fixpid_an937_derivative(&an937_controller);
+        (void)fixpid_an937_stat1(&an937_controller);
+    }
+}
+
+void test_step_after_any_bytes_and_a_reset_starts_from_rest(void)
+{
+    numbers_seed(7);
+    for (unsigned turn = 0; turn < 100u; turn++) {
+        numbers_fill(&an937_controller, sizeof(an937_controller));
+        fixpid_an937_reset(&an937_controller);
+        TEST_ASSERT_EQUAL_INT32(0, fixpid_an937_step(&an937_controller, 0));
+        TEST_ASSERT_EQUAL_INT32(
+            0, fixpid_an937_accumulated_error(&an937_controller));
+    }
+}

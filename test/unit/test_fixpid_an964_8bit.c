@@ -382,3 +382,28 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
                                                 sizeof(an964_8bit_controller),
                                                 init_bad));
 }
+
+// A gain is at most 127, and a flipped bit would make 255 of it: the output of
+// 504 would be 1012.
+void test_step_a_flipped_bit_of_kp_keeps_the_output_within_its_limits(void)
+{
+    static const struct fixpid_an964_8bit_gains gains = {127, 0, 0};
+
+    TEST_ASSERT_TRUE(fixpid_an964_8bit_init(&an964_8bit_controller, &gains));
+    an964_8bit_controller.gains.kp ^= 0x80u;
+    TEST_ASSERT_EQUAL_INT16(
+        504, fixpid_an964_8bit_step(&an964_8bit_controller, 127));
+}
+
+// Nothing undefined comes of it either, which the sanitizers see.
+void test_step_of_any_bytes_stays_within_its_limits(void)
+{
+    numbers_seed(8);
+    for (unsigned turn = 0; turn < 20000u; turn++) {
+        numbers_fill(&an964_8bit_controller, sizeof(an964_8bit_controller));
+        TEST_ASSERT_INT16_WITHIN(
+            504, 0,
+            fixpid_an964_8bit_step(&an964_8bit_controller,
+                                   (int8_t)(numbers_next() >> 25)));
+    }
+}

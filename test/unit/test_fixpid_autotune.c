@@ -1526,3 +1526,58 @@ void test_model_holding_output_far_beyond_the_range_is_at_its_end(void)
     is_model((struct fixpid_autotune_model){0, 42, 306, 519, 3139328, 640,
                                             INT16_MIN, 0, 1});
 }
+
+// ---- Flipped bits ----
+
+static void done(void)
+{
+    found(integrator_up, integrator_down);
+}
+
+static void refuses_sums(void)
+{
+    nothing_is_known();
+    done();
+    (void)model();
+}
+
+void test_result_sums_that_no_cycles_have_are_refused(void)
+{
+    struct fixpid_autotune_sums *const sums = &autotune_controller.sums[1];
+
+    done();
+    sums->steps = 32768;
+    refuses_sums();
+    sums->on_steps = 0;
+    refuses_sums();
+    sums->on_steps = sums->steps;
+    refuses_sums();
+    sums->all = (int32_t)sums->steps * 32767 + 1;
+    refuses_sums();
+    sums->all = INT32_MIN;
+    refuses_sums();
+    sums->on = (int32_t)sums->on_steps * -32767 - 1;
+    refuses_sums();
+}
+
+// Without a cycle there is nothing to divide by.
+void test_result_no_number_of_cycles_divides_by_nothing(void)
+{
+    struct fixpid_pid_config pid = {0};
+
+    done();
+    autotune_controller.config.cycles = 0;
+    (void)fixpid_autotune_result(&autotune_controller, 0, 16, &pid);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX, pid.gains.kp_q8);
+}
+
+void test_step_a_flipped_bit_of_the_output_keeps_it_within_its_range(void)
+{
+    TEST_ASSERT_TRUE(init());
+    autotune_controller.output = 32767;
+    TEST_ASSERT_EQUAL_INT16(300, step(0));
+    autotune_controller.output = -32768;
+    TEST_ASSERT_EQUAL_INT16(-300, step(0));
+    autotune_controller.output = 299;
+    TEST_ASSERT_EQUAL_INT16(299, step(0));
+}

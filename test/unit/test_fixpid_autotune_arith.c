@@ -106,6 +106,17 @@ void test_divide_is_the_quotient_cut_off(void)
     crossed(check_quotient);
 }
 
+void test_divide_by_zero_is_zero(void)
+{
+    struct number16 a;
+    struct number16 nothing;
+
+    make(&a, 1, 5);
+    make(&nothing, 0, 0);
+    divide(&result, &a, &nothing);
+    is(0, 0);
+}
+
 // In units of 2^(exponent - 15), where the lower number may lose bits.
 static uint64_t units(struct number16 a, int16_t exponent)
 {

@@ -1857,3 +1857,95 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
         padding,
         poison_left(&pid_controller, sizeof(pid_controller), init_bad));
 }
+
+// ---- Flipped bits ----
+
+static int16_t within_limits(int16_t output)
+{
+    const int16_t low = pid_controller.output_min;
+    const int16_t high = pid_controller.output_max;
+
+    if (low <= high) {
+        TEST_ASSERT_GREATER_OR_EQUAL_INT16(low, output);
+        TEST_ASSERT_LESS_OR_EQUAL_INT16(high, output);
+    } else {
+        TEST_ASSERT_TRUE((output == low) || (output == high));
+    }
+    return output;
+}
+
+static int16_t plain_step(void)
+{
+    const int16_t setpoint = numbers_int16();
+
+    return fixpid_pid_step(&pid_controller, setpoint, numbers_int16());
+}
+
+void test_step_by_hand_a_flipped_bit_keeps_the_output_within_its_limits(void)
+{
+    fixpid_pid_init(&pid_controller, &valve);
+    fixpid_pid_set_manual(&pid_controller, 50);
+    pid_controller.integral ^= INT32_C(0x40000000);
+    TEST_ASSERT_EQUAL_INT16(255, fixpid_pid_step(&pid_controller, 0, 0));
+    TEST_ASSERT_EQUAL_INT16(255, fixpid_pid_output(&pid_controller));
+    pid_controller.integral = -INT32_C(0x40000000);
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 0, 0));
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+}
+
+// An integral of -190 counts becomes the output held.
+void test_step_a_status_flipped_to_manual_keeps_the_output_within_its_limits(
+    void)
+{
+    fixpid_pid_init(&pid_controller, &valve);
+    (void)fixpid_pid_step(&pid_controller, 0, 0);
+    pid_controller.integral = INT32_C(-190) * 65536;
+    pid_controller.status |= FIXPID_PID_MANUAL;
+    for (unsigned i = 0; i < 20u; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 100, 90));
+    }
+}
+
+// Each bit of a controller that runs, and the 20 steps that follow.
+void test_step_each_flipped_bit_keeps_the_output_within_its_limits(void)
+{
+    static FIXPID_DATA struct fixpid_pid before;
+    unsigned char *const bytes = (unsigned char *)&pid_controller;
+
+    numbers_seed(34);
+    for (unsigned turn = 0; turn < 8u; turn++) {
+        config = valve;
+        config.gains.kd_q8 = FIXPID_PID_KD_MAX;
+        config.gains.derivative_filter = (uint8_t)(turn & 3u);
+        TEST_ASSERT_TRUE(fixpid_pid_init(&pid_controller, &config));
+        for (unsigned i = 0; i < 30u; i++) {
+            (void)plain_step();
+        }
+        if ((turn & 4u) != 0u) {
+            fixpid_pid_set_manual(&pid_controller, 100);
+        }
+        memcpy(&before, &pid_controller, sizeof before);
+        for (unsigned bit = 0; bit < 8u * sizeof before; bit++) {
+            memcpy(&pid_controller, &before, sizeof before);
+            bytes[bit / 8u] ^= (unsigned char)(1u << (bit % 8u));
+            for (unsigned i = 0; i < 20u; i++) {
+                within_limits(plain_step());
+            }
+        }
+    }
+}
+
+// Nothing undefined comes of it either, which the sanitizers see.
+void test_step_of_any_bytes_stays_within_its_limits(void)
+{
+    numbers_seed(35);
+    for (unsigned turn = 0; turn < 20000u; turn++) {
+        numbers_fill(&pid_controller, sizeof pid_controller);
+        within_limits(plain_step());
+        numbers_fill(&pid_controller, sizeof pid_controller);
+        (void)fixpid_pid_set_limits(&pid_controller, -100, 100);
+        (void)fixpid_pid_set_integral_limits(&pid_controller, -90, 90);
+        fixpid_pid_track(&pid_controller, numbers_int16(), 3);
+        within_limits(plain_step());
+    }
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_relay.h"
+#include "numbers.h"
 #include "poison.h"
 #include "unity.h"
 
@@ -1079,4 +1080,57 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
     TEST_ASSERT_EQUAL_UINT(
         padding,
         poison_left(&relay_controller, sizeof(relay_controller), init_bad));
+}
+
+// ---- Flipped bits ----
+
+static void refuses_sums(void)
+{
+    TEST_ASSERT_FALSE(served(FIXPID_RELAY_TYREUS_LUYBEN_PI));
+    measured(200, 100, 20, 20);
+    TEST_ASSERT_TRUE(served(FIXPID_RELAY_TYREUS_LUYBEN_PI));
+}
+
+void test_result_sums_that_no_cycles_have_are_refused(void)
+{
+    const uint32_t cycles = config.cycles;
+
+    measured(200, 100, 20, 20);
+    relay_controller.averaged = 0;
+    refuses_sums();
+    relay_controller.averaged = 9;
+    refuses_sums();
+    relay_controller.period_sum = (6u * cycles) - 1u;
+    refuses_sums();
+    relay_controller.period_sum = (65532u * cycles) + 1u;
+    refuses_sums();
+    relay_controller.swing_sum = cycles - 1u;
+    refuses_sums();
+    relay_controller.last_period = 0;
+    refuses_sums();
+    relay_controller.error_sum = (65535u * 40u) + 1u;
+    refuses_sums();
+}
+
+// Nothing undefined comes of any bytes, which the sanitizers see.
+void test_result_of_any_bytes_is_legal(void)
+{
+    numbers_seed(6);
+    for (unsigned turn = 0; turn < 20000u; turn++) {
+        struct fixpid_pid_gains gains = {0};
+
+        numbers_fill(&relay_controller, sizeof relay_controller);
+        relay_controller.status = FIXPID_RELAY_DONE;
+        relay_controller.averaged &= 7u;
+        relay_controller.period_sum >>= 14;
+        relay_controller.error_sum >>= (turn & 31u);
+        if (fixpid_relay_result(&relay_controller, (uint8_t)(turn & 1u),
+                                &gains)) {
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX, gains.kp_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT32(FIXPID_PID_KI_MAX, gains.ki_q24);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KD_MAX, gains.kd_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT8(FIXPID_PID_FILTER_MAX,
+                                            gains.derivative_filter);
+        }
+    }
 }

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// fixpid_an964_8bit against the equations of its header.
+#include "prove.h"
+
+#include "fixpid_an964_8bit.h"
+#include "fixpid_an964_8bit_arith.h"
+
+struct fixpid_an964_8bit c; // of any bytes, where a proof begins
+struct fixpid_an964_8bit nondet_an964_8bit(void);
+struct fixpid_an964_8bit_gains nondet_an964_8bit_gains(void);
+
+#include "fixpid_an964_8bit.c"
+#include "fixpid_an964_8bit_more.c"
+
+#define GAIN_MAX 127
+#define SUM FIXPID_AN964_8BIT_SUM_LIMIT
+#define TERM FIXPID_AN964_8BIT_TERM_LIMIT
+#define OUTPUT_MAX 504
+
+#define TIMES(gain, x) times((gain), (x), 127u * 127u)
+
+// A quotient that is limited to a byte.
+#ifdef FIXPID_AN964_8BIT_NARROW_H
+typedef uint8_t quotient;
+#else
+typedef uint16_t quotient;
+#endif
+
+// What stands for the primitives in the proof of a step.
+quotient fixpid_7x7_div4_contract(uint8_t x, uint8_t k, uint8_t round_up,
+                                  uint8_t limit)
+{
+    pre((x <= GAIN_MAX) && (k <= 127u));
+    pre((round_up == 0u) || (round_up == 0xFFu));
+    return (quotient)clamp(floor_by(TIMES(x, (number)k) + (round_up & 3u), 2),
+                           0, limit);
+}
+
+quotient fixpid_7x7_div8_contract(uint8_t x, uint8_t k)
+{
+    pre((x <= GAIN_MAX) && (k <= 127u));
+    return (quotient)clamp(floor_by(TIMES(x, (number)k), 3), 0, 127);
+}
+
+uint16_t fixpid_7x7_div32_contract(uint8_t x, uint8_t k)
+{
+    pre((x <= GAIN_MAX) && (k <= 127u));
+    return (uint16_t)floor_by(TIMES(x, (number)k), 5);
+}
+
+static bool legal_gains(const struct fixpid_an964_8bit_gains *gains)
+{
+    return (gains->kp <= GAIN_MAX) && (gains->ki <= GAIN_MAX) &&
+           (gains->kd <= GAIN_MAX);
+}
+
+// What init establishes from any bytes and every function keeps.
+static bool sound(const struct fixpid_an964_8bit *x)
+{
+    if ((x->ready == 0u) && ((x->gains.kp | x->gains.ki | x->gains.kd) != 0u)) {
+        return false;
+    }
+    return legal_gains(&x->gains) && inside((int16_t)x->sum, -SUM, SUM) &&
+           inside((int8_t)x->integral, -127, 127) &&
+           inside((int8_t)x->derivative, -TERM, TERM) &&
+           ((x->sum_limited | FIXPID_AN964_8BIT_SUM_LIMITED) ==
+            FIXPID_AN964_8BIT_SUM_LIMITED) &&
+           ((x->output_limited | FIXPID_AN964_8BIT_OUTPUT_LIMITED) ==
+            FIXPID_AN964_8BIT_OUTPUT_LIMITED);
+}
+
+static bool same_gains(const struct fixpid_an964_8bit *a,
+                       const struct fixpid_an964_8bit *b)
+{
+    return (a->gains.kp == b->gains.kp) && (a->gains.ki == b->gains.ki) &&
+           (a->gains.kd == b->gains.kd) && (a->ready == b->ready);
+}
+
+static bool same_state(const struct fixpid_an964_8bit *a,
+                       const struct fixpid_an964_8bit *b)
+{
+    return (a->sum == b->sum) && (a->error[0] == b->error[0]) &&
+           (a->error[1] == b->error[1]) && (a->error[2] == b->error[2]) &&
+           (a->integral == b->integral) && (a->derivative == b->derivative) &&
+           (a->sum_limited == b->sum_limited) &&
+           (a->output_limited == b->output_limited);
+}
+
+static bool at_rest(const struct fixpid_an964_8bit *x)
+{
+    return ((x->sum | x->error[0] | x->error[1] | x->error[2] | x->integral |
+             x->derivative) == 0u) &&
+           ((x->sum_limited | x->output_limited) == 0u);
+}
+
+// By contract: fixpid_7x7_div4, fixpid_7x7_div8, fixpid_7x7_div32.
+void prove_step(void)
+{
+    const int8_t e = nondet_int8();
+    struct fixpid_an964_8bit was;
+    number sum;
+    number integral;
+    number change;
+    number derivative;
+    number terms;
+    number out;
+    uint8_t flags;
+
+    c = nondet_an964_8bit();
+    assume(sound(&c));
+    was = c;
+    out = fixpid_an964_8bit_step(&c, e);
+
+    sum = clamp((number)(int16_t)was.sum + e, -SUM, SUM);
+    integral =
+        clamp(trunc_by(TIMES(was.gains.ki, trunc_by(sum, 6)), 3), -127, 127);
+    change = clamp((number)e - (int8_t)was.error[2], -TERM, TERM);
+    derivative = clamp(floor_by(TIMES(was.gains.kd, change), 2), -TERM, TERM);
+    terms = clamp(e + integral + derivative, -127, 127);
+    claim(out == trunc_by(TIMES(was.gains.kp, terms), 5));
+    claim(inside(out, -OUTPUT_MAX, OUTPUT_MAX));
+    claim((int16_t)c.sum == sum);
+    claim((int8_t)c.error[0] == e);
+    claim(c.error[1] == was.error[0]);
+    claim(c.error[2] == was.error[1]);
+    claim(fixpid_an964_8bit_proportional(&c) == e);
+    claim(fixpid_an964_8bit_integral(&c) == integral);
+    claim(fixpid_an964_8bit_derivative(&c) == derivative);
+    flags = fixpid_an964_8bit_flags(&c);
+    claim(((flags & FIXPID_AN964_8BIT_SUM_LIMITED) != 0u) ==
+          !inside((number)(int16_t)was.sum + e, -SUM, SUM));
+    claim(((flags & FIXPID_AN964_8BIT_OUTPUT_LIMITED) != 0u) ==
+          !inside(e + integral + derivative, -127, 127));
+    claim((flags & 0xFCu) == 0u);
+    claim(same_gains(&c, &was));
+    claim(sound(&c));
+}
+
+void prove_init(void)
+{
+    const struct fixpid_an964_8bit_gains gains = nondet_an964_8bit_gains();
+    const bool legal = legal_gains(&gains);
+
+    c = nondet_an964_8bit();
+    claim(fixpid_an964_8bit_init(&c, &gains) == legal);
+    claim(at_rest(&c));
+    claim((c.ready != 0u) == legal);
+    claim(c.gains.kp == (legal ? gains.kp : 0u));
+    claim(c.gains.ki == (legal ? gains.ki : 0u));
+    claim(c.gains.kd == (legal ? gains.kd : 0u));
+    claim(sound(&c));
+}
+
+void prove_setters(void)
+{
+    const struct fixpid_an964_8bit_gains gains = nondet_an964_8bit_gains();
+    struct fixpid_an964_8bit was;
+    bool accepted;
+
+    c = nondet_an964_8bit();
+    assume(sound(&c));
+    was = c;
+    accepted = (was.ready != 0u) && legal_gains(&gains);
+    claim(fixpid_an964_8bit_set_gains(&c, gains.kp, gains.ki, gains.kd) ==
+          accepted);
+    if (accepted) {
+        was.gains = gains;
+    }
+    claim(same_gains(&c, &was));
+    claim(same_state(&c, &was));
+    claim(sound(&c));
+}
+
+void prove_reset(void)
+{
+    struct fixpid_an964_8bit was;
+
+    c = nondet_an964_8bit(); // also of what is not sound
+    was = c;
+    fixpid_an964_8bit_reset(&c);
+    claim(at_rest(&c));
+    claim(same_gains(&c, &was));
+    assume(sound(&was));
+    claim(sound(&c));
+}
+
+// Refused, the output is 0 whatever the error.
+void prove_refused(void)
+{
+    c = nondet_an964_8bit();
+    assume(sound(&c));
+    assume(c.ready == 0u);
+    claim(fixpid_an964_8bit_step(&c, nondet_int8()) == 0);
+    claim(sound(&c));
+}
+
+// Of any bytes: nothing undefined, and the output within its limits.
+void prove_total(void)
+{
+    c = nondet_an964_8bit();
+    claim(inside(fixpid_an964_8bit_step(&c, nondet_int8()), -OUTPUT_MAX,
+                 OUTPUT_MAX));
+    (void)fixpid_an964_8bit_proportional(&c);
+    (void)fixpid_an964_8bit_integral(&c);
+    (void)fixpid_an964_8bit_derivative(&c);
+    (void)fixpid_an964_8bit_flags(&c);
+}

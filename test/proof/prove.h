@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What the proofs are written with. A proof is a function `prove_...` without
+// arguments: it takes any values, assumes what is known of them, calls the code
+// and claims what must hold. CBMC then looks for values that break a claim or
+// make the code do what C leaves undefined, and shows that there are none.
+#ifndef PROVE_H
+#define PROVE_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#define assume(condition) __CPROVER_assume(condition)
+#define claim(condition) __CPROVER_assert(condition, #condition)
+
+// Any value of a type: so CBMC takes what a function of such a name returns.
+bool nondet_bool(void);
+int8_t nondet_int8(void);
+uint8_t nondet_uint8(void);
+int16_t nondet_int16(void);
+uint16_t nondet_uint16(void);
+int32_t nondet_int32(void);
+uint32_t nondet_uint32(void);
+
+// The whole numbers of the headers' equations, which never overflow here.
+typedef int64_t number;
+
+static number clamp(number x, number low, number high)
+{
+    if (x < low) {
+        return low;
+    }
+    return (x > high) ? high : x;
+}
+
+static bool inside(number x, number low, number high)
+{
+    return (x >= low) && (x <= high);
+}
+
+// x / 2^bits toward minus infinity and toward zero. They are shifts, because a
+// division by a constant is as hard as any other to the solver.
+static number floor_by(number x, unsigned bits)
+{
+    return x >> bits; // CBMC keeps the sign
+}
+
+static number trunc_by(number x, unsigned bits)
+{
+    return (x < 0) ? -(-x >> bits) : (x >> bits);
+}
+
+// A product of magnitudes, of which a proof knows only this: equal operands
+// give an equal product, at most `most`, and nothing times zero is zero. Where
+// code and definition agree for whatever function it is, they do so for the
+// true product; that each primitive of src/ computes the true one is shown by
+// trying all its operands (leaves.c), which a solver is slow at.
+uint32_t __CPROVER_uninterpreted_product(uint16_t a, uint16_t b);
+
+static uint32_t product(uint16_t a, uint16_t b, uint32_t most)
+{
+    const uint32_t p = __CPROVER_uninterpreted_product(a, b);
+
+    assume(p <= most);
+    assume((p == 0u) == ((a == 0u) || (b == 0u)));
+    return p;
+}
+
+// gain * x in that way. pre: |x| <= 65535
+static number times(uint16_t gain, number x, uint32_t most)
+{
+    return (x < 0) ? -(number)product(gain, (uint16_t)-x, most)
+                   : (number)product(gain, (uint16_t)x, most);
+}
+
+// The precondition of a primitive that a proof replaces by its contract.
+#define pre(condition) __CPROVER_assert(condition, "pre: " #condition)
+
+#endif

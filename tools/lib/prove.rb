@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: MIT
+# What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks of
+# test/proof/breaks.txt that they must notice. Prints a line for each.
+require_relative 'prove/breaks'
+require_relative 'prove/cbmc'
+require_relative 'prove/proofs'
+
+BUILD = 'build/prove'.freeze
+
+# Does the work of a list, so many things at a time; prints what each says and
+# gives whether all were good.
+def all_good?(list)
+  queue = Queue.new
+  list.each { |item| queue << item }
+  done = 0
+  good = true
+  lock = Mutex.new
+  workers = Array.new(Integer(ENV.fetch('JOBS', '2'))) do
+    Thread.new do
+      while (item = take(queue))
+        fine, line = yield item
+        lock.synchronize do
+          done += 1
+          good &&= fine
+          puts "#{fine ? 'ok' : 'FAILED'} #{line}"
+          warn "prove: #{done} of #{list.size}" if $stderr.tty?
+        end
+      end
+    end
+  end
+  workers.each(&:join)
+  good
+end
+
+def take(queue)
+  queue.pop(true)
+rescue ThreadError
+  nil # it is empty
+end
+
+# Whether a proof holds, and its line.
+def prove(proof)
+  answer = Cbmc.new(proof, BUILD).run
+  return [false, "#{proof.name}: #{answer.why}"] unless answer.verdict == :proved
+
+  figures = format('%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB', answer.to_h)
+  [true, "#{proof.name}: #{figures}"]
+end
+
+# Whether a break is noticed, and its line.
+def refute(broken)
+  answer = broken.in_tree(BUILD) { |tree| Cbmc.new(broken.proof, BUILD, tree).run }
+  return [true, "#{broken.name}: noticed, #{answer.seconds.round(1)} s"] if answer.verdict == :refuted
+
+  [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
+end
+
+mode, *words = ARGV
+proofs = Proofs.all
+chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
+if chosen.empty?
+  warn "prove: no proof has all of these in its name: #{words.join(' ')} (see --list)"
+  exit 2
+end
+if mode == 'list'
+  puts chosen.map(&:name)
+  exit 0
+end
+
+$stdout.sync = true
+breaks = Breaks.all(proofs)
+breaks = mode == 'quick' ? breaks.uniq { |broken| broken.proof.group } : breaks.select { |broken| chosen.include?(broken.proof) }
+complaints = Proofs.complaints(proofs) + Breaks.complaints(proofs, Breaks.all(proofs))
+complaints.each { |complaint| puts "FAILED #{complaint}" }
+proved = all_good?(chosen) { |proof| prove(proof) }
+noticed = all_good?(breaks) { |broken| refute(broken) }
+puts "#{chosen.size} proofs, #{breaks.size} breaks"
+exit(proved && noticed && complaints.empty? ? 0 : 1)

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+# One run of CBMC.
+require 'fileutils'
+require_relative 'proofs'
+require 'open3'
+
+# What a run came to: proved, refuted (a claim does not hold), or neither.
+Answer = Struct.new(:verdict, :why, :properties, :seconds, :megabytes)
+
+# Compiles a harness with the sources of a tree, puts contracts in place and asks.
+class Cbmc
+  SECONDS_MOST = 120 # of a processor
+  COMPOSED_MOST = 600
+  MEGABYTES_MOST = 1024
+  CHECKS = %w[--bounds-check --pointer-check --pointer-overflow-check --signed-overflow-check --div-by-zero-check
+              --undefined-shift-check --unwind 66 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
+  TICKS = 100.0 # a second; the kernel's for /proc
+
+  def initialize(proof, build, tree = '.')
+    @proof = proof
+    @tree = tree
+    @folder = "#{build}/#{proof.name.tr(' ', '_')}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"
+  end
+
+  def run
+    FileUtils.rm_rf(@folder)
+    FileUtils.mkdir_p(@folder)
+    program = compile or return Answer.new(:none, "it does not compile\n#{@said}")
+    ask(program)
+  end
+
+  private
+
+  def tool(name, *arguments)
+    @said, status = Open3.capture2e("#{ENV.fetch('CBMC')}/#{name}", *arguments)
+    status.success?
+  end
+
+  # Gives the program, or nil.
+  def compile
+    program = "#{@folder}/program"
+    tool('goto-cc', "--#{@proof.word}", "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}",
+         "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness, '--function', @proof.function,
+         '-o', program) or return nil
+    @proof.contracts.each do |function|
+      replaced = "#{program}-#{function}"
+      tool('goto-instrument', '--replace-calls', "#{function}:#{function}_contract", program, replaced) or return nil
+      program = replaced
+    end
+    program
+  end
+
+  def seconds_most
+    @proof.what == 'composed' ? COMPOSED_MOST : SECONDS_MOST
+  end
+
+  def ask(program)
+    output = "#{@folder}/output.txt"
+    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, in: File::NULL, %i[out err] => output,
+                            rlimit_cpu: [seconds_most, seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
+    status = watch(process)
+    judge(File.read(output), status)
+  end
+
+  # Waits for its end; the last looks at /proc are what it took.
+  def watch(process)
+    @megabytes = 0
+    loop do
+      figures = File.read("/proc/#{process}/stat").split(') ').last.split
+      @seconds = figures[11..14].map(&:to_i).sum / TICKS
+      break if figures.first == 'Z'
+
+      @megabytes = [@megabytes, File.read("/proc/#{process}/status")[/VmHWM:\s+(\d+)/, 1].to_i / 1024].max
+      sleep 0.02
+    end
+    Process.wait2(process).last
+  end
+
+  def judge(said, status)
+    properties = said.scan(/: SUCCESS$/).size
+    verdict, why =
+      if status.termsig || @seconds >= seconds_most
+        [:none, "no answer in #{seconds_most} s and #{MEGABYTES_MOST} MB"]
+      elsif said.match?(/^VERIFICATION SUCCESSFUL$/) && status.success?
+        properties.zero? ? [:none, 'it has no properties'] : [:proved, nil]
+      elsif said.match?(/^VERIFICATION FAILED$/)
+        [:refuted, said[/^Violated property:\n.*\n.*\n?/].to_s.strip]
+      else
+        [:none, said.lines.last(5).join]
+      end
+    Answer.new(verdict, why, properties, @seconds, @megabytes)
+  end
+end

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+# The proofs, as test/proof/proofs.txt and the harnesses in test/proof/ have them.
+
+FOLDER = 'test/proof'.freeze
+WORDS = [16, 32, 64].freeze
+
+# One function of a harness, in one form, for one machine.
+Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
+  def name
+    "#{group} #{form} #{what} #{word}"
+  end
+
+  def matches?(words)
+    words.all? { |word| name.split.include?(word) }
+  end
+
+  # The first form with words of 16 bits; the whole of a composed step is for
+  # those who have time.
+  def quick?
+    first && word == WORDS.first && !contracts.grep_v(/^fixpid_|^mul16$/).any?
+  end
+
+  def harness
+    "#{FOLDER}/#{group}.c"
+  end
+
+  def function
+    "prove_#{what}"
+  end
+
+  # The functions that stand for what is proved of them elsewhere: the line
+  # `By contract: a, b.` of the comment above the proof.
+  def contracts
+    comment = Proofs.text(harness)[%r{((?://.*\n)+)void #{function}\(void\)$}, 1].to_s
+    comment.gsub(%r{\n// }, ' ')[/By contract: ([\w, ]+)\./, 1].to_s.split(', ')
+  end
+end
+
+# All of them.
+module Proofs
+  module_function
+
+  def text(file)
+    @texts ||= {}
+    @texts[file] ||= File.read(file)
+  end
+
+  # Of each row `module form [option]... : what...`.
+  def all
+    groups = []
+    rows.flat_map do |left, right|
+      group, form, *options = left.split
+      first = !groups.include?(group)
+      groups << group
+      right.split.flat_map { |what| WORDS.map { |word| Proof.new(group, form, options, what, word, first) } }
+    end
+  end
+
+  def rows
+    text("#{FOLDER}/proofs.txt").lines(chomp: true).grep_v(/^#|^\s*$/).map { |line| line.split(' : ', 2) }
+  end
+
+  # What a harness proves and nobody runs, and the other way round.
+  def complaints(proofs)
+    named = proofs.map { |proof| [proof.harness, proof.what] }.uniq
+    there = Dir["#{FOLDER}/*.c"].sort.flat_map do |harness|
+      text(harness).scan(/^void prove_(\w+)\(void\)$/).flatten.map { |what| [harness, what] }
+    end
+    (there - named).map { |harness, what| "#{harness}: #{FOLDER}/proofs.txt does not name #{what}" } +
+      (named - there).map { |harness, what| "#{harness}: there is no proof of #{what}" }
+  end
+end
