@@ -329,6 +329,9 @@ void faults_was_reset(void)
 {
     seen.resets++;
     seen.ticks_ahead = 0.0;
+    if (fault.kind == FAULT_HANGS) {
+        fault.for_s = world_time_s() - fault.at_s;
+    }
     if (seen.hangs_left > 0u) {
         seen.next_hang_s = world_time_s() + drawn(0.0, BETWEEN_HANGS_S);
     }
@@ -397,6 +400,16 @@ static void copy_for_each(void)
     exit(EXIT_SUCCESS);
 }
 
+// What has been quiet for half of the time that it is watched is over.
+static bool over(double now_s)
+{
+    const double until_s = fault.at_s + fault.for_s;
+    const double half_s = fault_loop.watch_s / 2.0;
+    const bool quiet = seen.struck && (seen.hangs_left == 0u) &&
+                       ((now_s - fmax(seen.outside_s, until_s)) > half_s);
+    return quiet || (now_s > (until_s + fault_loop.watch_s));
+}
+
 void faults_watch(int drive, int asked)
 {
     const double now_s = world_time_s();
@@ -407,7 +420,7 @@ void faults_watch(int drive, int asked)
         copy_for_each();
     }
     judge(drive, asked);
-    if (now_s > (fault.at_s + fault.for_s + fault_loop.watch_s)) {
+    if (over(now_s)) {
         report(end());
         _exit(EXIT_SUCCESS);
     }
