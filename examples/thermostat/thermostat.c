@@ -78,6 +78,13 @@ static void go_on_from(int16_t duty)
     enter(position);
 }
 
+// A heater cannot cool. The controller's limits say so, too, unless a bit of
+// them has flipped; the port keeps the other end.
+static int16_t heater_duty(int16_t output)
+{
+    return (output < 0) ? 0 : output;
+}
+
 // Without a sensor the heater is off. When there is one again the controller
 // goes on from the duty that it gave last.
 static void control(void)
@@ -97,7 +104,7 @@ static void control(void)
         lost = false;
         go_on_from(duty);
     }
-    duty = fixpid_pid_step(&thermostat, setpoint, measurement);
+    duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
     port_drive(duty);
 }
 
