@@ -80,7 +80,7 @@ class Cosimulation
     // What a fault does, where it needs the chip.
     unsigned object_bits() const;
     void flip(unsigned bit);
-    void reset(double seconds, bool with_random_ram);
+    void reset(double seconds, bool with_random_ram, double share);
     void hang();
     void stop_timer();
     void shift_ticks(double ticks);
@@ -89,6 +89,7 @@ class Cosimulation
     void look();
     void take_drive();
     bool goes_on();
+    void set_tick(bool enabled);
     void stand_still(double seconds);
     void randomize();
     void watch_bounds();
@@ -121,21 +122,24 @@ class Cosimulation
     bool resetting = false; // it is at the reset vector, or will be
     double dark_s = 0.0;
     bool random_ram = false;
+    double share_of_pass = 0.0; // when a reset comes
     double ticks_ahead = 0.0;
     uint64_t masked_until = 0; // the tick's interrupt; 0: it is not masked
 };
 
 Cosimulation *cosimulation = nullptr; // for what faults.h calls
 
-// Where the tick's interrupt is enabled: INTCON's GIE of a PIC, all of TIMSK0
-// of an AVR.
+// Where the tick's interrupt is enabled: TMR1IE of a PIC16, CCP2IE of a PIC18,
+// OCIE0A of an AVR.
 struct Enable {
     const char *processor; // how its name begins
     unsigned address;
-    unsigned bits;
+    unsigned bit;
+    unsigned counted; // the port's byte of ticks, where it has no symbol
 };
-const Enable enables[] = {
-    {"p16", 0x0B, 0x80}, {"p18", 0xFF2, 0xC0}, {"atmega", 0x6E, 0xFF}};
+const Enable enables[] = {{"p16", 0x8C, 0x01, 0x20},
+                          {"p18", 0xFA0, 0x01, 0},
+                          {"atmega", 0x6E, 0x02, 0}};
 
 const Enable &tick_enable(const Chip &chip)
 {
@@ -270,6 +274,9 @@ void Cosimulation::wait_ends()
     pass.begun = true;
     pass.start = chip.cycle();
     pass.ended_s = world_time_s();
+    if (wanted == Wanted::reset) {
+        chip.stop("a reset");
+    }
 }
 
 // The world moves to this cycle, and to each row of the trace on the way.
@@ -307,8 +314,7 @@ void Cosimulation::look()
     }
     looking = true;
     if ((masked_until != 0) && (chip.cycle() >= masked_until)) {
-        const Enable &enable = tick_enable(chip);
-        chip.poke(enable.address, chip.peek(enable.address) | enable.bits);
+        set_tick(true);
         masked_until = 0;
     }
     faults_watch(drive_counts, drive_counts);
@@ -326,12 +332,13 @@ void Cosimulation::flip(unsigned bit)
     chip.poke(address, chip.peek(address) ^ (1u << (bit % 8)));
 }
 
-void Cosimulation::reset(double seconds, bool with_random_ram)
+// At an instruction boundary within the next pass.
+void Cosimulation::reset(double seconds, bool with_random_ram, double share)
 {
     wanted = Wanted::reset;
     dark_s = seconds;
     random_ram = with_random_ram;
-    chip.stop("a reset");
+    share_of_pass = share;
 }
 
 void Cosimulation::hang()
@@ -340,10 +347,19 @@ void Cosimulation::hang()
     chip.stop("the loop is to hang");
 }
 
-void Cosimulation::stop_timer()
+// An AVR's flag waits by itself; gpsim looks at a PIC's when it is enabled.
+void Cosimulation::set_tick(bool enabled)
 {
     const Enable &enable = tick_enable(chip);
-    chip.poke(enable.address, chip.peek(enable.address) & ~enable.bits);
+    const unsigned others = chip.peek(enable.address) & ~enable.bit;
+    const unsigned value = others | (enabled ? enable.bit : 0u);
+    chip.poke(enable.address, value);
+    chip.write(enable.address, value);
+}
+
+void Cosimulation::stop_timer()
+{
+    set_tick(false);
 }
 
 // Whole ticks are counted or not; a tick is late where its interrupt is masked.
@@ -352,7 +368,9 @@ void Cosimulation::shift_ticks(double ticks)
     const double step = ticks - ticks_ahead;
     const double whole = std::round(step);
     if (std::fabs(step - whole) < 1e-9) {
-        const unsigned counted = chip.data("ticks_counted");
+        const unsigned counted = chip.has_symbol("ticks_counted")
+                                     ? chip.data("ticks_counted")
+                                     : tick_enable(chip).counted;
         chip.poke(counted, (chip.peek(counted) + (unsigned)(int)whole) & 0xFF);
         ticks_ahead = ticks;
     } else {
@@ -386,13 +404,17 @@ void Cosimulation::randomize()
 bool Cosimulation::goes_on()
 {
     const bool vector = chip.reason() == "restarted at the reset vector";
-    const bool watchdog = chip.reason() == "the watchdog resets the chip";
+    const bool watchdog = chip.reason().find("watchdog") != std::string::npos;
     const bool mine = wanted == Wanted::reset;
+    if (mine) {
+        (void)chip.run((uint64_t)(share_of_pass * (double)pass.most));
+        catch_up();
+    }
     if (wanted == Wanted::hang) {
         chip.hang();
     } else if (mine || watchdog || (vector && !resetting)) {
-        chip.reset(); // gpsim's watchdog has done so; hung instructions are not
-        resetting = !watchdog || mine;
+        chip.reset();
+        resetting = true; // gpsim says so when it is there
         seen = chip.cycle();
         take_drive();
         if (chip.is_pic18()) {
@@ -522,8 +544,8 @@ int Cosimulation::run()
 const fault_chip broken_chip = {
     [] { return cosimulation->object_bits(); },
     [](unsigned bit) { cosimulation->flip(bit); },
-    [](double seconds, bool with_random_ram) {
-        cosimulation->reset(seconds, with_random_ram);
+    [](double seconds, bool with_random_ram, double share) {
+        cosimulation->reset(seconds, with_random_ram, share);
     },
     [](double) { cosimulation->hang(); }, // its own watchdog ends it
     [] { cosimulation->stop_timer(); },

@@ -44,5 +44,5 @@ void Chip::hang()
 
     hung.push_back({at, pic().pma->get_opcode(at)});
     pic().pma->put_opcode(at, is_pic18() ? to_itself_18
-                                               : goto_pic14 | (at & 0x7FFu));
+                                         : goto_pic14 | (at & 0x7FFu));
 }

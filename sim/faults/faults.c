@@ -17,6 +17,7 @@
 #define RESET_S 2e-3 // without drive, at least
 #define BROWN_OUT_LEAST_S 5e-3
 #define BROWN_OUT_MOST_S 150e-3
+#define RESET_PLACES 200 // in one pass
 #define HANGS_MOST 8u
 #define LATEST_WATCHDOG 2.0 // times the typical one
 #define BETWEEN_HANGS_S 20e-3
@@ -181,6 +182,9 @@ static void draw(long number)
     fault.at_s = fault_loop.start_s + drawn(0.0, fault_loop.spread_s);
     if (fault.kind == FAULT_FLIP) {
         fault.bit = (unsigned)(turn % (long)plan.chip->object_bits());
+    } else if (fault.kind == FAULT_RESET) {
+        // Each of the places once, in an order that spreads the first ones.
+        fault.value = (double)((turn * 123L) % RESET_PLACES) / RESET_PLACES;
     } else if (fault.kind == FAULT_BROWN_OUT) {
         fault.value = drawn(BROWN_OUT_LEAST_S, BROWN_OUT_MOST_S);
     } else if (fault.kind == FAULT_HANG) {
@@ -279,11 +283,11 @@ static void strike(void)
         break;
     case FAULT_RESET:
         seen.resets++;
-        plan.chip->reset(RESET_S, false);
+        plan.chip->reset(RESET_S, false, fault.value);
         break;
     case FAULT_BROWN_OUT:
         seen.resets++;
-        plan.chip->reset(fault.value, true);
+        plan.chip->reset(fault.value, true, 0.0);
         break;
     case FAULT_HANG:
     case FAULT_HANGS:

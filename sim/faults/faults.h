@@ -68,7 +68,7 @@ extern const struct fault_loop fault_loop;
 struct fault_chip {
     unsigned (*object_bits)(void);
     void (*flip)(unsigned bit);
-    void (*reset)(double dark_s, bool random_ram);
+    void (*reset)(double dark_s, bool random_ram, double share);
     void (*hang)(double watchdog_s);
     void (*stop_timer)(void);
     void (*shift_ticks)(double ticks); // the same as host_shift_ticks

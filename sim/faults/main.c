@@ -86,8 +86,10 @@ static void stand_still(double seconds)
 static bool random_ram;
 static double dark_s;
 
-static void reset(double seconds, bool random)
+// The host's application takes no time between two calls of the port.
+static void reset(double seconds, bool random, double share)
 {
+    (void)share;
     host_reset();
     timer_dead = false;
     random_ram = random;
@@ -101,7 +103,7 @@ static void hang(double watchdog_s)
     host_reset();
     look(); // the drive is off
     faults_was_reset();
-    reset(START_UP_S, false);
+    reset(START_UP_S, false, 0.0);
 }
 
 static void stop_timer(void)
@@ -120,7 +122,7 @@ static void watch(void)
         host_reset();
         look();
         faults_was_reset();
-        reset(START_UP_S, false);
+        reset(START_UP_S, false, 0.0);
     }
 }
 
