@@ -44,6 +44,7 @@ LOOPS = {
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time',
                        -> { run_faults(ENV.key?('FAULTS_LONG')) }),
+  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('FAULTS_LONG')) }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
 

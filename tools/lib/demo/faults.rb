@@ -21,7 +21,7 @@ WATCHDOG_KINDS = %w[hang hangs dead_timer].freeze
 # control until the next reset, as they change what only `init` sets; `blind`: off
 # so soon when the sensor reads an end (nil: the application does not look).
 FaultRules = Struct.new(:runs, :long_runs, :tick_s, :watchdog_s, :duties, :back, :fallen, :lasting,
-                        :blind, :inputs, keyword_init: true)
+                        :blind, :inputs, :chip, keyword_init: true)
 
 FAULT_LOOPS = {
   'pendulum' => FaultRules.new(runs: 500, long_runs: 40_000, tick_s: 1.0 / 256, watchdog_s: 17e-3,
@@ -56,34 +56,33 @@ class FaultRun
     end
   end
 
-  # From the hang until the drive was off, beyond the watchdog's time.
-  def late_s(watchdog_s)
-    off_after_s - (kind == 'dead_timer' ? watchdog_s : value)
+  # The host's watchdog is late on purpose, a simulated chip's cannot be.
+  def watchdog_s(rules)
+    kind == 'hangs' && !rules.chip ? value : rules.watchdog_s
   end
 end
 
 # All runs of a loop.
 class Faults
-  attr_reader :name, :rules, :runs, :path
+  attr_reader :name, :rules, :runs
 
-  def initialize(name, rules, where, runs)
+  def initialize(name, rules, runs)
     @name = name
     @rules = rules
-    @path = "#{Host.folder}/faults-#{where}#{name}.csv"
     @runs = runs
   end
 
-  def self.read(name, rules, where, paths)
+  def self.read(name, rules, paths)
     runs = paths.flat_map do |path|
       names, *rows = File.readlines(path)
       names = names.to_s.chomp.split(',')
       rows.map { |row| FaultRun.new(path, names, row) }
     end
-    new(name, rules, where, runs)
+    new(name, rules, runs)
   end
 
   def of(*kinds)
-    Faults.new(name, rules, '', runs.select { |run| kinds.include?(run.kind) })
+    Faults.new(name, rules, runs.select { |run| kinds.include?(run.kind) })
   end
 
   def kinds
@@ -99,16 +98,18 @@ class Faults
     runs.select { |run| run.end == how }.map(&what).max || 0.0
   end
 
-  def lasting
-    ended('out') + (rules.fallen ? ended('off') : 0)
+  # The drive was off so much later than the watchdog's time; nil: not tried.
+  def late_s
+    of(*WATCHDOG_KINDS).runs.map { |run| run.off_after_s - run.watchdog_s(rules) }.max
   end
 
-  def check(count)
+  # `all_bits`: there are enough runs for each bit of the object.
+  def check(count, all_bits)
     Report.exactly('faults tried', runs.size, count)
     Report.exactly('of which the program crashed or did not end', ended('crashed'), 0)
     check_drive
     bits = of('flip').runs.map(&:bit).uniq
-    Report.exactly('bits of the object that flipped, all', bits.size, bits.max.to_i + 1)
+    Report.exactly('bits of the object that flipped, all', bits.size, bits.max.to_i + 1) if all_bits
     kinds.each { |kind| check_kind(of(kind), FAULT_KINDS[kind]) }
     check_watchdog
     check_blind
@@ -134,7 +135,7 @@ class Faults
   end
 
   def check_watchdog
-    late = of(*WATCHDOG_KINDS).runs.map { |run| run.late_s(rules.watchdog_s) }.max
+    late = late_s or return
     Report.at_most('nothing works: off, later than the watchdog', late, 2.0 * rules.tick_s, 's')
   end
 
@@ -142,36 +143,81 @@ class Faults
     return unless rules.blind
 
     seen = of('shorted', 'open').runs.map(&:off_first_s)
+    return if seen.empty?
+
     Report.at_least('sensor at an end: off', seen.min, 0.0, 's')
     Report.at_most('sensor at an end: off after', seen.max, rules.blind, 's')
   end
 end
 
-# Two programs at a time, each with half of a loop's faults.
+# Of a chip: the loop's rules, where the simulator has another watchdog, and the
+# turns of all kinds and of the resets alone, each at another place of a pass.
+ChipFaults = Struct.new(:example, :runs, :long_runs, :watchdog_s, keyword_init: true) do
+  def rules
+    FaultRules.new(**FAULT_LOOPS.fetch(example).to_h, watchdog_s: watchdog_s, chip: true)
+  end
+end
+# gpsim's watchdog of a PIC18F4520 is 4.5 times slower than the chip's.
+CHIP_FAULTS = {
+  'pendulum' => ChipFaults.new(example: 'pendulum', runs: 36, long_runs: 1400, watchdog_s: 17.9e-3),
+  'motor' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 4.5 * 32e-3),
+  'motor_atmega328p' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 32e-3),
+  'oven' => ChipFaults.new(example: 'oven', runs: 0, long_runs: 36, watchdog_s: 4.5 * 32e-3),
+  'thermostat' => ChipFaults.new(example: 'thermostat', runs: 0, long_runs: 72, watchdog_s: 4.5 * 32e-3),
+  'thermostat_atmega328p' => ChipFaults.new(example: 'thermostat', runs: 2, long_runs: 72, watchdog_s: 32e-3)
+}.freeze
+RESET_PLACES = 200 # of one pass, as in sim/faults/faults.c
+
 def run_faults(long)
+  programs = "#{Host.root}/build/host-examples/examples"
   FAULT_LOOPS.each do |name, rules|
     count = long ? rules.long_runs : rules.runs
+    command = ["#{programs}/faults_#{name}", "#{programs}/faults_#{name}_application.so"]
     Report.start("faults #{name}")
-    all = Faults.read(name, rules, '', halves_of_faults(name, count))
-    all.check(count)
+    all = Faults.read(name, rules, halves_of_faults("faults-#{name}", command, count))
+    all.check(count, true)
     number_faults(all)
     draw_faults(all)
   end
 end
 
-def halves_of_faults(name, count)
-  programs = "#{Host.root}/build/host-examples/examples"
+def run_faults_on_chips(long)
+  CHIP_FAULTS.each do |name, chip|
+    count = long ? chip.long_runs : chip.runs
+    next if count.zero?
+
+    firmware = Dir["#{Host.root}/build/firmware/#{name}.{cod,elf}"].first or
+      raise Host::Failure, "no firmware of #{name}"
+    command = ["#{Host.root}/build/gpsim/#{name}", firmware, '--faults', name]
+    Report.start("faults_chip #{name}")
+    paths = halves_of_faults("faults_chip-#{name}", command, count)
+    places = long && chip.example == name ? RESET_PLACES : 0
+    paths += halves_of_faults("faults_chip-#{name}-reset", command, places, 'reset') if places.positive?
+    all = Faults.read(name, chip.rules, paths)
+    all.check(count + places, false)
+    check_places(all) if places.positive?
+    number_faults(all)
+  end
+end
+
+def check_places(all)
+  Report.at_least('resets at different places of a pass', all.of('reset').runs.map(&:value).uniq.size,
+                  RESET_PLACES)
+end
+
+# Two programs at a time, each with half of the faults.
+def halves_of_faults(name, command, count, *kind)
   half = (count + 1) / 2
   parts = [[0, half], [half, count - half]]
-  parts.each_with_index.map do |(first, some), i|
-    path = "#{Host.folder}/faults-#{name}.#{i}"
+  threads = parts.each_with_index.map do |(first, some), i|
+    path = "#{Host.folder}/#{name}.#{i}"
     Thread.new do
       Thread.current.report_on_exception = false
-      Host.execute({}, "#{programs}/faults_#{name}", "#{programs}/faults_#{name}_application.so",
-                   first.to_s, some.to_s, { out: path })
+      Host.execute({}, *command, first.to_s, some.to_s, *kind, { out: path, err: "#{path}.err" })
       path
     end
-  end.map(&:value)
+  end
+  threads.map(&:value)
 end
 
 # The numbers of the table.
@@ -188,7 +234,7 @@ def number_faults(all)
   Report.number('runs', all.runs.size)
   Report.number('low', all.runs.map(&:drive_low).min.to_i)
   Report.number('high', all.runs.map(&:drive_high).max.to_i)
-  Report.number('late_s', all.of(*WATCHDOG_KINDS).runs.map { |run| run.late_s(all.rules.watchdog_s) }.max)
+  Report.number('late_s', all.late_s || 0.0)
 end
 
 # ---- The picture: a point for each run ----
