@@ -165,7 +165,7 @@ static void add_deviation(FIXPID_DATA struct fixpid_autotune *self,
         if (SELF.side == AT_HIGH) {
             turn = (int16_t)-turn;
         }
-        sums->rise = (int16_t)(sums->rise + turn);
+        sums->rise = (int16_t)fixpid_add32(sums->rise, turn); // 32752 at most
     }
     if (sums->steps == STEPS_MAX) {
         fixpid_autotune_finish(self, FIXPID_AUTOTUNE_TOO_SLOW);

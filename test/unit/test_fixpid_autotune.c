@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "fixpid_autotune.h"
+#include "numbers.h"
 #include "poison.h"
 #include "unity.h"
 
@@ -1580,4 +1581,43 @@ void test_step_a_flipped_bit_of_the_output_keeps_it_within_its_range(void)
     TEST_ASSERT_EQUAL_INT16(-300, step(0));
     autotune_controller.output = 299;
     TEST_ASSERT_EQUAL_INT16(299, step(0));
+}
+
+// Nothing undefined comes of any bytes, which the sanitizers see, and it ends.
+void test_result_of_any_bytes_is_legal(void)
+{
+    unsigned given = 0;
+
+    numbers_seed(66);
+    for (unsigned turn = 0; turn < 3000u; turn++) {
+        struct fixpid_autotune_model process;
+        struct fixpid_pid_config pid = {0};
+
+        numbers_fill(&autotune_controller, sizeof autotune_controller);
+        autotune_controller.state = FIXPID_AUTOTUNE_DONE;
+        autotune_controller.config.cycles &= 7u;
+        for (unsigned relay = 0; relay < 2u; relay++) {
+            struct fixpid_autotune_sums *const sums =
+                &autotune_controller.sums[relay];
+
+            sums->steps >>= 1;
+            sums->on_steps = (uint16_t)(sums->on_steps & sums->steps);
+            sums->all /= (int32_t)(1u << (turn & 15u));
+            sums->on = -((sums->on & INT32_MAX) >> (turn & 15u));
+        }
+        (void)fixpid_autotune_model(&autotune_controller, &process);
+        if (fixpid_autotune_result(&autotune_controller, (uint8_t)(turn % 7u),
+                                   16, &pid)) {
+            given++;
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX,
+                                             pid.gains.kp_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT32(FIXPID_PID_KI_MAX,
+                                             pid.gains.ki_q24);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KD_MAX,
+                                             pid.gains.kd_q8);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT8(FIXPID_PID_FILTER_MAX,
+                                            pid.gains.derivative_filter);
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(100, given);
 }

@@ -5,7 +5,7 @@ require_relative 'proofs'
 
 Broken = Struct.new(:proof, :file, :whole, :instead, :number) do
   def name
-    "#{proof.name} without #{File.basename(file)}'s `#{whole}`"
+    "#{proof.name}, #{File.basename(file)} broken at `#{whole.strip}`"
   end
 
   # Gives the block a tree of sources in which it is broken.
@@ -27,12 +27,11 @@ module Breaks
 
   module_function
 
-  # Of each row `module form what: file: `whole` -> `instead``; for words of 16
-  # bits.
+  # Of each row `module form what: file: `whole` -> `instead``.
   def all(proofs)
     File.readlines(FILE, chomp: true).grep_v(/^#|^\s*$/).each_with_index.map do |line, number|
       fields = line.match(/\A(\w+ \w+ \w+): (\S+): `(.*)` -> `(.*)`\z/) or abort "prove: #{FILE}: #{line}"
-      proof = proofs.find { |one| one.name == "#{fields[1]} #{WORDS.first}" } or abort "prove: #{FILE}: no #{fields[1]}"
+      proof = Proofs.find(proofs, fields[1]) or abort "prove: #{FILE}: no #{fields[1]}"
       Broken.new(proof, *fields[2..4], number)
     end
   end

@@ -13,7 +13,7 @@ class Cbmc
   COMPOSED_MOST = 600
   MEGABYTES_MOST = 1024
   CHECKS = %w[--bounds-check --pointer-check --pointer-overflow-check --signed-overflow-check --div-by-zero-check
-              --undefined-shift-check --unwind 66 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
+              --undefined-shift-check --unwind 200 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
   TICKS = 100.0 # a second; the kernel's for /proc
 
   def initialize(proof, build, tree = '.')

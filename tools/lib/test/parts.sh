@@ -221,3 +221,15 @@ part_mutants() {
     need_ceedling
     check 'mutants' ruby tools/lib/mutants.rb
 }
+
+# The runner, and what it runs in a minute.
+part_proofs() {
+    need ruby cc:gcc
+    count 'test/proof/judge' '^ok ' '^FAILED ' test/proof/judge
+    count 'tools/prove --quick' '^ok ' '^FAILED ' tools/prove --quick
+}
+
+part_prove() {
+    need ruby cc:gcc
+    count 'tools/prove' '^ok ' '^FAILED ' tools/prove
+}

@@ -1,0 +1,761 @@
+// SPDX-License-Identifier: MIT
+// fixpid_pid against the equations of its header. The step is proved in its
+// parts, each of its static functions against its lines of the header, for
+// every state that the parts before it leave; and then as a whole, in which
+// what was proved of a part stands for it (`composed`).
+#include "prove.h"
+
+#include "fixpid_pid.h"
+#include "fixpid_pid_private.h"
+
+struct fixpid_pid c; // of any bytes, where a proof begins
+struct fixpid_pid nondet_pid(void);
+struct fixpid_pid_config nondet_pid_config(void);
+struct fixpid_pid_gains nondet_pid_gains(void);
+
+#include "fixpid_pid.c"
+#include "fixpid_pid_more.c"
+#include "fixpid_pid_track.c"
+
+struct signals nondet_signals(void);
+
+#define COUNT 65536                // an output count in `integral`
+#define PART ((number)256 * COUNT) // and in 1/2^24
+#define D_MAX ((number)DERIVATIVE_MAX)
+#define TIMES(gain, x) times((gain), (x), (uint32_t)(gain) << 15) // |x| <= 2^15
+
+int32_t mul16_contract(uint16_t gain, int16_t x)
+{
+    pre(gain <= 32767u);
+    return (int32_t)TIMES(gain, (number)x);
+}
+
+static bool refused(const struct fixpid_pid *x)
+{
+    return x->output_min == x->output_max;
+}
+
+// The integral in 1/2^24 of an output count.
+static number whole(const struct fixpid_pid *x)
+{
+    return ((number)x->integral * 256) + x->integral_fraction;
+}
+
+static number sat16(number x)
+{
+    return clamp(x, INT16_MIN, INT16_MAX);
+}
+
+static bool sound_settings(const struct fixpid_pid *x)
+{
+    if ((x->output_min > x->output_max) ||
+        (x->integral_min > x->integral_max) || (x->integral_min < -INT16_MAX)) {
+        return false;
+    }
+    if (refused(x)) {
+        return (x->kp == 0u) && (x->ki == 0u) && (x->kd == 0u) &&
+               (x->output_min == 0) && (x->integral_min == 0) &&
+               (x->integral_max == 0) && (x->feedforward == 0);
+    }
+    return (x->kp <= FIXPID_PID_KP_MAX) && (x->ki <= 32767u) &&
+           (x->kd <= FIXPID_PID_KD_MAX) &&
+           ((x->options & (KI_FINE | KI_COARSE)) != (KI_FINE | KI_COARSE));
+}
+
+static bool sound_integral(const struct fixpid_pid *x)
+{
+    if ((x->status & HELD) != 0u) {
+        return (((uint32_t)x->integral & 0xFFFFu) == 0u) &&
+               inside(floor_by(x->integral, 16), x->output_min, x->output_max);
+    }
+    return inside(whole(x), x->integral_min * PART, x->integral_max * PART);
+}
+
+// What init establishes from any bytes and every function keeps.
+static bool sound(const struct fixpid_pid *x)
+{
+    return sound_settings(x) && inside(x->derivative, -D_MAX, D_MAX) &&
+           sound_integral(x);
+}
+
+static bool same_settings(const struct fixpid_pid *a,
+                          const struct fixpid_pid *b)
+{
+    return (a->kp == b->kp) && (a->ki == b->ki) && (a->kd == b->kd) &&
+           (a->output_min == b->output_min) &&
+           (a->output_max == b->output_max) &&
+           (a->integral_min == b->integral_min) &&
+           (a->integral_max == b->integral_max) &&
+           (a->setpoint_weight == b->setpoint_weight) &&
+           (a->options == b->options) && (a->feedforward == b->feedforward);
+}
+
+static bool same_state(const struct fixpid_pid *a, const struct fixpid_pid *b)
+{
+    return (whole(a) == whole(b)) && (a->derivative == b->derivative) &&
+           (a->previous == b->previous) &&
+           (a->proportional_error == b->proportional_error) &&
+           (a->output == b->output) && (a->status == b->status);
+}
+
+static bool same(const struct fixpid_pid *a, const struct fixpid_pid *b)
+{
+    return same_settings(a, b) && same_state(a, b);
+}
+
+// ---- The lines of the header ----
+
+// sat16 of the difference, turned round in reverse.
+static number error_of(const struct fixpid_pid *x, number goal, number y)
+{
+    return ((x->options & FIXPID_PID_REVERSE) != 0u) ? sat16(y - goal)
+                                                     : sat16(goal - y);
+}
+
+static number weighted(const struct fixpid_pid *x, number r)
+{
+    if ((x->options & WEIGHTED) == 0u) {
+        return r;
+    }
+    return floor_by(TIMES(x->setpoint_weight, r) + 128, 8);
+}
+
+// What the derivative sees, which falls with the error.
+static number input_of(const struct fixpid_pid *x, number r, number y)
+{
+    if ((x->options & ON_ERROR) != 0u) {
+        return -1 - error_of(x, r, y);
+    }
+    return ((x->options & FIXPID_PID_REVERSE) != 0u) ? (-1 - y) : y;
+}
+
+static number derivative_of(const struct fixpid_pid *x, number input)
+{
+    const number previous =
+        ((x->status & FIXPID_PID_FIRST) != 0u) ? input : x->previous;
+    const number d = TIMES(x->kd, sat16(previous - input));
+
+    if ((x->options & FILTER) == 0u) {
+        return d;
+    }
+    return clamp(
+        d + (x->derivative - floor_by(x->derivative, x->options & FILTER)),
+        -D_MAX, D_MAX);
+}
+
+// ki * e in 1/2^24: ki has 24, 16 or 8 fractional bits.
+static number change_of(const struct fixpid_pid *x, number e)
+{
+    const number change = TIMES(x->ki, e);
+
+    if ((x->options & KI_FINE) != 0u) {
+        return change;
+    }
+    return ((x->options & KI_COARSE) != 0u) ? (change * 65536) : (change * 256);
+}
+
+static number limited(const struct fixpid_pid *x, number integral)
+{
+    return clamp(integral, x->integral_min * PART, x->integral_max * PART);
+}
+
+// The integral that makes the sum equal to the output held.
+static number taken_over(const struct fixpid_pid *x, number p_d_ff)
+{
+    return (floor_by(x->integral, 8) - p_d_ff) * COUNT;
+}
+
+static number sum_of(number p_d_ff, number integral)
+{
+    return floor_by(p_d_ff + floor_by(integral, 16) + 128, 8);
+}
+
+static bool forgets(const struct fixpid_pid *x, number u, number e)
+{
+    return ((u > x->output_max) && (e > 0)) || ((u < x->output_min) && (e < 0));
+}
+
+static number flags_of(const struct fixpid_pid *x, number candidate, number u)
+{
+    return ((u > x->output_max)   ? FIXPID_PID_AT_MAX
+            : (u < x->output_min) ? FIXPID_PID_AT_MIN
+                                  : 0u) |
+           ((candidate != limited(x, candidate)) ? FIXPID_PID_INTEGRAL_AT_LIMIT
+                                                 : 0u);
+}
+
+// ---- The parts of a step ----
+
+// |P| <= 2^30 - 2^15, |D| <= 2^30 - 2^24, 256 |F| <= 2^23
+#define P_D_FF_MAX (((number)1 << 31) - ((number)1 << 23) - 32768)
+
+static number candidate_of(const struct signals *signals)
+{
+    return ((number)signals->integral * 256) + signals->fraction;
+}
+
+// By contract: mul16.
+void prove_special_errors(void)
+{
+    struct signals signals = nondet_signals();
+    const int16_t r = nondet_int16();
+    const int16_t y = nondet_int16();
+    struct fixpid_pid was;
+
+    c = nondet_pid();
+    was = c;
+    special_errors(&c, &signals, r, y);
+    claim(signals.error == error_of(&was, r, y));
+    claim(c.proportional_error == error_of(&was, weighted(&was, r), y));
+    claim(signals.derivative_input == input_of(&was, r, y));
+    was.proportional_error = c.proportional_error;
+    claim(same(&c, &was));
+}
+
+// By contract: mul16.
+void prove_differentiate(void)
+{
+    struct signals signals = nondet_signals();
+    const struct signals signals_were = signals;
+    struct fixpid_pid was;
+    number d;
+
+    c = nondet_pid();
+    assume(c.kd <= FIXPID_PID_KD_MAX);
+    assume(inside(c.derivative, -D_MAX, D_MAX));
+    was = c;
+    differentiate(&c, &signals);
+    d = derivative_of(&was, signals_were.derivative_input);
+    claim(c.derivative == d);
+    claim(inside(d, -D_MAX, D_MAX));
+    claim(c.previous == signals_were.derivative_input);
+    was.derivative = c.derivative;
+    was.previous = c.previous;
+    claim(same(&c, &was));
+    claim(signals.error == signals_were.error);
+    claim(signals.derivative_input == signals_were.derivative_input);
+}
+
+// A candidate that saturates is beyond any limit, as the true one is. By
+// contract: mul16.
+void prove_integrate(void)
+{
+    struct signals signals = nondet_signals();
+    const struct signals signals_were = signals;
+    struct fixpid_pid was;
+    number candidate;
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(inside(whole(&c), c.integral_min * PART, c.integral_max * PART));
+    was = c;
+    integrate(&c, &signals);
+    candidate = whole(&was) + change_of(&was, signals_were.error);
+    claim(limited(&was, candidate_of(&signals)) == limited(&was, candidate));
+    claim((limited(&was, candidate_of(&signals)) == candidate_of(&signals)) ==
+          (limited(&was, candidate) == candidate));
+    claim(same(&c, &was));
+    claim(signals.error == signals_were.error);
+    claim(signals.p_d_ff == signals_were.p_d_ff);
+}
+
+void prove_take_over(void)
+{
+    struct signals signals = nondet_signals();
+    struct fixpid_pid was;
+    number candidate;
+    number p_d_ff;
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(((uint32_t)c.integral & 0xFFFFu) == 0u);
+    p_d_ff = signals.p_d_ff;
+    assume(inside(p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    was = c;
+    take_over(&c, &signals);
+    candidate = taken_over(&was, p_d_ff);
+    claim(limited(&was, candidate_of(&signals)) == limited(&was, candidate));
+    claim((limited(&was, candidate_of(&signals)) == candidate_of(&signals)) ==
+          (limited(&was, candidate) == candidate));
+    claim(signals.error == 0);
+    claim(signals.p_d_ff == p_d_ff);
+    claim(same(&c, &was));
+}
+
+void prove_limit(void)
+{
+    struct signals signals = nondet_signals();
+    const number e = signals.error;
+    const number p_d_ff = signals.p_d_ff;
+    const number candidate = candidate_of(&signals);
+    struct fixpid_pid was;
+    number integral;
+    number u;
+    number out;
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(inside(p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    was = c;
+    out = limit_and_remember(&c, &signals);
+    integral = limited(&was, candidate);
+    u = sum_of(p_d_ff, integral);
+    claim(out == clamp(u, was.output_min, was.output_max));
+    claim(whole(&c) == (forgets(&was, u, e) ? whole(&was) : integral));
+    claim(c.status == flags_of(&was, candidate, u));
+    was.integral = c.integral;
+    was.integral_fraction = c.integral_fraction;
+    was.status = c.status;
+    claim(same(&c, &was));
+}
+
+// ---- The whole step ----
+
+void special_errors_contract(struct fixpid_pid *self, struct signals *signals,
+                             int16_t setpoint, int16_t measurement)
+{
+    signals->error = (int16_t)error_of(self, setpoint, measurement);
+    signals->derivative_input = (int16_t)input_of(self, setpoint, measurement);
+    self->proportional_error =
+        (int16_t)error_of(self, weighted(self, setpoint), measurement);
+}
+
+void differentiate_contract(struct fixpid_pid *self, struct signals *signals)
+{
+    const number d = derivative_of(self, signals->derivative_input);
+
+    pre(self->kd <= FIXPID_PID_KD_MAX);
+    pre(inside(self->derivative, -D_MAX, D_MAX));
+    assume(inside(d, -D_MAX, D_MAX));
+    self->derivative = (int32_t)d;
+    self->previous = signals->derivative_input;
+}
+
+// Of the candidate a part leaves what its limits make of it, and whether they
+// changed it: nothing else was proved of it. This one is such a candidate.
+static void leave(const struct fixpid_pid *self, struct signals *signals,
+                  number candidate)
+{
+    const number inner = limited(self, candidate);
+    const number left = (inner < candidate)   ? (inner + 1)
+                        : (inner > candidate) ? (inner - 1)
+                                              : inner;
+
+    signals->integral = (int32_t)floor_by(left, 8);
+    signals->fraction = (uint8_t)left;
+}
+
+void integrate_contract(struct fixpid_pid *self, struct signals *signals)
+{
+    pre(sound_settings(self));
+    pre(inside(whole(self), self->integral_min * PART,
+               self->integral_max * PART));
+    leave(self, signals, whole(self) + change_of(self, signals->error));
+}
+
+void take_over_contract(struct fixpid_pid *self, struct signals *signals)
+{
+    pre(sound_settings(self));
+    pre(((uint32_t)self->integral & 0xFFFFu) == 0u);
+    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    leave(self, signals, taken_over(self, signals->p_d_ff));
+    signals->error = 0;
+}
+
+int16_t limit_and_remember_contract(struct fixpid_pid *self,
+                                    struct signals *signals)
+{
+    const number candidate = candidate_of(signals);
+    const number integral = limited(self, candidate);
+    const number u = sum_of(signals->p_d_ff, integral);
+
+    pre(sound_settings(self));
+    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    self->status = (uint8_t)flags_of(self, candidate, u);
+    if (!forgets(self, u, signals->error)) {
+        self->integral = (int32_t)floor_by(integral, 8);
+        self->integral_fraction = (uint8_t)integral;
+    }
+    return (int16_t)clamp(u, self->output_min, self->output_max);
+}
+
+// By contract: mul16, special_errors, differentiate, integrate, take_over,
+// limit_and_remember.
+void prove_composed(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+    struct fixpid_pid was;
+    number e;
+    number p_error;
+    number input;
+    number d;
+    number p_d_ff;
+    number candidate;
+    number integral;
+    number u;
+    number out;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    out = fixpid_pid_step(&c, setpoint, measurement);
+
+    e = error_of(&was, setpoint, measurement);
+    p_error = error_of(&was, weighted(&was, setpoint), measurement);
+    input = input_of(&was, setpoint, measurement);
+    d = derivative_of(&was, input);
+    // In the order of the step: a solver is slow at the associative law.
+    p_d_ff = (TIMES(was.kp, p_error) + ((number)was.feedforward * 256)) + d;
+    claim(c.proportional_error == p_error);
+    claim(c.previous == input);
+    claim(c.derivative == d);
+    claim(c.output == out);
+    claim(inside(out, c.output_min, c.output_max));
+    claim(same_settings(&c, &was));
+    claim(sound(&c));
+    if ((was.status & FIXPID_PID_MANUAL) != 0u) {
+        claim(out == floor_by(was.integral, 16));
+        claim(whole(&c) == whole(&was));
+        claim(c.status == FIXPID_PID_MANUAL);
+        return;
+    }
+    if ((was.status & FIXPID_PID_SEEDED) != 0u) {
+        candidate = taken_over(&was, p_d_ff);
+        e = 0;
+    } else {
+        candidate = whole(&was) + change_of(&was, e);
+    }
+    integral = limited(&was, candidate);
+    u = sum_of(p_d_ff, integral);
+    claim(out == clamp(u, was.output_min, was.output_max));
+    claim(whole(&c) == (forgets(&was, u, e) ? whole(&was) : integral));
+    claim(c.status == flags_of(&was, candidate, u));
+}
+
+// ---- The other functions ----
+
+static bool legal_gains(const struct fixpid_pid_gains *gains)
+{
+    return (gains->kp_q8 <= FIXPID_PID_KP_MAX) &&
+           (gains->ki_q24 <= FIXPID_PID_KI_MAX) &&
+           (gains->kd_q8 <= FIXPID_PID_KD_MAX) &&
+           (gains->derivative_filter <= FIXPID_PID_FILTER_MAX);
+}
+
+// 0 and 0 are no range of its own.
+static bool legal_range(number low, number high)
+{
+    return (low <= high) && (low >= -INT16_MAX);
+}
+
+static number range_low(number low, number high)
+{
+    return ((low == 0) && (high == 0)) ? -INT16_MAX : low;
+}
+
+static number range_high(number low, number high)
+{
+    return ((low == 0) && (high == 0)) ? INT16_MAX : high;
+}
+
+static bool legal_config(const struct fixpid_pid_config *config)
+{
+    const uint16_t b = config->setpoint_weight_q8;
+
+    if ((config->options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u) {
+        if (b != 0u) {
+            return false;
+        }
+    }
+    return legal_gains(&config->gains) &&
+           (config->output_min < config->output_max) &&
+           legal_range(config->integral_min, config->integral_max) &&
+           (b <= 256u) && ((config->options & 0x1Fu) == 0u);
+}
+
+// What is kept of ki is within 0.4 % of it, and exact up to 32767.
+static void claim_gains(const struct fixpid_pid_gains *gains)
+{
+    const number given = gains->ki_q24;
+    const number kept = ((c.options & KI_FINE) != 0u)     ? c.ki
+                        : ((c.options & KI_COARSE) != 0u) ? (number)c.ki << 16
+                                                          : (number)c.ki << 8;
+
+    claim(c.kp == gains->kp_q8);
+    claim(c.kd == gains->kd_q8);
+    claim((c.options & FILTER) == gains->derivative_filter);
+    claim((given > 32767) || (kept == given));
+    claim(((c.options & KI_COARSE) != 0u) ||
+          inside(kept - given, -128, 128)); // to the nearest
+    claim(inside(kept - given, -32768, 32768));
+    claim(inside((kept - given) * 250, -given, given));
+}
+
+static bool at_rest(const struct fixpid_pid *x)
+{
+    return (whole(x) == limited(x, 0)) && (x->derivative == 0) &&
+           (x->previous == 0) && (x->proportional_error == 0) &&
+           (x->feedforward == 0) && (x->output == 0) &&
+           (x->status == FIXPID_PID_FIRST);
+}
+
+void prove_init(void)
+{
+    const struct fixpid_pid_config config = nondet_pid_config();
+    const bool legal = legal_config(&config);
+    const uint8_t public_options = REVERSE | ON_ERROR;
+
+    c = nondet_pid();
+    claim(fixpid_pid_init(&c, &config) == legal);
+    claim(refused(&c) == !legal);
+    claim(((fixpid_pid_flags(&c) & FIXPID_PID_REFUSED) != 0u) == !legal);
+    claim(at_rest(&c));
+    claim(sound(&c));
+    if (legal) {
+        const uint16_t b = config.setpoint_weight_q8;
+
+        claim_gains(&config.gains);
+        claim(c.output_min == config.output_min);
+        claim(c.output_max == config.output_max);
+        claim(c.integral_min ==
+              range_low(config.integral_min, config.integral_max));
+        claim(c.integral_max ==
+              range_high(config.integral_min, config.integral_max));
+        claim((c.options & public_options) ==
+              (config.options & public_options));
+        // b = 1 needs no product, and 0 is said by the option.
+        claim(((c.options & WEIGHTED) != 0u) ==
+              (((config.options & WEIGHTED) != 0u) || ((b & 0xFFu) != 0u)));
+        claim(((c.options & WEIGHTED) == 0u) || (c.setpoint_weight == b));
+    }
+}
+
+void prove_set_gains(void)
+{
+    const struct fixpid_pid_gains gains = nondet_pid_gains();
+    struct fixpid_pid was;
+    bool legal;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    legal = !refused(&was) && legal_gains(&gains);
+    claim(fixpid_pid_set_gains(&c, &gains) == legal);
+    if (legal) {
+        claim_gains(&gains);
+        was.kp = c.kp;
+        was.ki = c.ki;
+        was.kd = c.kd;
+        claim((c.options & 0xE0u) == (was.options & 0xE0u));
+        was.options = c.options;
+    }
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+// By contract: mul16.
+void prove_set_limits(void)
+{
+    const int16_t low = nondet_int16();
+    const int16_t high = nondet_int16();
+    struct fixpid_pid was;
+    bool legal;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    legal = !refused(&was) && (low < high);
+    claim(fixpid_pid_set_limits(&c, low, high) == legal);
+    if (legal) {
+        was.output_min = low;
+        was.output_max = high;
+        if ((was.status & HELD) != 0u) {
+            claim(c.integral ==
+                  clamp(floor_by(was.integral, 16), low, high) * COUNT);
+        } else {
+            const number p_d =
+                TIMES(was.kp, (number)was.proportional_error) + was.derivative;
+            const number most = (((number)high - was.feedforward) * 256) -
+                                ((p_d < 0) ? p_d : 0);
+            const number least =
+                (((number)low - was.feedforward) * 256) - ((p_d > 0) ? p_d : 0);
+
+            claim(whole(&c) == limited(&was, clamp(whole(&was), least * COUNT,
+                                                   most * COUNT)));
+        }
+        was.integral = c.integral;
+        was.integral_fraction = c.integral_fraction;
+    }
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+void prove_set_integral_limits(void)
+{
+    const int16_t low = nondet_int16();
+    const int16_t high = nondet_int16();
+    struct fixpid_pid was;
+    bool legal;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    legal = !refused(&was) && legal_range(low, high);
+    claim(fixpid_pid_set_integral_limits(&c, low, high) == legal);
+    if (legal) {
+        was.integral_min = (int16_t)range_low(low, high);
+        was.integral_max = (int16_t)range_high(low, high);
+        if ((was.status & HELD) == 0u) {
+            claim(whole(&c) == limited(&was, whole(&was)));
+            was.integral = c.integral;
+            was.integral_fraction = c.integral_fraction;
+        }
+    }
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+void prove_modes(void)
+{
+    const int16_t value = nondet_int16();
+    struct fixpid_pid was;
+    number held;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    held = clamp(value, was.output_min, was.output_max);
+    if (nondet_bool()) {
+        fixpid_pid_set_feedforward(&c, value);
+        was.feedforward = refused(&was) ? was.feedforward : value;
+    } else if (nondet_bool()) {
+        fixpid_pid_set_manual(&c, value);
+        claim(c.integral == held * COUNT);
+        claim(c.status == ((was.status & 0x9Fu) | FIXPID_PID_MANUAL));
+    } else if (nondet_bool()) {
+        fixpid_pid_set_auto(&c);
+        if ((was.status & FIXPID_PID_MANUAL) != 0u) {
+            was.status = (was.status & 0x9Fu) | FIXPID_PID_SEEDED;
+        }
+        claim(same(&c, &was));
+    } else {
+        fixpid_pid_seed(&c, value);
+        claim(c.integral == held * COUNT);
+        claim(((c.status & FIXPID_PID_MANUAL) != 0u)
+                  ? (c.status == was.status)
+                  : (c.status == (was.status | FIXPID_PID_SEEDED)));
+    }
+    was.integral = c.integral;
+    was.integral_fraction = c.integral_fraction;
+    was.status = c.status;
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+void prove_reset(void)
+{
+    struct fixpid_pid was;
+
+    c = nondet_pid(); // also of what is not sound
+    was = c;
+    assume(was.integral_min <= was.integral_max);
+    fixpid_pid_reset(&c);
+    claim(at_rest(&c));
+    was.feedforward = 0;
+    claim(same_settings(&c, &was));
+    assume(sound_settings(&was));
+    claim(sound(&c));
+}
+
+// (applied - output) / 2^shift counts, toward minus infinity in 1/2^16.
+void prove_track(void)
+{
+    const int16_t applied = nondet_int16();
+    const uint8_t shift = nondet_uint8();
+    struct fixpid_pid was;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    fixpid_pid_track(&c, applied, shift);
+    if (!refused(&was) && ((was.status & FIXPID_PID_FIRST) == 0u)) {
+        const number apart = sat16((number)applied - was.output);
+
+        was.output = applied;
+        if ((was.status & HELD) == 0u) {
+            claim(whole(&c) ==
+                  limited(&was,
+                          whole(&was) + (floor_by(apart * COUNT,
+                                                  (shift > 15u) ? 15u : shift) *
+                                         256)));
+            was.integral = c.integral;
+            was.integral_fraction = c.integral_fraction;
+        }
+    }
+    claim(fixpid_pid_output(&c) == was.output);
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+// By contract: mul16.
+void prove_read(void)
+{
+    struct fixpid_pid was;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    claim(fixpid_pid_proportional(&c) ==
+          TIMES(c.kp, (number)c.proportional_error));
+    claim(fixpid_pid_integral(&c) == c.integral);
+    claim(fixpid_pid_derivative(&c) == c.derivative);
+    claim(fixpid_pid_output(&c) == c.output);
+    claim(fixpid_pid_flags(&c) ==
+          (refused(&c) ? (c.status | FIXPID_PID_REFUSED) : c.status));
+    claim(same(&c, &was));
+}
+
+void prove_refused(void)
+{
+    c = nondet_pid();
+    assume(sound(&c));
+    assume(refused(&c));
+    claim(fixpid_pid_step(&c, nondet_int16(), nondet_int16()) == 0);
+    claim(sound(&c));
+}
+
+static void claim_output(int16_t out)
+{
+    if (c.output_min <= c.output_max) {
+        claim(inside(out, c.output_min, c.output_max));
+    } else {
+        claim((out == c.output_min) || (out == c.output_max));
+    }
+}
+
+// Of any bytes: nothing undefined, and the output within its limits.
+void prove_total(void)
+{
+    c = nondet_pid();
+    claim_output(fixpid_pid_step(&c, nondet_int16(), nondet_int16()));
+}
+
+void prove_total_rest(void)
+{
+    const struct fixpid_pid_gains gains = nondet_pid_gains();
+    const int16_t a = nondet_int16();
+    const int16_t b = nondet_int16();
+
+    c = nondet_pid();
+    (void)fixpid_pid_set_gains(&c, &gains);
+    (void)fixpid_pid_set_limits(&c, a, b);
+    (void)fixpid_pid_set_integral_limits(&c, a, b);
+    fixpid_pid_set_feedforward(&c, a);
+    fixpid_pid_track(&c, a, nondet_uint8());
+    fixpid_pid_set_manual(&c, b);
+    fixpid_pid_set_auto(&c);
+    fixpid_pid_seed(&c, a);
+    (void)fixpid_pid_proportional(&c);
+    fixpid_pid_reset(&c);
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// fixpid_tpo against the equations of its header.
+#include "prove.h"
+
+#include "fixpid_tpo.h"
+
+struct fixpid_tpo c; // of any bytes, where a proof begins
+struct fixpid_tpo nondet_tpo(void);
+struct fixpid_tpo_config nondet_tpo_config(void);
+
+#include "fixpid_tpo.c"
+
+static bool legal_config(const struct fixpid_tpo_config *config)
+{
+    return (config->full >= 1) && inside(config->window, 1, 32767) &&
+           ((number)config->minimum_on + config->minimum_off <= config->window);
+}
+
+// What init makes of a configuration. The products are those of 32 bits, as in
+// the code: that they fit is checked with it.
+static bool configured(const struct fixpid_tpo *x,
+                       const struct fixpid_tpo_config *config)
+{
+    return (x->full == config->full) && (x->window == config->window) &&
+           (x->pulse_least == (int32_t)config->minimum_on * config->full) &&
+           (x->whole_least ==
+            ((int32_t)config->window + 1 - (int32_t)config->minimum_off) *
+                config->full);
+}
+
+static bool at_rest(const struct fixpid_tpo *x)
+{
+    return (x->credit == 0) && (x->left == 0u) && (x->on == 0u) &&
+           (x->whole == 0u);
+}
+
+void prove_init(void)
+{
+    const struct fixpid_tpo_config config = nondet_tpo_config();
+
+    c = nondet_tpo();
+    claim(fixpid_tpo_init(&c, &config) == legal_config(&config));
+    claim(at_rest(&c));
+    if (legal_config(&config)) {
+        claim(configured(&c, &config));
+    } else {
+        claim((c.full == 0) && !fixpid_tpo_step(&c, nondet_int16()));
+    }
+}
+
+void prove_reset(void)
+{
+    struct fixpid_tpo was;
+
+    c = nondet_tpo();
+    was = c;
+    fixpid_tpo_reset(&c);
+    claim(at_rest(&c));
+    claim((c.full == was.full) && (c.window == was.window) &&
+          (c.pulse_least == was.pulse_least) &&
+          (c.whole_least == was.whole_least));
+}
+
+// So many steps times `full`: of the product a proof knows that it grows by
+// `full` with each step, and with the number of steps.
+uint32_t __CPROVER_uninterpreted_of_full(uint16_t steps);
+
+static number of_full(number steps)
+{
+    const number p = __CPROVER_uninterpreted_of_full((uint16_t)steps);
+
+    assume((steps != 0) || (p == 0));
+    assume(p <= (number)0x7FFF0000);
+    return p;
+}
+
+static void assume_growth(number steps, number than)
+{
+    assume((steps > than) || (of_full(steps) <= of_full(than)));
+    assume((steps < than) || (of_full(steps) >= of_full(than)));
+}
+
+// The first step of a window makes a pulse of what is owed. floor(owed / full)
+// is `steps`: any number that has its two inequalities.
+void prove_open(void)
+{
+    const struct fixpid_tpo_config config = nondet_tpo_config();
+    const number full = config.full;
+    const number window = config.window;
+    const number pulse_least = config.minimum_on;
+    const number whole_least = window + 1 - config.minimum_off;
+    const number steps = nondet_uint16();
+    number owed;
+    number pulse;
+    bool out;
+
+    c = nondet_tpo();
+    assume(legal_config(&config));
+    assume((c.full == full) && (c.window == window) && (c.left == 0u));
+    assume(c.pulse_least == of_full(pulse_least));
+    assume(c.whole_least == of_full(whole_least));
+    out = fixpid_tpo_step(&c, nondet_int16());
+    owed = c.credit + (out ? full : 0);
+
+    assume(steps <= 65534);
+    assume(of_full(steps + 1) == of_full(steps) + full);
+    assume(of_full(1) == full);
+    assume_growth(1, steps);
+    assume_growth(pulse_least, steps);
+    assume_growth(pulse_least, steps + 1);
+    assume_growth(whole_least, steps);
+    assume_growth(whole_least, steps + 1);
+    assume((owed < 0)
+               ? (steps == 0)
+               : ((of_full(steps) <= owed) && (owed < of_full(steps + 1))));
+    pulse = (owed < 0) ? 0 : steps;
+    if (pulse < config.minimum_on) {
+        pulse = 0;
+    }
+    if ((pulse > window) || (window - pulse < config.minimum_off)) {
+        pulse = window;
+    }
+    claim(out == (pulse > 0));
+    claim(c.left == window - 1);
+    if (c.on == 0u) {
+        claim(pulse == 0);
+    } else if (c.whole != 0u) {
+        claim(pulse == window);
+    } else {
+        claim(pulse == steps);
+    }
+}
+
+// What is owed is the carry and duty * window, in windows of up to 15 steps: a
+// solver is slow at longer ones.
+void prove_owed(void)
+{
+    const int16_t duty = nondet_int16();
+    struct fixpid_tpo was;
+    bool out;
+
+    c = nondet_tpo();
+    assume((c.full >= 1) && (c.left == 0u) && inside(c.window, 1, 15));
+    assume(inside(c.credit, -(number)32766 * 32767, (number)32767 * 32767));
+    was = c;
+    out = fixpid_tpo_step(&c, duty);
+    claim((number)c.credit + (out ? was.full : 0) ==
+          was.credit + (clamp(duty, 0, was.full) * was.window));
+}
+
+// A later step of a window: on while what is owed makes a step, or to the end.
+void prove_later(void)
+{
+    struct fixpid_tpo was;
+    bool out;
+
+    c = nondet_tpo();
+    assume((c.full >= 1) && (c.left != 0u));
+    was = c;
+    out = fixpid_tpo_step(&c, nondet_int16());
+    claim(out ==
+          ((was.on != 0u) && ((was.whole != 0u) || (was.credit >= was.full))));
+    claim(c.left == was.left - 1u);
+    if (was.credit >= -INT32_C(0x7FFF0000)) {
+        claim(c.credit == (number)was.credit - (out ? was.full : 0));
+    }
+    claim((c.on == was.on) && (c.whole == was.whole));
+    claim((c.full == was.full) && (c.window == was.window));
+}
+
+// Of any bytes: nothing undefined. Both outputs are legal.
+void prove_total(void)
+{
+    c = nondet_tpo();
+    (void)fixpid_tpo_step(&c, nondet_int16());
+    (void)fixpid_tpo_step(&c, nondet_int16());
+}

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+# A harness that tries all cases: a program for this machine.
+require 'open3'
+require_relative 'cbmc'
+
+# Compiles it with the sources of a tree and runs it. Its properties are its cases.
+class Exhaustion
+  def initialize(proof, build, tree = '.')
+    @proof = proof
+    @tree = tree
+    @program = "#{build}/#{proof.name.tr(' ', '_')}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"
+  end
+
+  def run
+    said, status = Open3.capture2e('cc', '-std=c99', '-O2', '-w', *@proof.options, "-I#{@tree}/include",
+                                   "-I#{@tree}/src", @proof.harness, '-o', @program)
+    return Answer.new(:none, "it does not compile\n#{said}") unless status.success?
+
+    began = Process.clock_gettime(Process::CLOCK_MONOTONIC)
+    said, status = Open3.capture2e(@program)
+    judge(said, status, Process.clock_gettime(Process::CLOCK_MONOTONIC) - began)
+  ensure
+    File.delete(@program) if File.exist?(@program)
+  end
+
+  private
+
+  def judge(said, status, seconds)
+    cases = said[/\A(\d+) cases$/, 1].to_i
+    return Answer.new(:proved, nil, cases, seconds, 0) if status.success? && cases.positive?
+
+    Answer.new(status.exitstatus == 1 ? :refuted : :none, said, 0, seconds, 0)
+  end
+end
