@@ -167,6 +167,16 @@ void test_drive_never_cools_and_is_limited_to_full(void)
     TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 8));
 }
 
+void test_drive_never_cools_with_a_flipped_bit_in_the_limit(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    thermostat.output_min = INT16_MIN; // 0 with its highest bit flipped
+    thermostat.integral_min = INT16_MIN + 1;
+    run(SELECTOR_AUTOMATIC, 1015, 10);
+    TEST_ASSERT_LESS_THAN_INT16(0, fixpid_pid_output(&thermostat));
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 1015));
+}
+
 void test_broken_wire_of_the_sensor_switches_off_at_once(void)
 {
     static const uint16_t broken[] = {0, 7, 1016, 1023};
