@@ -159,6 +159,7 @@ void port_init(void)
     if (!world_goes_on) {
         world_start(world_seed);
     }
+    world_goes_on = false;
     ticks_ahead = 0.0;
     ticks_seen = ticks_now();
     fed_s = world_time_s();

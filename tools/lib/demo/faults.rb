@@ -255,22 +255,24 @@ def draw_faults(all)
 end
 
 def fault_points(all)
-  FAULT_ENDS.map do |how, (title, color, time)|
+  places = fault_places(all)
+  FAULT_ENDS.select { |how,| all.ended(how).positive? }.map do |how, (title, color, time)|
     path = "#{Host.folder}/faults-#{all.name}-#{how}.dat"
-    ended = all.runs.select { |run| run.end == how }
-    lines = ended.map { |run| fault_point(run, all.kinds, time) }
-    # One that is not in the picture, so that gnuplot has something to read.
-    Report.replace(path, "#{[*lines, '1e-9,-9'].join("\n")}\n")
-    "'#{path}' using 1:2 with points pointtype 7 pointsize 0.35 linecolor '#{color}' " \
-      "title '#{title}: #{ended.size}'"
+    lines = all.runs.select { |run| run.end == how }.map do |run|
+      format('%.6g,%.4f', [run.public_send(time), SHORTEST_S].max, places[run])
+    end
+    Report.replace(path, "#{lines.join("\n")}\n")
+    "'#{path}' using 1:2 with points pointtype 7 pointsize 0.45 linecolor '#{color}' " \
+      "title '#{title}: #{lines.size}'"
   end
 end
 
-# Runs of a kind lie above each other by their number.
-def fault_point(run, kinds, time)
-  above = (run.number * 0.6180339887) % 1.0
-  format('%.6g,%.4f', [run.public_send(time), SHORTEST_S].max,
-         kinds.size - 1 - kinds.index(run.kind) + 0.7 * (above - 0.5))
+# Where each run is, from below: those of a kind are spread around its line.
+def fault_places(all)
+  all.kinds.reverse.each_with_index.flat_map do |kind, row|
+    some = all.of(kind).runs
+    some.each_with_index.map { |run, i| [run, row + 0.7 * ((i + 0.5) / some.size - 0.5)] }
+  end.to_h
 end
 
 def fault_axes(all)
@@ -284,5 +286,5 @@ def fault_axes(all)
   ['set logscale x', "set xrange [#{SHORTEST_S * 0.7}:#{all.rules.back * 3}]",
    "set yrange [-0.8:#{kinds.size - 0.3}]", "set ytics (#{tics.join(', ')})",
    "set xlabel 'seconds after the end of the fault, #{SHORTEST_S} or less at the left; dashed: what is allowed'",
-   'set key outside below horizontal', *lines]
+   'set key at screen 0.63,0.955 center top horizontal width 2', *lines]
 end
