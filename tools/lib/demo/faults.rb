@@ -24,16 +24,16 @@ FaultRules = Struct.new(:runs, :long_runs, :tick_s, :watchdog_s, :duties, :back,
                         :blind, :inputs, :chip, keyword_init: true)
 
 FAULT_LOOPS = {
-  'pendulum' => FaultRules.new(runs: 500, long_runs: 40_000, tick_s: 1.0 / 256, watchdog_s: 17e-3,
+  'pendulum' => FaultRules.new(runs: 500, long_runs: 47_000, tick_s: 1.0 / 256, watchdog_s: 17e-3,
                                duties: -256..256, back: 1.5, fallen: 2.5, lasting: 0.0,
                                blind: 2.0 / 256, inputs: 'the gains'),
-  'motor' => FaultRules.new(runs: 600, long_runs: 40_000, tick_s: 1e-3, watchdog_s: 32e-3,
-                            duties: -1023..1023, back: 0.5, lasting: 3.0, inputs: 'the set point'),
-  'oven' => FaultRules.new(runs: 460, long_runs: 6000, tick_s: 1e-3, watchdog_s: 32e-3,
-                           duties: 0..1023, back: 60.0, lasting: 20.0, blind: 2e-3,
+  'motor' => FaultRules.new(runs: 600, long_runs: 47_000, tick_s: 1e-3, watchdog_s: 32e-3,
+                            duties: -1023..1023, back: 0.5, lasting: 1.0, inputs: 'the set point'),
+  'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
+                           duties: 0..1023, back: 60.0, lasting: 5.0, blind: 2e-3,
                            inputs: 'the set point'),
-  'thermostat' => FaultRules.new(runs: 600, long_runs: 14_000, tick_s: 1e-3, watchdog_s: 32e-3,
-                                 duties: 0..1023, back: 60.0, lasting: 20.0, blind: 102e-3,
+  'thermostat' => FaultRules.new(runs: 600, long_runs: 4000, tick_s: 1e-3, watchdog_s: 32e-3,
+                                 duties: 0..1023, back: 60.0, lasting: 10.0, blind: 102e-3,
                                  inputs: 'the set point, the selector')
 }.freeze
 

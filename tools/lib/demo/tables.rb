@@ -77,12 +77,14 @@ module Tables
             end)
     end
 
+    # Of each loop that was broken, on the host and on chips.
     def long_faults
+      loops = Report.numbers.select { |name, numbers| name.start_with?('faults') && numbers['kinds'] }
       table('loop', 'runs', 'back in control', 'fallen and off', 'off', 'out of control until a reset',
-            'longest until back', 'drive', 'later than the watchdog', FAULT_LOOPS.keys.map do |name|
-              numbers = Report.numbers["faults #{name}"]
+            'longest until back', 'drive', 'off after the watchdog\'s time', loops.map do |name, numbers|
               kinds = numbers['kinds']
-              [name, numbers['runs'], *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
+              [name.sub('faults_chip', 'chip,').sub('faults', 'host,'), numbers['runs'],
+               *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
                format('%.2f s', kinds.map { |row| row['back_s'] }.max),
                "#{numbers['low']} to #{numbers['high']}", format('%.2f ms', 1e3 * numbers['late_s'])]
             end)
