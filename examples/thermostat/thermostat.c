@@ -82,7 +82,10 @@ static void go_on_from(int16_t duty)
 // them has flipped; the port keeps the other end.
 static int16_t heater_duty(int16_t output)
 {
-    return (output < 0) ? 0 : output;
+    if (output < 0) {
+        return 0;
+    }
+    return output;
 }
 
 // Without a sensor the heater is off. When there is one again the controller

@@ -153,26 +153,73 @@ static void draw_input(long turn)
     }
 }
 
-// Each kind has numbers of its own, so that its faults are the same whatever
-// else is tried: its first bit, its first channel and so on come at turn 0.
+// A half are flips, as there are many bits; the other kinds take turns.
+static enum fault_kind kind_of(long number, long *turn)
+{
+    const long others = (long)FAULT_KINDS - 1;
+    const long other = (number / 2) % others;
+    if (plan.kind != (int)FAULT_KINDS) {
+        *turn = number;
+        return (enum fault_kind)plan.kind;
+    }
+    if ((number % 2) == 0) {
+        *turn = number / 2;
+        return FAULT_FLIP;
+    }
+    *turn = number / 2 / others;
+    return (enum fault_kind)((other < (long)FAULT_FLIP) ? other : (other + 1));
+}
+
+// What lasts for a while.
+static void draw_lasting(long turn)
+{
+    fault.for_s = fault_loop.longest_s * drawn(0.05, 1.0);
+    if (fault.kind <= FAULT_CLIPPED) {
+        draw_sensor();
+    } else if (fault.kind <= FAULT_INPUT_MOVED) {
+        draw_input(turn);
+    } else {
+        // the ticks
+    }
+}
+
+static void draw_kind(long turn)
+{
+    switch (fault.kind) {
+    case FAULT_NONE:
+    case FAULT_DEAD_TIMER:
+        break; // nothing else to choose
+    case FAULT_FLIP:
+        fault.bit = (unsigned)(turn % (long)plan.chip->object_bits());
+        break;
+    case FAULT_RESET:
+        // Each of the places once, in an order that spreads the first ones.
+        fault.value = (double)((turn * 123L) % RESET_PLACES) / RESET_PLACES;
+        break;
+    case FAULT_BROWN_OUT:
+        fault.value = drawn(BROWN_OUT_LEAST_S, BROWN_OUT_MOST_S);
+        break;
+    case FAULT_HANG:
+        fault.value = fault_loop.watchdog_s;
+        break;
+    case FAULT_HANGS:
+        fault.value = fault_loop.watchdog_s * drawn(1.0, LATEST_WATCHDOG);
+        seen.hangs_left = 1u + (faults_random() % (HANGS_MOST - 1u));
+        break;
+    default:
+        draw_lasting(turn);
+        break;
+    }
+}
+
+// Each kind's turns begin at 0, with its first bit, its first channel and so
+// on; so they are the same whatever else is tried.
 static void draw(long number)
 {
-    long turn = number;
+    long turn = 0;
     memset(&fault, 0, sizeof(fault));
     fault.number = number;
-    fault.kind = (enum fault_kind)plan.kind;
-    if (plan.kind == (int)FAULT_KINDS) {
-        // A half are flips, as there are many bits.
-        const long others = (long)FAULT_KINDS - 1;
-        const bool flips = (number % 2) == 0;
-        turn = flips ? (number / 2) : (number / 2 / others);
-        const long other = (number / 2) % others;
-        fault.kind = FAULT_FLIP;
-        if (!flips) {
-            fault.kind = (enum fault_kind)(
-                (other >= (long)FAULT_FLIP) ? (other + 1) : other);
-        }
-    }
+    fault.kind = kind_of(number, &turn);
     random_state = ((uint32_t)turn * 2654435769u) ^
                    ((uint32_t)fault.kind * 2246822519u) ^ 0x5EED5EEDu;
     random_state = (random_state != 0u) ? random_state : 1u;
@@ -180,30 +227,7 @@ static void draw(long number)
         (void)faults_random();
     }
     fault.at_s = fault_loop.start_s + drawn(0.0, fault_loop.spread_s);
-    if (fault.kind == FAULT_FLIP) {
-        fault.bit = (unsigned)(turn % (long)plan.chip->object_bits());
-    } else if (fault.kind == FAULT_RESET) {
-        // Each of the places once, in an order that spreads the first ones.
-        fault.value = (double)((turn * 123L) % RESET_PLACES) / RESET_PLACES;
-    } else if (fault.kind == FAULT_BROWN_OUT) {
-        fault.value = drawn(BROWN_OUT_LEAST_S, BROWN_OUT_MOST_S);
-    } else if (fault.kind == FAULT_HANG) {
-        fault.value = fault_loop.watchdog_s;
-    } else if (fault.kind == FAULT_HANGS) {
-        fault.value = fault_loop.watchdog_s * drawn(1.0, LATEST_WATCHDOG);
-        seen.hangs_left = 1u + (faults_random() % (HANGS_MOST - 1u));
-    } else if (fault.kind >= FAULT_STUCK) {
-        fault.for_s = fault_loop.longest_s * drawn(0.05, 1.0);
-        if (fault.kind <= FAULT_CLIPPED) {
-            draw_sensor();
-        } else if (fault.kind <= FAULT_INPUT_MOVED) {
-            draw_input(turn);
-        } else {
-            // the ticks
-        }
-    } else {
-        // nothing else to choose
-    }
+    draw_kind(turn);
 }
 
 // ---- Rows ----
@@ -343,11 +367,19 @@ void faults_was_reset(void)
 
 // ---- Watching ----
 
-static void judge(int drive, int asked)
+static int lower(int one, int other)
+{
+    return (one < other) ? one : other;
+}
+
+static int higher(int one, int other)
+{
+    return (one > other) ? one : other;
+}
+
+static void judge_error(double now_s)
 {
     double values[WORLD_TRACE_MAX];
-    const double now_s = world_time_s();
-
     world_trace(values);
     seen.error = values[value_at];
     if (target_at != value_at) {
@@ -356,23 +388,29 @@ static void judge(int drive, int asked)
     if (!(fabs(seen.error) <= fault_loop.band)) { // nor if it is not a number
         seen.outside_s = now_s;
     }
-    if (drive != 0) {
-        seen.on_s = now_s;
-    } else if (seen.struck && (seen.off_s < 0.0)) {
-        seen.off_s = now_s;
-    } else {
-        // it was off before
-    }
-    if ((drive == 0) && (seen.hung_s >= 0.0)) {
-        seen.off_after_s = fmax(seen.off_after_s, now_s - seen.hung_s);
-        seen.hung_s = -1.0;
-    }
     if (seen.struck) {
         seen.worst = fmax(seen.worst, fabs(seen.error));
-        seen.drive_low = (drive < seen.drive_low) ? drive : seen.drive_low;
-        seen.drive_high = (drive > seen.drive_high) ? drive : seen.drive_high;
-        seen.asked_low = (asked < seen.asked_low) ? asked : seen.asked_low;
-        seen.asked_high = (asked > seen.asked_high) ? asked : seen.asked_high;
+    }
+}
+
+static void judge_drive(double now_s, int drive, int asked)
+{
+    if (drive != 0) {
+        seen.on_s = now_s;
+    } else if (seen.hung_s >= 0.0) {
+        seen.off_after_s = fmax(seen.off_after_s, now_s - seen.hung_s);
+        seen.hung_s = -1.0;
+    } else {
+        // it may be off
+    }
+    if (seen.struck) {
+        seen.drive_low = lower(seen.drive_low, drive);
+        seen.drive_high = higher(seen.drive_high, drive);
+        seen.asked_low = lower(seen.asked_low, asked);
+        seen.asked_high = higher(seen.asked_high, asked);
+        if ((drive == 0) && (seen.off_s < 0.0)) {
+            seen.off_s = now_s;
+        }
     }
 }
 
@@ -414,20 +452,9 @@ static bool over(double now_s)
     return quiet || (now_s > (until_s + fault_loop.watch_s));
 }
 
-void faults_watch(int drive, int asked)
+// What the fault does at this moment; it may not return.
+static void act(double now_s)
 {
-    const double now_s = world_time_s();
-    if (!seen.begun) {
-        if (now_s < fault_loop.start_s) {
-            return;
-        }
-        copy_for_each();
-    }
-    judge(drive, asked);
-    if (over(now_s)) {
-        report(end());
-        _exit(EXIT_SUCCESS);
-    }
     if (!seen.struck && (now_s >= fault.at_s)) {
         strike();
     }
@@ -438,10 +465,27 @@ void faults_watch(int drive, int asked)
             mend();
         }
     }
-    if ((seen.hangs_left > 0u) && (seen.next_hang_s > 0.0) &&
-        (now_s >= seen.next_hang_s)) {
+    if ((seen.next_hang_s > 0.0) && (now_s >= seen.next_hang_s)) {
         seen.hangs_left--;
         seen.next_hang_s = 0.0;
         hang();
     }
+}
+
+void faults_watch(int drive, int asked)
+{
+    const double now_s = world_time_s();
+    if (!seen.begun) {
+        if (now_s < fault_loop.start_s) {
+            return;
+        }
+        copy_for_each();
+    }
+    judge_error(now_s);
+    judge_drive(now_s, drive, asked);
+    if (over(now_s)) {
+        report(end());
+        _exit(EXIT_SUCCESS);
+    }
+    act(now_s);
 }
