@@ -85,6 +85,8 @@ good = [
   expect('a drive below its limits', fault({ drive_low: -1 }), 'drive, least'),
   expect('a drive above them', fault({ drive_high: 10 }), 'drive, most'),
   expect('back too late', fault({ back_s: 2.1 }), 'the loop hangs: back in control after'),
+  expect('off instead', fault({ end: 'off' }), ''),
+  expect('off, but late', fault({ end: 'off', off_s: 2.1 }), 'the loop hangs: else off, the drive off after'),
   expect('not back', fault({ end: 'out' }), 'the loop hangs: out of control in the end'),
   expect('off too late', fault({ off_after_s: 0.0341 }), 'nothing works: off, later than the watchdog'),
   expect('a late watchdog', fault({ kind: 'hangs', value: 0.05, off_after_s: 0.051 }), ''),

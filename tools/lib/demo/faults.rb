@@ -125,11 +125,10 @@ class Faults
   def check_kind(some, what)
     flips = some.kinds == ['flip']
     Report.at_most("#{what}: back in control after", some.longest('back', :back_s), rules.back, 's')
-    if rules.fallen
-      Report.at_most("#{what}: else fallen, and off after", some.longest('fallen', :off_s),
-                     rules.fallen, 's')
-    end
-    out = some.runs.size - some.ended('back') - some.ended(rules.fallen ? 'fallen' : 'off')
+    off = rules.fallen ? 'fallen' : 'off'
+    Report.at_most("#{what}: else #{off}, the drive off after", some.longest(off, :off_s),
+                   rules.fallen || rules.back, 's')
+    out = some.runs.size - some.ended('back') - some.ended(off)
     Report.at_most("#{what}: out of control in the end", 100.0 * out / some.runs.size,
                    flips ? rules.lasting : 0.0, '% of the runs')
   end

@@ -69,7 +69,7 @@ module Tables
       table('loop', 'drive', 'back in control within', 'or off', 'nothing works: off',
             'sensor at an end: off within', 'flips that may last', FAULT_LOOPS.map do |name, rules|
               [name, "#{rules.duties.first} to #{rules.duties.last}", "#{rules.back} s",
-               rules.fallen ? "fallen, and off within #{rules.fallen} s" : 'no',
+               rules.fallen ? "fallen, and off within #{rules.fallen} s" : "off within #{rules.back} s",
                format('%.1f ms: %d ms and two ticks', 1e3 * (rules.watchdog_s + 2.0 * rules.tick_s),
                       1e3 * rules.watchdog_s),
                rules.blind ? format('%.1f ms', 1e3 * rules.blind) : 'it is not looked at',
