@@ -82,7 +82,9 @@ class Chip
     // As the reset pin does it, or power-on: the RAM stays as it is. The next
     // run begins at the reset vector, which a PIC says as a fault of its guard.
     void reset();
-    // The next instruction is executed for ever, until a reset.
+    // The instruction at program_counter() jumps to itself until a reset. It is
+    // the next one unless the chip is within a jump: run it, and look whether
+    // it is still there. The instruction that was hung before is mended.
     void hang();
 
     // ---- Memory ----

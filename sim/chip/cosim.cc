@@ -34,6 +34,7 @@ namespace
 constexpr double tick_s = 1.0 / PORT_TICKS_PER_SECOND;
 constexpr double hang_s = 0.5; // the loop has to come round this often
 constexpr unsigned adc_codes = 1024;
+constexpr uint64_t jump_cycles = 8; // longer than any instruction
 
 // Where a recorded value means that the plant is lost.
 struct Bound {
@@ -92,6 +93,7 @@ class Cosimulation
     void set_tick(bool enabled);
     void stand_still(double seconds);
     void randomize();
+    void hang_here();
     void watch_bounds();
     void wire_converter();
     void wire_drive();
@@ -400,6 +402,17 @@ void Cosimulation::randomize()
     }
 }
 
+void Cosimulation::hang_here()
+{
+    unsigned at = 0;
+    wanted = Wanted::nothing;
+    do {
+        at = chip.program_counter();
+        chip.hang();
+        (void)chip.run(jump_cycles);
+    } while (chip.program_counter() != at);
+}
+
 // True if the chip has stopped for a fault of the loop, and runs on.
 bool Cosimulation::goes_on()
 {
@@ -411,7 +424,7 @@ bool Cosimulation::goes_on()
         catch_up();
     }
     if (wanted == Wanted::hang) {
-        chip.hang();
+        hang_here();
     } else if (mine || watchdog || (vector && !resetting)) {
         chip.reset();
         resetting = true; // gpsim says so when it is there

@@ -27,14 +27,19 @@ pic_processor &pic()
         CSimulationContext::GetContext()->GetActiveCPU());
 }
 
-} // namespace
-
-void Chip::reset()
+void mend()
 {
     for (const Hung &one : hung) {
         pic().pma->put_opcode(one.at, one.was);
     }
     hung.clear();
+}
+
+} // namespace
+
+void Chip::reset()
+{
+    mend();
     pic().reset(POR_RESET);
 }
 
@@ -42,6 +47,7 @@ void Chip::hang()
 {
     const unsigned at = program_counter();
 
+    mend();
     hung.push_back({at, pic().pma->get_opcode(at)});
     pic().pma->put_opcode(at, is_pic18() ? to_itself_18
                                          : goto_pic14 | (at & 0x7FFu));

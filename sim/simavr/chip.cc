@@ -422,16 +422,21 @@ struct Hung {
 };
 std::vector<Hung> hung;
 
+void mend(uint8_t *flash)
+{
+    for (const Hung &one : hung) {
+        std::copy(one.was, one.was + 2, flash + one.at);
+    }
+    hung.clear();
+}
+
 } // namespace
 
 void Chip::reset()
 {
     avr_t &avr = *self->avr;
 
-    for (const Hung &one : hung) {
-        std::copy(one.was, one.was + 2, avr.flash + one.at);
-    }
-    hung.clear();
+    mend(avr.flash);
     self->frames.clear();
     avr_reset(&avr);
     avr.pc = 0;
@@ -441,6 +446,7 @@ void Chip::hang()
 {
     uint8_t *const next = self->avr->flash + self->avr->pc;
 
+    mend(self->avr->flash);
     hung.push_back({self->avr->pc, {next[0], next[1]}});
     next[0] = jump_to_itself & 0xFFu;
     next[1] = jump_to_itself >> 8;
