@@ -71,6 +71,17 @@ void test_add_word_if_no_bit_adds_nothing(void)
     TEST_ASSERT_EQUAL_UINT16(1000, sum);
 }
 
+// Beyond 32 bits they are those of patterns, as the proofs want it.
+void test_add32_and_sub32_wrap(void)
+{
+    TEST_ASSERT_EQUAL_INT32(-1, fixpid_add32(INT32_MAX, INT32_MIN));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, fixpid_add32(INT32_MAX, 1));
+    TEST_ASSERT_EQUAL_INT32(70001, fixpid_add32(70000, 1));
+    TEST_ASSERT_EQUAL_INT32(INT32_MAX, fixpid_sub32(INT32_MIN, 1));
+    TEST_ASSERT_EQUAL_INT32(-1, fixpid_sub32(70000, 70001));
+    TEST_ASSERT_EQUAL_INT32(70001, fixpid_sub32(70000, -1));
+}
+
 void test_8x8_every_pair(void)
 {
     uint32_t wrong = 0;

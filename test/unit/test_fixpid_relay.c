@@ -1093,22 +1093,21 @@ static void refuses_sums(void)
 
 void test_result_sums_that_no_cycles_have_are_refused(void)
 {
-    const uint32_t cycles = config.cycles;
-
     measured(200, 100, 20, 20);
     relay_controller.averaged = 0;
     refuses_sums();
-    relay_controller.averaged = 9;
+    relay_controller.period_sum = (6u * config.cycles) - 1u;
     refuses_sums();
-    relay_controller.period_sum = (6u * cycles) - 1u;
+    relay_controller.period_sum = UINT32_C(65532) * config.cycles;
+    TEST_ASSERT_TRUE(served(FIXPID_RELAY_TYREUS_LUYBEN_PI));
+    relay_controller.period_sum++;
     refuses_sums();
-    relay_controller.period_sum = (65532u * cycles) + 1u;
-    refuses_sums();
-    relay_controller.swing_sum = cycles - 1u;
+    relay_controller.swing_sum = 0;
     refuses_sums();
     relay_controller.last_period = 0;
-    refuses_sums();
-    relay_controller.error_sum = (65535u * 40u) + 1u;
+    relay_controller.high_steps = 0;
+    relay_controller.highest_at = 0;
+    relay_controller.lowest_at = 0;
     refuses_sums();
 }
 
@@ -1123,7 +1122,7 @@ void test_result_of_any_bytes_is_legal(void)
         relay_controller.status = FIXPID_RELAY_DONE;
         relay_controller.averaged &= 7u;
         relay_controller.period_sum >>= 14;
-        relay_controller.error_sum >>= (turn & 31u);
+        relay_controller.error_sum >>= 4u + (turn & 15u);
         if (fixpid_relay_result(&relay_controller, (uint8_t)(turn & 1u),
                                 &gains)) {
             TEST_ASSERT_LESS_OR_EQUAL_UINT16(FIXPID_PID_KP_MAX, gains.kp_q8);

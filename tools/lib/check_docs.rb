@@ -6,6 +6,7 @@
 # renews the parts first.
 require 'fileutils'
 require 'open3'
+require_relative 'docs/assurance'
 require_relative 'docs/code_blocks'
 require_relative 'docs/facts'
 require_relative 'docs/forms'
@@ -174,7 +175,7 @@ end
 
 # Minutes of all parts together, on two cores.
 def whole_minutes
-  seconds = File.readlines('test/parts.txt').grep(/^[a-z]/).reject { |line| line.start_with?('quick ') }
+  seconds = File.readlines('test/parts.txt').grep(/^[a-z]/).reject { |line| line.start_with?('quick ', 'prove ') }
                 .map { |line| line.split[2].to_i }
   (seconds.sum + 30) / 60
 end
@@ -203,6 +204,8 @@ def renewed(path, text)
     text.gsub(/(?<=<!-- minutes -->)\d+ minutes/, "#{whole_minutes} minutes")
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
+  when 'docs/assurance.md'
+    part(text, 'proofs', Assurance.table)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', bounds_table), 'forms', Forms.table)
   when 'docs/ports.md'
