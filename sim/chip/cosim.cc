@@ -94,6 +94,8 @@ class Cosimulation
     void stand_still(double seconds);
     void randomize();
     void hang_here();
+    void reset_chip();
+    void reset_as_wanted();
     void watch_bounds();
     void wire_converter();
     void wire_drive();
@@ -413,47 +415,52 @@ void Cosimulation::hang_here()
     } while (chip.program_counter() != at);
 }
 
-// True if the chip has stopped for a fault of the loop, and runs on.
+// From the pins, as after power-on, but for the RAM.
+void Cosimulation::reset_chip()
+{
+    chip.reset();
+    resetting = true;
+    seen = chip.cycle();
+    if (chip.is_pic18()) {
+        chip.lenient_until("main");
+    }
+    masked_until = 0;
+    ticks_ahead = 0.0;
+    stand_still(0.0);
+    look(); // the drive is off
+}
+
+void Cosimulation::reset_as_wanted()
+{
+    (void)chip.run((uint64_t)(share_of_pass * (double)pass.most));
+    catch_up();
+    wanted = Wanted::nothing;
+    reset_chip();
+    stand_still(dark_s);
+    if (random_ram) {
+        randomize();
+    }
+}
+
+// True if the chip has stopped for a fault of the loop, and runs on. gpsim says
+// that it is at the reset vector after each reset, and may do so after its
+// watchdog's, too.
 bool Cosimulation::goes_on()
 {
     const bool vector = chip.reason() == "restarted at the reset vector";
     const bool watchdog = chip.reason().find("watchdog") != std::string::npos;
-    const bool mine = wanted == Wanted::reset;
-    if (mine) {
-        (void)chip.run((uint64_t)(share_of_pass * (double)pass.most));
-        catch_up();
-    }
     if (wanted == Wanted::hang) {
         hang_here();
-    } else if (mine || watchdog || (vector && !resetting)) {
-        chip.reset();
-        resetting = true; // gpsim says so when it is there
-        seen = chip.cycle();
-        take_drive();
-        if (chip.is_pic18()) {
-            chip.lenient_until("main");
-        }
-        masked_until = 0;
-        ticks_ahead = 0.0;
-        if (!mine) {
-            stand_still(0.0);
-            look();
-            faults_was_reset();
-        } else {
-            wanted = Wanted::nothing;
-            stand_still(dark_s);
-            if (random_ram) {
-                randomize();
-            }
-        }
-        return true;
-    } else if (vector) {
-        resetting = false; // as it was to
-        return true;
+    } else if (wanted == Wanted::reset) {
+        reset_as_wanted();
+    } else if (vector && resetting) {
+        resetting = false;
+    } else if (watchdog || vector) {
+        reset_chip();
+        faults_was_reset();
     } else {
         return false;
     }
-    wanted = Wanted::nothing;
     return true;
 }
 
