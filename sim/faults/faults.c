@@ -245,7 +245,7 @@ static const char *end(void)
 {
     const double now_s = world_time_s();
     const bool off = (now_s - seen.on_s) > (fault_loop.watch_s / 4.0);
-    const bool back = (now_s - seen.outside_s) > (fault_loop.watch_s / 4.0);
+    const bool back = (now_s - seen.outside_s) > (fault_loop.watch_s / 2.0);
     const char *how = "out";
     if (back) {
         how = "back";
