@@ -10,6 +10,10 @@
 #define CONTROL_PERIOD_TICKS 100u
 #define STEPS_PER_SECOND 10.0
 
+// The controller is set up anew this often, 10 s: a bit that has flipped in its
+// gains or limits would else last until a reset.
+#define RENEWED_PERIODS 100u
+
 // The gains are in duty counts per count of temperature, of which a degree has
 // 16.
 #define KP 1.3
@@ -31,6 +35,13 @@
 
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_pid thermostat;
+
+static const struct fixpid_pid_config config = {
+    .gains = FIXPID_PID_GAINS(KP, KI, KD, STEPS_PER_SECOND, DERIVATIVE_FILTER),
+    .output_min = 0,
+    .output_max = PORT_DRIVE_FULL,
+    .setpoint_weight_q8 = SETPOINT_WEIGHT_Q8,
+};
 
 static uint8_t position = SELECTOR_OFF;
 
@@ -69,22 +80,34 @@ static void follow_selector(void)
     last = now;
 }
 
-// The controller takes over from a duty, without a memory of temperatures that
-// it has not seen.
+// The controller begins anew and takes over from a duty, without a memory of
+// temperatures that it has not seen, and whatever its RAM had become.
 static void go_on_from(int16_t duty)
 {
-    fixpid_pid_reset(&thermostat);
+    (void)fixpid_pid_init(&thermostat, &config);
     fixpid_pid_seed(&thermostat, duty);
     enter(position);
 }
 
-// Without a sensor the heater is off. When there is one again the controller
-// goes on from the duty that it gave last.
+// A heater cannot cool. The controller's limits say so, too, unless a bit of
+// them has flipped; the port keeps the other end.
+static int16_t heater_duty(int16_t output)
+{
+    if (output < 0) {
+        return 0;
+    }
+    return output;
+}
+
+// Without a sensor the heater is off. When there is one again, and now and
+// then, the controller goes on from the duty that it gave last.
 static void control(void)
 {
     static int16_t duty = 0;
     static bool lost = false;
+    static uint8_t periods = 0; // since the controller began anew
 
+    periods++;
     follow_selector();
     const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
@@ -93,24 +116,17 @@ static void control(void)
         port_drive(0);
         return;
     }
-    if (lost) {
+    if (lost || (periods >= RENEWED_PERIODS)) {
         lost = false;
+        periods = 0;
         go_on_from(duty);
     }
-    duty = fixpid_pid_step(&thermostat, setpoint, measurement);
+    duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
     port_drive(duty);
 }
 
 int main(void)
 {
-    static const struct fixpid_pid_config config = {
-        .gains =
-            FIXPID_PID_GAINS(KP, KI, KD, STEPS_PER_SECOND, DERIVATIVE_FILTER),
-        .output_min = 0,
-        .output_max = PORT_DRIVE_FULL,
-        .setpoint_weight_q8 = SETPOINT_WEIGHT_Q8,
-    };
-
     port_init();
     (void)fixpid_pid_init(&thermostat, &config);
     fixpid_pid_set_manual(&thermostat, 0);

@@ -77,6 +77,16 @@ class Chip
     // not multiply by the HSPLL's 4.
     void set_oscillator(double hertz);
 
+    // ---- Faults; only between two runs ----
+
+    // As the reset pin does it, or power-on: the RAM stays as it is. The next
+    // run begins at the reset vector, which a PIC says as a fault of its guard.
+    void reset();
+    // The instruction at program_counter() jumps to itself until a reset. It is
+    // the next one unless the chip is within a jump: run it, and look whether
+    // it is still there. The instruction that was hung before is mended.
+    void hang();
+
     // ---- Memory ----
 
     // A byte of RAM or a register, without side effects and unseen by actions.

@@ -20,6 +20,7 @@
 #include "port_board.h"
 
 extern "C" {
+#include "faults.h"
 #include "host.h"
 #include "probe.h"
 #include "world.h"
@@ -33,6 +34,7 @@ namespace
 constexpr double tick_s = 1.0 / PORT_TICKS_PER_SECOND;
 constexpr double hang_s = 0.5; // the loop has to come round this often
 constexpr unsigned adc_codes = 1024;
+constexpr uint64_t jump_cycles = 8; // longer than any instruction
 
 // Where a recorded value means that the plant is lost.
 struct Bound {
@@ -53,6 +55,7 @@ std::vector<std::string> metered;
 uint32_t seed = 1;
 FILE *trace = nullptr;
 double trace_period_s = tick_s;
+bool faulty = false; // the loop is broken on purpose
 
 // The loop of the application: from the return of COSIM_WAIT, which is the
 // port's function that it calls for ticks, to its next call.
@@ -75,7 +78,24 @@ class Cosimulation
     Cosimulation();
     int run();
 
+    // What a fault does, where it needs the chip.
+    unsigned object_bits() const;
+    void flip(unsigned bit);
+    void reset(double seconds, bool with_random_ram, double share);
+    void hang();
+    void stop_timer();
+    void shift_ticks(double ticks);
+
   private:
+    void look();
+    void take_drive();
+    bool goes_on();
+    void set_tick(bool enabled);
+    void stand_still(double seconds);
+    void randomize();
+    void hang_here();
+    void reset_chip();
+    void reset_as_wanted();
     void watch_bounds();
     void wire_converter();
     void wire_drive();
@@ -99,7 +119,41 @@ class Cosimulation
     std::vector<const Meter *> interrupts;
     std::vector<std::pair<size_t, Bound>> watched; // by index in the trace
     std::vector<unsigned> objects; // of the application, their addresses
+
+    // What the chip is stopped for.
+    enum class Wanted { nothing, reset, hang } wanted = Wanted::nothing;
+    bool looking = false;
+    bool resetting = false; // it is at the reset vector, or will be
+    double dark_s = 0.0;
+    bool random_ram = false;
+    double share_of_pass = 0.0; // when a reset comes
+    double ticks_ahead = 0.0;
+    uint64_t masked_until = 0; // the tick's interrupt; 0: it is not masked
 };
+
+Cosimulation *cosimulation = nullptr; // for what faults.h calls
+
+// Where the tick's interrupt is enabled: TMR1IE of a PIC16, CCP2IE of a PIC18,
+// OCIE0A of an AVR.
+struct Enable {
+    const char *processor; // how its name begins
+    unsigned address;
+    unsigned bit;
+    unsigned counted; // the port's byte of ticks, where it has no symbol
+};
+const Enable enables[] = {{"p16", 0x8C, 0x01, 0x20},
+                          {"p18", 0xFA0, 0x01, 0},
+                          {"atmega", 0x6E, 0x02, 0}};
+
+const Enable &tick_enable(const Chip &chip)
+{
+    for (const Enable &enable : enables) {
+        if (chip.processor().rfind(enable.processor, 0) == 0) {
+            return enable;
+        }
+    }
+    throw ChipError("no interrupt known of " + chip.processor());
+}
 
 Cosimulation::Cosimulation() : chip(firmware, board.processor)
 {
@@ -173,10 +227,15 @@ void Cosimulation::wire_drive()
     for (const unsigned address : board.drive_registers) {
         chip.on_write(address, [this](unsigned) {
             catch_up();
-            drive_counts = board_drive_counts(chip);
-            world_drive((double)drive_counts / PORT_DRIVE_FULL);
+            take_drive();
         });
     }
+}
+
+void Cosimulation::take_drive()
+{
+    drive_counts = board_drive_counts(chip);
+    world_drive((double)drive_counts / PORT_DRIVE_FULL);
 }
 
 void Cosimulation::watch_loop()
@@ -219,6 +278,9 @@ void Cosimulation::wait_ends()
     pass.begun = true;
     pass.start = chip.cycle();
     pass.ended_s = world_time_s();
+    if (wanted == Wanted::reset) {
+        chip.stop("a reset");
+    }
 }
 
 // The world moves to this cycle, and to each row of the trace on the way.
@@ -234,6 +296,10 @@ void Cosimulation::catch_up()
         rows += 1.0;
     }
     world_advance(std::fmax(end_s - world_time_s(), 0.0));
+    if (faulty) {
+        look();
+        return;
+    }
     check_world();
     if (world_time_s() - pass.ended_s > hang_s) {
         chip.fail("the loop does not come round");
@@ -241,6 +307,161 @@ void Cosimulation::catch_up()
     if (!world_running()) {
         chip.stop("the scenario is over");
     }
+}
+
+// ---- Faults ----
+
+void Cosimulation::look()
+{
+    if (looking) {
+        return;
+    }
+    looking = true;
+    if ((masked_until != 0) && (chip.cycle() >= masked_until)) {
+        set_tick(true);
+        masked_until = 0;
+    }
+    faults_watch(drive_counts, drive_counts);
+    looking = false;
+}
+
+unsigned Cosimulation::object_bits() const
+{
+    return (unsigned)(8 * probe_objects[0].size);
+}
+
+void Cosimulation::flip(unsigned bit)
+{
+    const unsigned address = objects[0] + bit / 8;
+    chip.poke(address, chip.peek(address) ^ (1u << (bit % 8)));
+}
+
+// At an instruction boundary within the next pass.
+void Cosimulation::reset(double seconds, bool with_random_ram, double share)
+{
+    wanted = Wanted::reset;
+    dark_s = seconds;
+    random_ram = with_random_ram;
+    share_of_pass = share;
+}
+
+void Cosimulation::hang()
+{
+    wanted = Wanted::hang;
+    chip.stop("the loop is to hang");
+}
+
+// An AVR's flag waits by itself; gpsim looks at a PIC's when it is enabled.
+void Cosimulation::set_tick(bool enabled)
+{
+    const Enable &enable = tick_enable(chip);
+    const unsigned others = chip.peek(enable.address) & ~enable.bit;
+    const unsigned value = others | (enabled ? enable.bit : 0u);
+    chip.poke(enable.address, value);
+    chip.write(enable.address, value);
+}
+
+void Cosimulation::stop_timer()
+{
+    set_tick(false);
+}
+
+// Whole ticks are counted or not; a tick is late where its interrupt is masked.
+void Cosimulation::shift_ticks(double ticks)
+{
+    const double step = ticks - ticks_ahead;
+    const double whole = std::round(step);
+    if (std::fabs(step - whole) < 1e-9) {
+        const unsigned counted = chip.has_symbol("ticks_counted")
+                                     ? chip.data("ticks_counted")
+                                     : tick_enable(chip).counted;
+        chip.poke(counted, (chip.peek(counted) + (unsigned)(int)whole) & 0xFF);
+        ticks_ahead = ticks;
+    } else {
+        stop_timer();
+        masked_until = chip.cycle() +
+                       (uint64_t)(-ticks * tick_s * chip.cycles_per_second());
+    }
+}
+
+// The world goes on without the chip, whose drive is off.
+void Cosimulation::stand_still(double seconds)
+{
+    const double end_s = world_time_s() + seconds;
+    drive_counts = 0;
+    world_drive(0.0);
+    while (world_time_s() < end_s) {
+        world_advance(std::fmin(end_s - world_time_s(), tick_s / 4.0));
+        look();
+    }
+}
+
+void Cosimulation::randomize()
+{
+    chip.fill_ram(faults_random() & 0xFFu);
+    for (unsigned i = 0; i < probe_objects[0].size; i++) {
+        chip.poke(objects[0] + i, faults_random() & 0xFFu);
+    }
+}
+
+void Cosimulation::hang_here()
+{
+    unsigned at = 0;
+    wanted = Wanted::nothing;
+    do {
+        at = chip.program_counter();
+        chip.hang();
+        (void)chip.run(jump_cycles);
+    } while (chip.program_counter() != at);
+}
+
+// From the pins, as after power-on, but for the RAM.
+void Cosimulation::reset_chip()
+{
+    chip.reset();
+    resetting = true;
+    seen = chip.cycle();
+    if (chip.is_pic18()) {
+        chip.lenient_until("main");
+    }
+    masked_until = 0;
+    ticks_ahead = 0.0;
+    stand_still(0.0);
+    look(); // the drive is off
+}
+
+void Cosimulation::reset_as_wanted()
+{
+    (void)chip.run((uint64_t)(share_of_pass * (double)pass.most));
+    catch_up();
+    wanted = Wanted::nothing;
+    reset_chip();
+    stand_still(dark_s);
+    if (random_ram) {
+        randomize();
+    }
+}
+
+// True if the chip has stopped for a fault of the loop, and runs on. gpsim says
+// that it is at the reset vector after each reset, and may do so after its
+// watchdog's, too.
+bool Cosimulation::goes_on()
+{
+    const bool vector = chip.reason() == "restarted at the reset vector";
+    const bool watchdog = chip.reason().find("watchdog") != std::string::npos;
+    if (wanted == Wanted::hang) {
+        hang_here();
+    } else if (wanted == Wanted::reset) {
+        reset_as_wanted();
+    } else if (vector && resetting) {
+        resetting = false;
+    } else if (watchdog || vector) {
+        reset_chip();
+        faults_was_reset();
+    } else {
+        return false;
+    }
+    return true;
 }
 
 void Cosimulation::check_world()
@@ -319,7 +540,9 @@ int Cosimulation::run()
     const auto start = std::chrono::steady_clock::now();
     world_start(seed);
     // Far beyond any scenario, which ends by itself.
-    (void)chip.run(uint64_t{1} << 50);
+    do {
+        (void)chip.run(uint64_t{1} << 50);
+    } while (faulty && goes_on());
     const std::chrono::duration<double> wall =
         std::chrono::steady_clock::now() - start;
     std::string trouble;
@@ -338,14 +561,42 @@ int Cosimulation::run()
     return EXIT_SUCCESS;
 }
 
+const fault_chip broken_chip = {
+    [] { return cosimulation->object_bits(); },
+    [](unsigned bit) { cosimulation->flip(bit); },
+    [](double seconds, bool with_random_ram, double share) {
+        cosimulation->reset(seconds, with_random_ram, share);
+    },
+    [](double) { cosimulation->hang(); }, // its own watchdog ends it
+    [] { cosimulation->stop_timer(); },
+    [](double ticks) { cosimulation->shift_ticks(ticks); }};
+
 constexpr int exit_wrong_use = 2;
+
+// FIRMWARE --faults NAME FIRST COUNT [KIND]
+int break_loop(const std::vector<std::string> &words)
+{
+    int kind = (int)FAULT_KINDS;
+    if ((words.size() < 3) ||
+        ((words.size() > 3) && !faults_kind(words[3].c_str(), &kind))) {
+        return exit_wrong_use;
+    }
+    faulty = true;
+    faults_plan(words[0].c_str(), &broken_chip,
+                std::strtol(words[1].c_str(), nullptr, 10),
+                std::strtol(words[2].c_str(), nullptr, 10), kind);
+    faults_heading();
+    return application_main();
+}
 
 void help(const char *program)
 {
     std::printf("usage: %s FIRMWARE [--meter ROUTINE]... [option]...\n"
                 "Runs a firmware, .cod of a PIC or .elf of an AVR, on its "
                 "simulated chip, in its\nsimulated world.\n\n"
-                "  --meter ROUTINE   measure a routine's cycles\n\n"
+                "  --meter ROUTINE   measure a routine's cycles\n"
+                "  --faults NAME FIRST COUNT [KIND]   alone: break the loop, "
+                "../faults/faults.h\n\n"
                 "The other options, the seed's effect and the trace are those "
                 "of the host's program;\n"
                 "the trace has one more column, the cycles of the longest "
@@ -393,7 +644,9 @@ bool host_trace_close(void)
 int application_main(void)
 {
     try {
-        return Cosimulation().run();
+        Cosimulation one;
+        cosimulation = &one;
+        return one.run();
     } catch (const ChipError &error) {
         (void)std::fprintf(stderr, "%s\n", error.what());
         return EXIT_FAILURE;
@@ -411,6 +664,9 @@ int main(int count, char **arguments)
         return host_main(count, arguments);
     }
     firmware = arguments[1];
+    if ((count > 2) && (std::strcmp(arguments[2], "--faults") == 0)) {
+        return break_loop({arguments + 3, arguments + count});
+    }
     for (int i = 2; i < count; i++) {
         if ((std::strcmp(arguments[i], "--meter") == 0) && (i + 1 < count)) {
             i++;

@@ -34,4 +34,24 @@ bool host_trace_close(void);
 // The seed of the world's noise, before application_main.
 void host_seed(uint32_t seed);
 
+// ---- For who breaks the loop on purpose ----
+
+// Called, if it is not NULL, by each of the port's functions, and as time
+// passes in them, at least four times a tick. It need not return.
+extern void (*host_watch)(void);
+
+// The timer is this many ticks ahead of the time, or behind.
+void host_shift_ticks(double ticks);
+
+// When the watchdog was fed last.
+double host_fed_s(void);
+
+// The chip is reset: the drive is off, and the next port_init finds the world
+// as it is.
+void host_reset(void);
+
+// What port_drive made of its last duty, and what that was.
+int16_t host_drive_counts(void);
+int16_t host_drive_asked(void);
+
 #endif

@@ -25,7 +25,13 @@
 
 static uint32_t world_seed = 1;
 static double ticks_seen;
+static double ticks_ahead;
+static double fed_s;
 static int16_t drive_counts;
+static int16_t drive_asked;
+static bool world_goes_on;
+
+void (*host_watch)(void);
 
 static FILE *trace;
 static double trace_period_s;
@@ -85,10 +91,44 @@ bool host_trace_close(void)
     return complete;
 }
 
+void host_shift_ticks(double ticks)
+{
+    ticks_ahead = ticks;
+}
+
+double host_fed_s(void)
+{
+    return fed_s;
+}
+
+int16_t host_drive_counts(void)
+{
+    return drive_counts;
+}
+
+int16_t host_drive_asked(void)
+{
+    return drive_asked;
+}
+
+// Who watches is called a few times on the way.
+static void pass_watched(double end_s)
+{
+    host_watch();
+    // Deviation 14.1: simulated time decides, and it is not an integer.
+    while (world_time_s() < end_s) {
+        world_advance(fmin(end_s - world_time_s(), TICK_S / 4.0));
+        host_watch();
+    }
+}
+
 // Time passes up to each row of the trace, so that its rows are equally spaced.
 static void pass(double seconds)
 {
     const double end_s = world_time_s() + seconds;
+    if (host_watch != NULL) {
+        pass_watched(end_s);
+    }
     // Deviation 14.1: simulated time decides, and it is not an integer.
     while ((trace != NULL) && ((trace_rows * trace_period_s) <= end_s)) {
         const double wait_s = (trace_rows * trace_period_s) - world_time_s();
@@ -99,11 +139,30 @@ static void pass(double seconds)
     world_advance(fmax(end_s - world_time_s(), 0.0));
 }
 
+static double ticks_now(void)
+{
+    // The allowance keeps a rounding error from hiding a tick that was met.
+    return floor((world_time_s() / TICK_S) + ticks_ahead + 1e-6);
+}
+
+void host_reset(void)
+{
+    drive_counts = 0;
+    drive_asked = 0;
+    world_drive(0.0);
+    world_goes_on = true;
+}
+
 void port_init(void)
 {
-    ticks_seen = 0.0;
     drive_counts = 0;
-    world_start(world_seed);
+    if (!world_goes_on) {
+        world_start(world_seed);
+    }
+    world_goes_on = false;
+    ticks_ahead = 0.0;
+    ticks_seen = ticks_now();
+    fed_s = world_time_s();
 }
 
 bool port_running(void) // Deviation 5.5: a constant on a PIC16
@@ -113,10 +172,12 @@ bool port_running(void) // Deviation 5.5: a constant on a PIC16
 
 static uint8_t take_ticks(void)
 {
-    // The allowance keeps a rounding error from hiding a tick that was met.
-    const double ticks = floor((world_time_s() / TICK_S) + 1e-6);
-    const double counted = fmin(ticks - ticks_seen, TICKS_MAX);
-    ticks_seen = ticks;
+    const double ticks = ticks_now();
+    const double counted = fmin(fmax(ticks - ticks_seen, 0.0), TICKS_MAX);
+    ticks_seen = ticks_seen + fmax(ticks - ticks_seen, 0.0);
+    if (counted > 0.0) {
+        fed_s = world_time_s();
+    }
     return (uint8_t)counted;
 }
 
@@ -128,10 +189,14 @@ uint8_t port_ticks(void)
 
 uint8_t port_wait_tick(void)
 {
+    uint8_t ticks = 0;
     pass(ASKING_S);
-    const double next_s = (ticks_seen + 1.0) * TICK_S;
-    pass(fmax(next_s - world_time_s(), 0.0));
-    return take_ticks();
+    while (ticks == 0u) {
+        const double next_s = (ticks_seen + 1.0 - ticks_ahead) * TICK_S;
+        pass(fmax(next_s - world_time_s(), 0.0));
+        ticks = take_ticks();
+    }
+    return ticks;
 }
 
 uint16_t port_read(uint8_t channel)
@@ -159,6 +224,7 @@ static int16_t made_of(int16_t duty)
 void port_drive(int16_t duty)
 {
     pass(ARITHMETIC_S);
+    drive_asked = duty;
     drive_counts = made_of(duty);
     world_drive((double)drive_counts / (double)PORT_DRIVE_FULL);
 }

@@ -408,6 +408,50 @@ void Chip::set_oscillator(double hertz)
     self->avr->frequency = (uint32_t)hertz;
 }
 
+// ---- Faults ----
+
+// What `hang` has put in the place of an instruction.
+namespace
+{
+
+constexpr uint16_t jump_to_itself = 0xCFFF; // rjmp .-2
+
+struct Hung {
+    uint32_t at;
+    uint8_t was[2];
+};
+std::vector<Hung> hung;
+
+void mend(uint8_t *flash)
+{
+    for (const Hung &one : hung) {
+        std::copy(one.was, one.was + 2, flash + one.at);
+    }
+    hung.clear();
+}
+
+} // namespace
+
+void Chip::reset()
+{
+    avr_t &avr = *self->avr;
+
+    mend(avr.flash);
+    self->frames.clear();
+    avr_reset(&avr);
+    avr.pc = 0;
+}
+
+void Chip::hang()
+{
+    uint8_t *const next = self->avr->flash + self->avr->pc;
+
+    mend(self->avr->flash);
+    hung.push_back({self->avr->pc, {next[0], next[1]}});
+    next[0] = jump_to_itself & 0xFFu;
+    next[1] = jump_to_itself >> 8;
+}
+
 // ---- Memory ----
 
 unsigned Chip::peek(unsigned address) const

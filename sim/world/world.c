@@ -14,6 +14,15 @@ static double scene_count; // updates of the scene so far
 static double drive;
 static uint32_t noise_state;
 
+#define CHANNELS 256u
+
+// Of each analog input; all are whole until one is broken.
+static struct input {
+    enum world_break broken;
+    double value;
+    double last; // what it read
+} inputs[CHANNELS];
+
 // Marsaglia's xorshift of 32 bits. pre: noise_state != 0.
 static double uniform(void)
 {
@@ -92,11 +101,52 @@ bool world_running(void)
     return now_s < scene_options[LENGTH].value;
 }
 
+void world_break_input(uint8_t channel, enum world_break how, double value)
+{
+    inputs[channel].broken = how;
+    inputs[channel].value = value;
+}
+
+// A triangle from 0 to 1 and back, `often` times a second.
+static double moved(double often)
+{
+    const double turn = fmod(now_s * often, 1.0);
+    return 1.0 - fabs((2.0 * turn) - 1.0);
+}
+
+static double broken(const struct input *input, double whole)
+{
+    double fraction = whole;
+    switch (input->broken) {
+    case WORLD_STUCK:
+        fraction = input->last;
+        break;
+    case WORLD_READS:
+        fraction = input->value;
+        break;
+    case WORLD_NOISY:
+        fraction = whole + (input->value * normal());
+        break;
+    case WORLD_CLIPPED:
+        fraction = fmin(fmax(whole, 1.0 - input->value), input->value);
+        break;
+    case WORLD_MOVED:
+        fraction = moved(input->value);
+        break;
+    default:
+        break;
+    }
+    return fraction;
+}
+
 double world_voltage(uint8_t channel)
 {
+    struct input *const input = &inputs[channel];
     double noise = 0.0;
     const double clean = scene_voltage(channel, &noise);
-    return fmin(fmax(clean + (noise * normal()), 0.0), 1.0);
+    const double fraction = broken(input, clean + (noise * normal()));
+    input->last = fmin(fmax(fraction, 0.0), 1.0);
+    return input->last;
 }
 
 void world_drive(double fraction)

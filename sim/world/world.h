@@ -45,6 +45,19 @@ bool world_running(void);
 // converter's reference, 0..1. An input that is not wired is at 0.
 double world_voltage(uint8_t channel);
 
+// How an analog input is broken, and what `value` is then.
+enum world_break {
+    WORLD_WHOLE,
+    WORLD_STUCK,   // it reads what it read last
+    WORLD_READS,   // value, as a wire does that is open or touches another
+    WORLD_NOISY,   // value: the standard deviation of what is added
+    WORLD_CLIPPED, // it reads value at most and 1 - value at least
+    WORLD_MOVED    // up and down the whole range; value: how often a second
+};
+
+// Breaks an analog input from here on, or mends it.
+void world_break_input(uint8_t channel, enum world_break how, double value);
+
 // The mean voltage of the bridge as a fraction of full drive, -1..1.
 void world_drive(double fraction);
 

@@ -16,6 +16,7 @@ require "#{root}/tools/lib/demo/regression"
 require "#{root}/tools/lib/demo/loops"
 require "#{root}/tools/lib/demo/plot"
 require "#{root}/tools/lib/demo/clouds"
+require "#{root}/tools/lib/demo/faults"
 
 HEAD = "time_s,angle\n"
 
@@ -89,6 +90,23 @@ end
 
 BEFORE = "loop | settled | 116\n"
 EVEN = "#{HEAD}0,1\n1,1\n2,1\n3,1\n"
+# A run of a loop that must be back in 2 s; nothing is wrong with it until `changes`.
+FAULT = { loop: 'x', kind: 'hang', number: 0, bit: 0, channel: 0, value: 0.032, at_s: 1, for_s: 0, resets: 1,
+          drive_low: 0, drive_high: 9, asked_low: 0, asked_high: 9, worst: 1, error: 0, back_s: 1.5,
+          off_s: 0.1, off_first_s: 0.1, off_after_s: 0.033, end: 'back' }.freeze
+FAULT_TEST = FaultRules.new(tick_s: 1e-3, watchdog_s: 32e-3, duties: 0..9, back: 2.0, lasting: 0.0, blind: 2e-3)
+
+# What is said of it: all well, or the checks that failed.
+def fault(changes = {}, count = 1)
+  row = FAULT.merge(changes)
+  on_file("#{row.keys.join(',')}\n#{row.values.join(',')}\n") do |path|
+    Report.start('fault')
+    before = Report.checks.size
+    Faults.read('x', FAULT_TEST, [path]).check(count, false)
+    Report.checks.drop(before).reject(&:ok?).map(&:what).join('; ')
+  end
+end
+
 good = [
   expect('a run', trace("#{HEAD}0,-1.5e0\n1,0.5\n") { peak('angle') }, 1.5),
   expect('not a number', trace("#{HEAD}0,1\n1,nan\n"), /line 3: not 2 numbers/),
@@ -137,6 +155,21 @@ good = [
   expect('a value twice', regression('loop', BEFORE, BEFORE) { nil }, /has twice/),
   expect('a value without a number', regression('loop', "loop | settled\n") { nil }, /settled/),
   expect('a loop without a check', regression('loop') { nil }, false),
-  expect('values taken anew', renewed, [["a, x: 1 -> 4\n", "a, y: 2 -> gone\n"], ["a | x | 4\n", "b | z | 3\n"]])
+  expect('values taken anew', renewed, [["a, x: 1 -> 4\n", "a, y: 2 -> gone\n"], ["a | x | 4\n", "b | z | 3\n"]]),
+  expect('a fault that ended well', fault, ''),
+  expect('a fault too few', fault({}, 2), 'faults tried'),
+  expect('a fault that crashed the program', fault({ end: 'crashed' }), /crashed/),
+  expect('a drive below its limits', fault({ drive_low: -1 }), 'drive, least'),
+  expect('a drive above them', fault({ drive_high: 10 }), 'drive, most'),
+  expect('back too late', fault({ back_s: 2.1 }), 'the loop hangs: back in control after'),
+  expect('off instead', fault({ end: 'off' }), ''),
+  expect('off, but late', fault({ end: 'off', off_s: 2.1 }), 'the loop hangs: else off, the drive off after'),
+  expect('not back', fault({ end: 'out' }), 'the loop hangs: out of control in the end'),
+  expect('off too late', fault({ off_after_s: 0.0341 }), 'nothing works: off, later than the watchdog'),
+  expect('a late watchdog', fault({ kind: 'hangs', value: 0.05, off_after_s: 0.051 }), ''),
+  expect('a sensor that is not noticed', fault({ kind: 'open', off_first_s: -1 }), 'sensor at an end: off'),
+  expect('one noticed too late', fault({ kind: 'open', off_first_s: 0.003 }), 'sensor at an end: off after'),
+  expect('a fault with no number', fault({ worst: 'nan' }), /no number worst/),
+  expect('a row of a fault that breaks off', fault({ end: "\n" }), /not a row of a fault/)
 ]
 exit(good.all? ? 0 : 1)

@@ -197,3 +197,72 @@ void test_port_init_leaves_the_drive_off(void)
     port_init();
     TEST_ASSERT_TRUE(drive == 0.0);
 }
+
+static int looks;
+static double longest_s, looked_s;
+
+static void look(void)
+{
+    looks++;
+    longest_s = now_s - looked_s > longest_s ? now_s - looked_s : longest_s;
+    looked_s = now_s;
+}
+
+void test_host_watch_looks_four_times_a_tick(void)
+{
+    looks = 0;
+    longest_s = 0.0;
+    looked_s = now_s;
+    host_watch = look;
+    (void)port_wait_ticks(10);
+    (void)port_read(PORT_ANGLE);
+    port_drive(0);
+    host_watch = NULL;
+    TEST_ASSERT_GREATER_THAN_INT(40, looks);
+    TEST_ASSERT_TRUE(longest_s <= 0.25 / 256.0 + 1e-9);
+}
+
+void test_host_shift_ticks_adds_and_removes_ticks(void)
+{
+    host_shift_ticks(2.0);
+    TEST_ASSERT_EQUAL_UINT8(2, port_ticks());
+    host_shift_ticks(0.0);
+    TEST_ASSERT_EQUAL_UINT8(0, port_ticks());
+    TEST_ASSERT_EQUAL_UINT8(1, port_wait_tick());
+    TEST_ASSERT_TRUE(now_s > 3.0 / 256.0 - 1e-6); // two had been told before
+}
+
+void test_host_shift_ticks_by_half_makes_a_tick_late(void)
+{
+    host_shift_ticks(-0.5);
+    TEST_ASSERT_EQUAL_UINT8(1, port_wait_tick());
+    TEST_ASSERT_TRUE(now_s > 1.5 / 256.0 - 1e-6 && now_s < 1.6 / 256.0);
+}
+
+void test_host_fed_is_when_a_tick_was_told(void)
+{
+    (void)port_wait_tick();
+    const double told_s = now_s;
+    (void)port_ticks();
+    TEST_ASSERT_TRUE(host_fed_s() == told_s);
+}
+
+void test_host_reset_switches_off_and_leaves_the_world(void)
+{
+    (void)port_wait_ticks(5);
+    port_drive(100);
+    host_reset();
+    TEST_ASSERT_TRUE(drive == 0.0);
+    TEST_ASSERT_EQUAL_INT16(0, host_drive_counts());
+    const double before_s = now_s;
+    port_init();
+    TEST_ASSERT_TRUE(now_s == before_s);
+    TEST_ASSERT_EQUAL_UINT8(1, port_wait_tick());
+}
+
+void test_host_drive_asked_is_before_the_limit(void)
+{
+    port_drive(300);
+    TEST_ASSERT_EQUAL_INT16(300, host_drive_asked());
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, host_drive_counts());
+}

@@ -133,3 +133,18 @@ void test_main_controller_starts_anew_after_a_slow_tick_without_sensor(void)
     expect_pass(34, 500, 498, 2);
     run();
 }
+
+void test_flipped_bits_in_the_gains_last_until_the_next_slow_tick(void)
+{
+    static const struct fixpid_an937_config config = {OVEN_KP_Q4, OVEN_KI_Q4,
+                                                      OVEN_KD_Q4, 100, 1};
+
+    (void)fixpid_an937_init(&oven, &config);
+    oven.kp_q4 ^= 0x80u;
+    oven.ki_q4 ^= 0x40u;
+    oven.kd_q4 ^= 0x01u;
+    reach_slow_tick();
+    TEST_ASSERT_EQUAL_UINT8(OVEN_KP_Q4, oven.kp_q4);
+    TEST_ASSERT_EQUAL_UINT8(OVEN_KI_Q4, oven.ki_q4);
+    TEST_ASSERT_EQUAL_UINT8(OVEN_KD_Q4, oven.kd_q4);
+}

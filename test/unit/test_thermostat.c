@@ -167,6 +167,45 @@ void test_drive_never_cools_and_is_limited_to_full(void)
     TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 8));
 }
 
+void test_drive_never_cools_with_a_flipped_bit_in_the_limit(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    thermostat.output_min = INT16_MIN; // 0 with its highest bit flipped
+    thermostat.integral_min = INT16_MIN + 1;
+    run(SELECTOR_AUTOMATIC, 1015, 10);
+    TEST_ASSERT_LESS_THAN_INT16(0, fixpid_pid_output(&thermostat));
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 1015));
+}
+
+void test_flipped_bits_in_gains_and_limits_last_100_periods_at_most(void)
+{
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    const struct fixpid_pid good = thermostat;
+    thermostat.kp ^= 0x4000u;
+    thermostat.ki ^= 0x0100u;
+    thermostat.kd ^= 0x0800u;
+    thermostat.output_max = 255; // full drive with two bits flipped
+    thermostat.setpoint_weight ^= 0x40u;
+    thermostat.options ^= 0x04u;
+    run(SELECTOR_AUTOMATIC, SET, 100);
+    TEST_ASSERT_EQUAL_UINT16(good.kp, thermostat.kp);
+    TEST_ASSERT_EQUAL_UINT16(good.ki, thermostat.ki);
+    TEST_ASSERT_EQUAL_UINT16(good.kd, thermostat.kd);
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, thermostat.output_max);
+    TEST_ASSERT_EQUAL_UINT8(good.setpoint_weight, thermostat.setpoint_weight);
+    TEST_ASSERT_EQUAL_UINT8(good.options, thermostat.options);
+}
+
+void test_renewed_controller_of_a_calm_oven_goes_on_from_the_same_drive(void)
+{
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    const int16_t calm = period(SELECTOR_AUTOMATIC, SET);
+    for (int i = 0; i < 250; i++) {
+        TEST_ASSERT_EQUAL_INT16(calm, period(SELECTOR_AUTOMATIC, SET));
+    }
+}
+
 void test_broken_wire_of_the_sensor_switches_off_at_once(void)
 {
     static const uint16_t broken[] = {0, 7, 1016, 1023};

@@ -23,6 +23,7 @@ require_relative 'demo/others'
 require_relative 'demo/clouds'
 require_relative 'demo/recipes'
 require_relative 'demo/chip'
+require_relative 'demo/faults'
 
 Encoding.default_external = 'UTF-8'
 
@@ -43,6 +44,9 @@ LOOPS = {
   'clouds' => Loop.new('two autotuners on 800 random plants, how good their gains are', -> { clouds }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
+  'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time',
+                       -> { run_faults(ENV.key?('FAULTS_LONG')) }),
+  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('FAULTS_LONG')) }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
 

@@ -5,8 +5,8 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune clouds others recipes chip]
-             .freeze
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune clouds others recipes chip
+                faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
   # Document, its parts between markers, and what makes each of them.
   PARTS = {
@@ -15,15 +15,20 @@ module Docs
                           'holding' => :holding, 'dangers' => :dangers },
     'docs/behaviour.md' => { 'five' => :five, 'slow' => :slow,
                              'bumps' => :bumps, 'drift' => :drift },
-    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override }
+    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override },
+    'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }
   }.freeze
+
+  # Made by tools/demo --long only.
+  LONG = { 'docs/faults.md' => { 'long' => :long_faults } }.freeze
 
   class << self
     # True unless mode asks for a check that fails.
     def update(mode, root)
       return true if %w[run renew].include?(mode)
 
-      stale = PARTS.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
+      parts = mode == 'long' ? LONG : PARTS
+      stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       stale.none?
     end

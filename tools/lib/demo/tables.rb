@@ -57,6 +57,39 @@ module Tables
       end, rows)
     end
 
+    # What came of the faults, a row for each kind and its numbers for each loop.
+    def faults
+      table('fault', *FAULT_LOOPS.keys, FAULT_KINDS.map do |kind, what|
+        [what, *FAULT_LOOPS.keys.map { |name| fault_cell(name, kind) }]
+      end)
+    end
+
+    # What must hold of them.
+    def fault_limits
+      table('loop', 'drive', 'back in control within', 'or off', 'nothing works: off',
+            'sensor at an end: off within', 'flips that may last', FAULT_LOOPS.map do |name, rules|
+              [name, "#{rules.duties.first} to #{rules.duties.last}", "#{rules.back} s",
+               rules.fallen ? "fallen, and off within #{rules.fallen} s" : "off within #{rules.back} s",
+               format('%.1f ms: %d ms and two ticks', 1e3 * (rules.watchdog_s + 2.0 * rules.tick_s),
+                      1e3 * rules.watchdog_s),
+               rules.blind ? format('%.1f ms', 1e3 * rules.blind) : 'it is not looked at',
+               rules.lasting.zero? ? 'none' : "#{rules.lasting} %"]
+            end)
+    end
+
+    # Of each loop that was broken, on the host and on chips.
+    def long_faults
+      loops = Report.numbers.select { |name, numbers| name.start_with?('faults') && numbers['kinds'] }
+      table('loop', 'runs', 'back in control', 'fallen and off', 'off', 'out of control until a reset',
+            'longest until back', 'drive', 'off after the watchdog\'s time', loops.map do |name, numbers|
+              kinds = numbers['kinds']
+              [name.sub('faults_chip', 'chip,').sub('faults', 'host,'), numbers['runs'],
+               *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
+               format('%.2f s', kinds.map { |row| row['back_s'] }.max),
+               "#{numbers['low']} to #{numbers['high']}", format('%.2f ms', 1e3 * numbers['late_s'])]
+            end)
+    end
+
     def holding
       rows = Report.numbers['clouds']['holding'].map do |row|
         ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
@@ -125,6 +158,16 @@ module Tables
       lines = [head, head.map { '---' }, *rows]
       lines.map { |row| "| #{row.join(' | ')} |\n" }.join
            .gsub(/^\| ---.*/) { |line| line.delete(' ') }
+    end
+
+    # Of one kind and loop: how many, and how long it took.
+    def fault_cell(name, kind)
+      row = Report.numbers["faults #{name}"]['kinds'].find { |one| one['kind'] == kind }
+      parts = [["#{row['back']} back", row['back'], row['back_s']],
+               ["#{row['fallen']} fallen", row['fallen'], row['off_s']],
+               ["#{row['off']} off", row['off'], nil], ["#{row['out']} out", row['out'], nil]]
+      parts.select { |_, count, _| count.positive? }
+           .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
     end
 
     # What the experiment found of a plant.

@@ -206,7 +206,7 @@ part_cost() {
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip
+    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip
     count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/cosim_check
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// A closed loop broken on purpose, many times, and what came of it.
+//
+// A program runs its loop once up to where it is in control. From there on it
+// is copied, by fork, once for each fault, so that each starts from the same
+// moment; the copy breaks the loop, watches it for a while and prints a row of
+// what it saw. The program is the host's, main.c, or one with a simulated chip.
+#ifndef FAULTS_H
+#define FAULTS_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum fault_kind {
+    FAULT_NONE,       // to see what the loop does by itself
+    FAULT_FLIP,       // a bit of the controller's object
+    FAULT_RESET,      // the chip's
+    FAULT_BROWN_OUT,  // the same, longer, and the RAM is random after it
+    FAULT_HANG,       // the loop goes no further
+    FAULT_HANGS,      // again and again, and each time the watchdog is late
+    FAULT_DEAD_TIMER, // no tick comes any more until a reset
+    FAULT_STUCK,      // the sensor reads what it read
+    FAULT_SHORTED,    // it reads 0
+    FAULT_OPEN,       // it reads full scale
+    FAULT_NOISY,      // noise is added to it
+    FAULT_CLIPPED,    // it does not reach its ends
+    FAULT_INPUT_LOW,  // a potentiometer of a gain, or the set point, is at 0
+    FAULT_INPUT_HIGH, // it is at its other end
+    FAULT_INPUT_MOVED,
+    FAULT_TICKS_LOST, // about every second tick
+    FAULT_TICKS_DOUBLED,
+    FAULT_TICKS_LATE,
+    FAULT_KINDS
+};
+
+struct fault_setting {
+    const char *name; // of the world
+    double value;
+};
+
+#define FAULT_SETTINGS 6u
+#define FAULT_INPUTS 3u
+
+// A loop, and where it is in control.
+struct fault_loop {
+    struct fault_setting settings[FAULT_SETTINGS];
+    const char *value;  // a column of the world's trace
+    const char *target; // another one, or NULL: 0
+    double band;        // in control, the value is within this of the target
+    double fallen;      // beyond this it can not come back by itself; 0: it can
+    double start_s;     // faults begin from here
+    double spread_s;    // to there
+    double watch_s;     // and are watched for so long after their end
+    double longest_s;   // the most that a fault with an end takes
+    double watchdog_s;  // typical, as the data sheet has it
+    uint8_t sensor;     // channels
+    uint8_t inputs[FAULT_INPUTS];
+    size_t input_count;
+    int low; // what the application may ask of its drive
+    int high;
+};
+
+// Bound by the linker: loop_*.c.
+extern const struct fault_loop fault_loop;
+
+// What the program can do to the chip that it simulates. `reset` and `hang`
+// need not return.
+struct fault_chip {
+    unsigned (*object_bits)(void);
+    void (*flip)(unsigned bit);
+    void (*reset)(double dark_s, bool random_ram, double share);
+    void (*hang)(double watchdog_s);
+    void (*stop_timer)(void);
+    void (*shift_ticks)(double ticks); // the same as host_shift_ticks
+};
+
+// The faults with these numbers will be tried; each number is a fault by
+// itself, kinds by turns or only one of them (FAULT_KINDS: all).
+void faults_plan(const char *name, const struct fault_chip *chip, long first,
+                 long count, int kind);
+
+// False: there is no such kind.
+bool faults_kind(const char *name, int *kind);
+
+void faults_heading(void);
+
+// To be called whenever time has passed, at least four times a tick: `drive` is
+// what the pins command and `asked` what the application wanted. Does not
+// return when the last fault has been watched.
+void faults_watch(int drive, int asked);
+
+// To be called after a reset that `reset` has not been asked for.
+void faults_was_reset(void);
+
+// A random number of 32 bits.
+uint32_t faults_random(void);
+
+#endif

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Breaks an application's loop on the host. The application is loaded, and
+// loaded anew at each reset, so that it begins with its own data.
+#include <dlfcn.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdio.h> // Deviation 21.6: a program for a PC
+#include <stdlib.h>
+#include <string.h>
+
+#include "faults.h"
+#include "host.h"
+#include "port_board.h"
+#include "world.h"
+
+#include PROBE_HEADER
+
+#define TEXT_OF(name) #name
+#define TEXT(name) TEXT_OF(name)
+#define TICK_S (1.0 / (double)PORT_TICKS_PER_SECOND)
+#define START_UP_S 2e-3
+#define EXIT_WRONG_USE 2
+
+static void *application;
+static unsigned char *object;
+static const size_t object_size = sizeof(struct PROBE_TYPE);
+static jmp_buf power_on; // Deviation 21.4: a reset leaves the application
+static bool timer_dead;
+static double dead_since_s;
+
+void host_probe(struct host_terms *terms)
+{
+    (void)terms; // there is no trace
+}
+
+void host_report(void)
+{
+    // a row is printed for each fault
+}
+
+static void *found(const char *name)
+{
+    void *const place = dlsym(application, name);
+    if (place == NULL) {
+        (void)fprintf(stderr, "faults: %s\n", dlerror());
+        exit(EXIT_FAILURE);
+    }
+    return place;
+}
+
+static void load(const char *path)
+{
+    application = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (application == NULL) {
+        (void)fprintf(stderr, "faults: %s\n", dlerror());
+        exit(EXIT_FAILURE);
+    }
+    object = found(TEXT(HOST_PROBE_OBJECT));
+}
+
+static unsigned object_bits(void)
+{
+    return (unsigned)(object_size * 8u);
+}
+
+static void flip(unsigned bit)
+{
+    object[bit / 8u] ^= (unsigned char)(1u << (bit % 8u));
+}
+
+static void look(void)
+{
+    faults_watch(host_drive_counts(), host_drive_asked());
+}
+
+// Lets time pass in which no instruction is executed.
+static void stand_still(double seconds)
+{
+    const double end_s = world_time_s() + seconds;
+    while (world_time_s() < end_s) {
+        world_advance(fmin(end_s - world_time_s(), TICK_S / 4.0));
+        look();
+    }
+}
+
+static bool random_ram;
+static double dark_s;
+
+// The host's application takes no time between two calls of the port.
+static void reset(double seconds, bool random, double share)
+{
+    (void)share;
+    host_reset();
+    timer_dead = false;
+    random_ram = random;
+    dark_s = seconds;
+    longjmp(power_on, 1); // Deviation 21.4: see above
+}
+
+static void hang(double watchdog_s)
+{
+    stand_still(fmax(host_fed_s() + watchdog_s - world_time_s(), 0.0));
+    host_reset();
+    look(); // the drive is off
+    faults_was_reset();
+    reset(START_UP_S, false, 0.0);
+}
+
+static void stop_timer(void)
+{
+    timer_dead = true;
+    dead_since_s = world_time_s();
+}
+
+static void watch(void)
+{
+    if (timer_dead) {
+        host_shift_ticks((dead_since_s - world_time_s()) / TICK_S);
+    }
+    look();
+    if ((world_time_s() - host_fed_s()) > fault_loop.watchdog_s) {
+        host_reset();
+        look();
+        faults_was_reset();
+        reset(START_UP_S, false, 0.0);
+    }
+}
+
+static void randomize(void)
+{
+    for (size_t i = 0; i < object_size; i++) {
+        object[i] = (unsigned char)(faults_random() & 0xFFu);
+    }
+}
+
+// Each reset comes back here.
+static void run(const char *path)
+{
+    int (*volatile begin)(void);
+    host_watch = watch;
+    if (setjmp(power_on) != 0) { // Deviation 21.4: see above
+        host_watch = NULL;
+        stand_still(dark_s);
+        (void)dlclose(application);
+        host_watch = watch;
+    }
+    load(path);
+    if (random_ram) {
+        randomize();
+    }
+    // Deviation 11.1: POSIX has functions as dlsym's data.
+    *(void **)(&begin) = found("application_main");
+    (void)begin();
+}
+
+// PROGRAM APPLICATION.so FIRST COUNT [KIND]
+int main(int count, char **arguments)
+{
+    static const struct fault_chip chip = {
+        object_bits, flip, reset, hang, stop_timer, host_shift_ticks};
+    int kind = (int)FAULT_KINDS;
+
+    if ((count < 4) || ((count > 4) && !faults_kind(arguments[4], &kind))) {
+        (void)fprintf(stderr,
+                      "usage: %s APPLICATION.so FIRST COUNT [KIND]\n"
+                      "Breaks the application's loop by the faults FIRST and "
+                      "the next ones: rows of CSV.\n",
+                      arguments[0]);
+        return EXIT_WRONG_USE;
+    }
+    faults_plan(TEXT(FAULTS_NAME), &chip, strtol(arguments[2], NULL, 10),
+                strtol(arguments[3], NULL, 10), kind);
+    faults_heading();
+    run(arguments[1]);
+    return EXIT_FAILURE; // the copies end by themselves
+}
