@@ -151,18 +151,16 @@ end
 
 # Of a chip: the loop's rules, where the simulator has another watchdog, and the
 # turns of all kinds and of the resets alone, each at another place of a pass.
-ChipFaults = Struct.new(:example, :runs, :long_runs, :watchdog_s, :lasting, keyword_init: true) do
+ChipFaults = Struct.new(:example, :runs, :long_runs, :watchdog_s, keyword_init: true) do
   def rules
     usual = FAULT_LOOPS.fetch(example)
-    FaultRules.new(**usual.to_h, watchdog_s: watchdog_s, lasting: lasting || usual.lasting, chip: true)
+    FaultRules.new(**usual.to_h, watchdog_s: watchdog_s, chip: true)
   end
 end
-# gpsim's watchdog of a PIC18F4520 is 4.5 times slower than the chip's. On a PIC18
-# AN937's accumulated error has a byte for its sign, which stays wrong if one of
-# seven of its bits flips.
+# gpsim's watchdog of a PIC18F4520 is 4.5 times slower than the chip's.
 CHIP_FAULTS = {
   'pendulum' => ChipFaults.new(example: 'pendulum', runs: 36, long_runs: 1400, watchdog_s: 17.9e-3),
-  'motor' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 4.5 * 32e-3, lasting: 5.0),
+  'motor' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 4.5 * 32e-3),
   'motor_atmega328p' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 32e-3),
   'oven' => ChipFaults.new(example: 'oven', runs: 0, long_runs: 36, watchdog_s: 4.5 * 32e-3),
   'thermostat' => ChipFaults.new(example: 'thermostat', runs: 0, long_runs: 72, watchdog_s: 4.5 * 32e-3),
