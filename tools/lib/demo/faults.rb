@@ -30,7 +30,7 @@ FAULT_LOOPS = {
   'motor' => FaultRules.new(runs: 600, long_runs: 47_000, tick_s: 1e-3, watchdog_s: 32e-3,
                             duties: -1023..1023, back: 0.5, lasting: 1.0, inputs: 'the set point'),
   'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
-                           duties: 0..1023, back: 40.0, lasting: 2.0, blind: 2e-3,
+                           duties: 0..1023, back: 40.0, lasting: 0.0, blind: 2e-3,
                            inputs: 'the set point'),
   'thermostat' => FaultRules.new(runs: 600, long_runs: 4000, tick_s: 1e-3, watchdog_s: 32e-3,
                                  duties: 0..1023, back: 40.0, lasting: 0.0, blind: 102e-3,
