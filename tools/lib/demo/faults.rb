@@ -19,7 +19,7 @@ WATCHDOG_KINDS = %w[hang hangs dead_timer].freeze
 # fault; `fallen`: or fallen, with the drive off so long after its beginning (nil:
 # it cannot fall); `lasting`: of the flips, percent that may leave the loop out of
 # control until the next reset, as they change what only `init` sets; `blind`: off
-# so soon when the sensor reads an end (nil: the application does not look).
+# so soon when the sensor reads an end for longer.
 FaultRules = Struct.new(:runs, :long_runs, :tick_s, :watchdog_s, :duties, :back, :fallen, :lasting,
                         :blind, :inputs, :chip, keyword_init: true)
 
@@ -28,7 +28,8 @@ FAULT_LOOPS = {
                                duties: -256..256, back: 1.5, fallen: 2.5, lasting: 0.0,
                                blind: 2.0 / 256, inputs: 'the gains'),
   'motor' => FaultRules.new(runs: 600, long_runs: 47_000, tick_s: 1e-3, watchdog_s: 32e-3,
-                            duties: -1023..1023, back: 0.5, lasting: 1.0, inputs: 'the set point'),
+                            duties: -1023..1023, back: 0.5, lasting: 1.0, blind: 25e-3,
+                            inputs: 'the set point'),
   'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
                            duties: 0..1023, back: 40.0, lasting: 0.0, blind: 2e-3,
                            inputs: 'the set point'),
@@ -139,9 +140,7 @@ class Faults
   end
 
   def check_blind
-    return unless rules.blind
-
-    seen = of('shorted', 'open').runs.map(&:off_first_s)
+    seen = of('shorted', 'open').runs.select { |run| run.for_s > rules.blind }.map(&:off_first_s)
     return if seen.empty?
 
     Report.at_least('sensor at an end: off', seen.min, 0.0, 's')

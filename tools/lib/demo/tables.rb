@@ -72,7 +72,7 @@ module Tables
                rules.fallen ? "fallen, and off within #{rules.fallen} s" : "off within #{rules.back} s",
                format('%.1f ms: %d ms and two ticks', 1e3 * (rules.watchdog_s + 2.0 * rules.tick_s),
                       1e3 * rules.watchdog_s),
-               rules.blind ? format('%.1f ms', 1e3 * rules.blind) : 'it is not looked at',
+               format('%.1f ms', 1e3 * rules.blind),
                rules.lasting.zero? ? 'none' : "#{rules.lasting} %"]
             end)
     end
