@@ -12,6 +12,8 @@
 #include <sstream>
 #include <utility>
 
+#include <gpsim/eeprom.h>
+
 #include "parts.hh"
 
 using namespace parts;
@@ -407,6 +409,25 @@ unsigned Chip::ram_bytes() const
         }
     }
     return (unsigned)bytes.size();
+}
+
+static Register *eeprom_cell(pic_processor &chip, unsigned address)
+{
+    EEPROM *const eeprom = chip.get_eeprom();
+    if ((eeprom == nullptr) || (address >= eeprom->get_rom_size())) {
+        throw ChipError(printed("no EEPROM at %03x", address));
+    }
+    return eeprom->get_rom()[address];
+}
+
+unsigned Chip::peek_eeprom(unsigned address) const
+{
+    return eeprom_cell(*self->processor, address)->get_value();
+}
+
+void Chip::poke_eeprom(unsigned address, unsigned value)
+{
+    eeprom_cell(*self->processor, address)->put_value(value & 0xFF);
 }
 
 // ---- Symbols ----

@@ -35,6 +35,8 @@ $defines
       - FIXPID_AN937_OBJECT=oven
     'test_thermostat':
       - FIXPID_PID_OBJECT=thermostat
+    'test_kept':
+      - FIXPID_PID_OBJECT=oven
     'test_autotune_example':
       - FIXPID_PID_OBJECT=oven
       - FIXPID_AUTOTUNE_OBJECT=tuner
