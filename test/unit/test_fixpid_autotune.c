@@ -1647,7 +1647,7 @@ void test_result_sums_at_the_ends_of_what_cycles_have_are_taken(void)
     takes_sums();
     sums->on_steps = 32766;
     takes_sums();
-    sums->all = 32767 * 32767;
+    sums->all = INT32_C(32767) * 32767;
     takes_sums();
 }
 
