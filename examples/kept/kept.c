@@ -102,7 +102,10 @@ static void control(void)
     if (sensed(measurement)) {
         duty = fixpid_pid_step(&oven, setpoint, measurement);
     }
-    port_drive((duty > 0) ? duty : 0);
+    if (duty < 0) {
+        duty = 0;
+    }
+    port_drive(duty);
 }
 
 int main(void)

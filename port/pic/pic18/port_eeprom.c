@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "port_eeprom.h"
 
-#include "registers.h"
+#include "registers_pic18.h"
 
 #define EECON1_RD 0x01u
 #define EECON1_WR 0x02u
