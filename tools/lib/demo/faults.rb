@@ -225,7 +225,8 @@ def number_faults(all)
     some = all.of(kind)
     { 'kind' => kind, 'runs' => some.runs.size, 'back' => some.ended('back'),
       'back_s' => some.longest('back', :back_s), 'off' => some.ended('off'),
-      'fallen' => some.ended('fallen'), 'off_s' => some.longest('fallen', :off_s),
+      'fallen' => some.ended('fallen'),
+      'off_s' => %w[fallen off].map { |how| some.longest(how, :off_s) }.max,
       'out' => some.ended('out'), 'worst' => some.runs.map(&:worst).max,
       'resets' => some.runs.map(&:resets).max.to_i }
   end

@@ -165,7 +165,7 @@ module Tables
       row = Report.numbers["faults #{name}"]['kinds'].find { |one| one['kind'] == kind }
       parts = [["#{row['back']} back", row['back'], row['back_s']],
                ["#{row['fallen']} fallen", row['fallen'], row['off_s']],
-               ["#{row['off']} off", row['off'], nil], ["#{row['out']} out", row['out'], nil]]
+               ["#{row['off']} off", row['off'], row['off_s']], ["#{row['out']} out", row['out'], nil]]
       parts.select { |_, count, _| count.positive? }
            .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
     end
