@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 # What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks of
 # test/proof/breaks.txt that they must notice. Prints a line for each.
-require_relative 'prove/breaks'
 require_relative 'prove/cbmc'
+require_relative 'prove/choice'
+require_relative 'prove/equivalents'
+require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
 require_relative 'prove/proofs'
+require_relative 'prove/seeded'
 
 BUILD = 'build/prove'.freeze
 
@@ -61,8 +64,45 @@ def refute(broken)
   [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
 end
 
+# Adds breaks for the functions that have too few.
+def choose(proofs)
+  choice = Choice.new(proofs, Seeded.all(proofs), BUILD)
+  all_good?(choice.lacking) do |file, function|
+    rows = choice.of(file, function, method(:judge_of))
+    File.open(Seeded::FILE, 'a') { |list| list.puts rows }
+    [true, "#{file}, #{function}: #{rows.size} breaks added"]
+  end
+  few = Seeded.uneven(Seeded.all(proofs))
+  puts few
+  few.empty?
+end
+
+# Whether what is said to change nothing is proved to, or argued.
+def equivalent?(proofs, words)
+  equivalents = Equivalents.new(proofs, BUILD)
+  chosen = equivalents.chosen(words)
+  complaints = equivalents.complaints
+  complaints << "#{Equivalents::FILE} has no line with #{words.join(' and ')}" if chosen.empty?
+  complaints.each { |complaint| puts "FAILED #{complaint}" }
+  all_good?(chosen) { |key| equivalents.judge(key, method(:judge_of)) } && complaints.empty?
+end
+
+# Whether Eva has no alarm but those that are pinned, and those.
+def no_alarms?(words)
+  all = Eva.all
+  chosen = all.select { |eva| words.all? { |word| eva.name.split.include?(word) } }
+  good = all_good?(chosen, &:judge)
+  stale = chosen == all && good ? Eva.pinned - all.flat_map(&:alarms) : []
+  puts stale.map { |alarm| "FAILED #{Eva::ALARMS}: no longer true: #{alarm}" }
+  puts 'FAILED no driver has these words in its name' if chosen.empty?
+  good && stale.empty? && !chosen.empty?
+end
+
 mode, *words = ARGV
 proofs = Proofs.all
+$stdout.sync = true
+exit(equivalent?(proofs, words) ? 0 : 1) if mode == 'equivalents'
+exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
 chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
 if chosen.empty?
   warn "prove: no proof has all of these in its name: #{words.join(' ')} (see --list)"
@@ -73,11 +113,11 @@ if mode == 'list'
   exit 0
 end
 
-$stdout.sync = true
-breaks = Breaks.all(proofs)
-breaks = breaks.select { |broken| chosen.include?(broken.proof) }
+exit(choose(proofs) ? 0 : 1) if mode == 'choose'
+seeded = Seeded.all(proofs)
+breaks = seeded.select { |broken| chosen.include?(broken.proof) }
 breaks = breaks.uniq { |broken| broken.proof.group } if mode == 'quick'
-complaints = Proofs.complaints(proofs) + Breaks.complaints(proofs, Breaks.all(proofs))
+complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
 noticed = all_good?(breaks) { |broken| refute(broken) }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The table of docs/assurance.md, from what tools/prove proves.
-require_relative '../prove/breaks'
+require_relative '../prove/seeded'
 
 # What is proved of each module, in which forms, and with how many breaks.
 module Assurance
@@ -8,7 +8,7 @@ module Assurance
 
   def table
     proofs = Proofs.all
-    breaks = Breaks.all(proofs)
+    breaks = Seeded.all(proofs)
     rows = proofs.group_by(&:group).map { |group, of_group| row(group, of_group, breaks) }
     "| module | proved | forms | proofs | breaks | command |\n|---|---|---|---|---|---|\n#{rows.join}" \
       "| all | | | #{proofs.size} | #{breaks.size} | `tools/prove` |\n"
