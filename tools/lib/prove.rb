@@ -3,6 +3,7 @@
 # test/proof/breaks.txt that they must notice. Prints a line for each.
 require_relative 'prove/cbmc'
 require_relative 'prove/choice'
+require_relative 'prove/coverage'
 require_relative 'prove/equivalents'
 require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
@@ -98,6 +99,16 @@ def no_alarms?(words)
   good && stale.empty? && !chosen.empty?
 end
 
+# Whether the proofs come to all places, but those that are pinned.
+def covered?(proofs, words)
+  forms = Coverage.chosen(proofs, words)
+  puts "FAILED no form has these words in its name: #{words.join(' ')}" if forms.empty?
+  good = all_good?(forms) { |form| form.judge(BUILD) }
+  stale = good && words.empty? ? Coverage.pinned - forms.flat_map(&:unreached) : []
+  puts stale.map { |place| "FAILED #{Coverage::FILE}: no longer true: #{place}" }
+  good && stale.empty? && !forms.empty?
+end
+
 mode, *words = ARGV
 proofs = Proofs.all
 $stdout.sync = true
@@ -113,6 +124,7 @@ if mode == 'list'
   exit 0
 end
 
+exit(covered?(proofs, words) ? 0 : 1) if mode == 'coverage'
 exit(choose(proofs) ? 0 : 1) if mode == 'choose'
 seeded = Seeded.all(proofs)
 breaks = seeded.select { |broken| chosen.include?(broken.proof) }
@@ -121,5 +133,6 @@ complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
 noticed = all_good?(breaks) { |broken| refute(broken) }
+covered = mode == 'quick' || !words.empty? || covered?(proofs, words)
 puts "#{chosen.size} proofs, #{breaks.size} breaks"
-exit(proved && noticed && complaints.empty? ? 0 : 1)
+exit(proved && noticed && covered && complaints.empty? ? 0 : 1)

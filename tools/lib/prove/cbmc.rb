@@ -43,6 +43,20 @@ class Cbmc
     @said.lines.grep_v(%r{^\s*//}).join
   end
 
+  # [file, line, function, block] of each place of src/ => whether some values
+  # come to it; nil without an answer.
+  def places
+    program = compile or return
+    output = "#{@folder}/places.txt"
+    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', 'location', '--unwind', '200', '--drop-unused-functions',
+           in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
+    said = File.read(output)
+    return unless said.match?(/^\*\* \d+ of \d+ covered/)
+
+    said.scan(%r{^\[\S+\] file (?:\./)?(src/\S+) line (\d+) function (\w+) (block \d+) .*: (SATISFIED|FAILED)$})
+        .to_h { |*place, found| [place, found == 'SATISFIED'] }
+  end
+
   private
 
   def tool(name, *arguments)
