@@ -106,9 +106,8 @@ void prove_to_milli(void)
         claim(!accepted);
     } else {
         const uint32_t ki = quotient(gains.ki_q24, rate, (uint32_t)1 << 24);
-        const uint32_t kd =
-            quotient(gains.kd_q8, (uint32_t)15625 << gains.derivative_filter,
-                     rate * 4u);
+        const uint32_t kd = quotient(
+            gains.kd_q8, (uint32_t)15625 << gains.derivative_filter, rate * 4u);
 
         claim(accepted == ((ki != TOO_MUCH) && (kd != TOO_MUCH)));
         if (accepted) {

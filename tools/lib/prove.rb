@@ -43,11 +43,6 @@ rescue ThreadError
   nil # it is empty
 end
 
-# What answers a proof.
-def judge_of(proof)
-  proof.exhausted? ? Exhaustion : Cbmc
-end
-
 # Whether a proof holds, and its line.
 def prove(proof)
   answer = judge_of(proof).new(proof, BUILD).run
@@ -69,7 +64,7 @@ end
 def choose(proofs)
   choice = Choice.new(proofs, Seeded.all(proofs), BUILD)
   all_good?(choice.lacking) do |file, function|
-    rows = choice.of(file, function, method(:judge_of))
+    rows = choice.of(file, function)
     File.open(Seeded::FILE, 'a') { |list| list.puts rows }
     [true, "#{file}, #{function}: #{rows.size} breaks added"]
   end
@@ -85,7 +80,7 @@ def equivalent?(proofs, words)
   complaints = equivalents.complaints
   complaints << "#{Equivalents::FILE} has no line with #{words.join(' and ')}" if chosen.empty?
   complaints.each { |complaint| puts "FAILED #{complaint}" }
-  all_good?(chosen) { |key| equivalents.judge(key, method(:judge_of)) } && complaints.empty?
+  all_good?(chosen) { |key| equivalents.judge(key) } && complaints.empty?
 end
 
 # Whether Eva has no alarm but those that are pinned, and those.

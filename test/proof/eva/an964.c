@@ -27,7 +27,8 @@ static void call_any(struct fixpid_an964 *c)
 
 void eva(void)
 {
-    const struct fixpid_an964_gains gains = {ANY_UINT16, ANY_UINT16, ANY_UINT16};
+    const struct fixpid_an964_gains gains = {ANY_UINT16, ANY_UINT16,
+                                             ANY_UINT16};
     struct fixpid_an964 c;
 
     (void)fixpid_an964_init(&c, &gains);

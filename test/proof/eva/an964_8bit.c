@@ -27,7 +27,8 @@ static void call_any(struct fixpid_an964_8bit *c)
 
 void eva(void)
 {
-    const struct fixpid_an964_8bit_gains gains = {ANY_UINT8, ANY_UINT8, ANY_UINT8};
+    const struct fixpid_an964_8bit_gains gains = {ANY_UINT8, ANY_UINT8,
+                                                  ANY_UINT8};
     struct fixpid_an964_8bit c;
 
     (void)fixpid_an964_8bit_init(&c, &gains);

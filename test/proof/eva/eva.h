@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the drivers for Frama-C's Eva are written with. A driver takes any
-// configuration, makes an object of memory that was never written, and calls all
-// functions with any arguments, in any order, for ever. Eva then names each place
-// where C could leave something undefined, or none.
+// configuration, makes an object of memory that was never written, and calls
+// all functions with any arguments, in any order, for ever. Eva then names each
+// place where C could leave something undefined, or none.
 #ifndef EVA_H
 #define EVA_H
 #include <stdint.h>

@@ -35,12 +35,12 @@ class Cbmc
     @said.scan(/^\w+ -> (\w+)$/).flatten.uniq
   end
 
-  # What it does, without the places of its lines.
+  # What it does, without the places of its lines and of its file.
   def instructions
     program = compile or return @said
     tool('goto-instrument', '--drop-unused-functions', program, "#{program}-used") or abort "prove: #{@proof.name}: #{@said}"
     tool('goto-instrument', '--show-goto-functions', "#{program}-used")
-    @said.lines.grep_v(%r{^\s*//}).join
+    @said.lines.grep_v(%r{^\s*//|^Reading GOTO program}).join
   end
 
   # [file, line, function, block] of each place of src/ => whether some values

@@ -2,7 +2,7 @@
 # Finds breaks that a proof notices, for the functions that have too few.
 require 'open3'
 require_relative '../mutants/breaks'
-require_relative 'cbmc'
+require_relative 'exhaustion'
 require_relative 'seeded'
 
 # Takes the breaks of tools/lib/mutants and asks the proofs that reach a
@@ -26,7 +26,7 @@ class Choice
   end
 
   # What is noticed of a function's breaks: the rows that are to be added.
-  def of(file, function, judge)
+  def of(file, function)
     needed = Seeded.lacking(@breaks).fetch([file, function])
     proofs = proofs_of(file, function)
     failures = Hash.new(0)
@@ -35,7 +35,7 @@ class Choice
       break if found.size == needed
 
       broken = proofs.map { |proof| Broken.new(proof, file, function, whole, instead, "#{function}_#{file.hash}") }
-                     .find { |one| noticed?(one, judge, failures) }
+                     .find { |one| noticed?(one, failures) }
       found << broken.row if broken
       proofs = better(proofs, broken, failures)
     end
@@ -44,8 +44,8 @@ class Choice
 
   private
 
-  def noticed?(broken, judge, failures)
-    answer = broken.in_tree(@build) { |tree| judge.call(broken.proof).new(broken.proof, @build, tree, SECONDS).run }
+  def noticed?(broken, failures)
+    answer = broken.in_tree(@build) { |tree| judge_of(broken.proof).new(broken.proof, @build, tree, SECONDS).run }
     failures[broken.proof] += 1 unless answer.verdict == :refuted
     answer.verdict == :refuted
   end

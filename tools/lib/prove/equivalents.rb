@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Whether what test/mutants/equivalent.txt says to change nothing is proved to.
-require 'open3'
 require_relative '../mutants/breaks'
 require_relative '../mutants/excuses'
-require_relative 'cbmc'
+require_relative 'exhaustion'
 require_relative 'seeded'
 
 # A mutant is shown to change nothing if each proof whose program it changes still
@@ -38,12 +37,12 @@ class Equivalents
   end
 
   # Whether what is said of a line is true, and what to print.
-  def judge(key, judge)
+  def judge(key)
     file = key[/\A[^:,]+/]
     mutant = mutants(file)[key] or return [false, "#{key}: there is no such line"]
     return [true, "#{key}: argued, as #{Seeded::UNPROVED} has it"] if Seeded.unproved?(file, function_of(mutant))
 
-    held, why = Seeded.in_tree(@build, "equal_#{key.hash}", file, mutant.source) { |tree| shown(mutant, key, tree, judge) }
+    held, why = Seeded.in_tree(@build, "equal_#{key.hash}", file, mutant.source) { |tree| shown(mutant, key, tree) }
     if @argued.cover?(key)
       [!held, held ? "#{key}: argued in #{ARGUED}, and proved: #{why}" : "#{key}: argued, as #{why}"]
     else
@@ -54,7 +53,7 @@ class Equivalents
   private
 
   # Whether all proofs that it changes hold, and by which, or why not.
-  def shown(mutant, key, tree, judge)
+  def shown(mutant, key, tree)
     macro = key[/: #define (\w+)/, 1]
     changed = proofs_of(mutant).select { |proof| program(proof, '.') != program(proof, tree) }
     return [false, 'no proof of what it does comes to it'] if changed.all? { |proof| WEAK.include?(proof.what) }
@@ -63,7 +62,7 @@ class Equivalents
     return [false, "the definition in #{defined.harness} has it, too"] if defined
 
     changed.sort_by { |proof| reaches(proof).size }.each do |proof|
-      answer = judge.call(proof).new(proof, @build, tree).run
+      answer = judge_of(proof).new(proof, @build, tree).run
       return [false, "#{proof.name} is not proved of it: #{answer.why}"] unless answer.verdict == :proved
     end
     [true, "proved by #{changed.map(&:name).join(', ')}"]
@@ -91,7 +90,7 @@ class Equivalents
   end
 
   def words_of(proof)
-    preprocessed(proof, '.').scan(/\w+/).uniq
+    of_tree(proof, '.').scan(/\w+/).uniq
   end
 
   # What is proved of the sources of a tree.
@@ -102,11 +101,7 @@ class Equivalents
   end
 
   def of_tree(proof, tree)
-    proof.exhausted? ? preprocessed(proof, tree) : Cbmc.new(proof, @build, tree).instructions
-  end
-
-  def preprocessed(proof, tree)
-    Open3.capture2('cc', '-std=c99', '-E', '-P', *proof.options, "-I#{tree}/include", "-I#{tree}/src", proof.harness).first
+    judge_of(proof).new(proof, @build, tree).instructions
   end
 
   # Whether a harness uses a macro of a file, or one that is made with it.

@@ -26,6 +26,11 @@ class Exhaustion
     File.delete(@program) if File.exist?(@program)
   end
 
+  # What is tried, with the sources of the tree.
+  def instructions
+    Open3.capture2('cc', '-std=c99', '-E', '-P', *@proof.options, "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness).first
+  end
+
   private
 
   def judge(said, status, seconds)
@@ -34,4 +39,9 @@ class Exhaustion
 
     Answer.new(status.exitstatus == 1 ? :refuted : :none, said, 0, seconds, 0)
   end
+end
+
+# What answers a proof.
+def judge_of(proof)
+  proof.exhausted? ? Exhaustion : Cbmc
 end
