@@ -7,8 +7,8 @@ require_relative 'seeded'
 
 # A mutant is shown to change nothing if each proof whose program it changes still
 # holds, and there is one that says what must follow. Where it does not hold, or there is none, the
-# line must stand in `argued.txt`, below the reason. What unproved.txt names is
-# argued anyway.
+# line must stand in `argued.txt`, below the reason. What unproved.txt names, and
+# macros of headers, are argued anyway.
 class Equivalents
   # They say that nothing bad follows, and not what must.
   WEAK = %w[total total_rest refused].freeze
@@ -40,7 +40,7 @@ class Equivalents
   def judge(key)
     file = key[/\A[^:,]+/]
     mutant = mutants(file)[key] or return [false, "#{key}: there is no such line"]
-    return [true, "#{key}: argued, as #{Seeded::UNPROVED} has it"] if Seeded.unproved?(file, function_of(mutant))
+    return [true, "#{key}: argued, as nothing is proved of it"] if unproved?(mutant)
 
     held, why = Seeded.in_tree(@build, "equal_#{key.hash}", file, mutant.source) { |tree| shown(mutant, key, tree) }
     if @argued.cover?(key)
@@ -73,6 +73,11 @@ class Equivalents
       @mutants ||= {}
       @mutants[file] ||= Excuses.keys(Breaks.of(file), File.read(file)).invert
     end
+  end
+
+  # Named so, or a macro that only a compiler folds.
+  def unproved?(mutant)
+    mutant.file.start_with?('include/') || Seeded.unproved?(mutant.file, function_of(mutant))
   end
 
   def function_of(mutant)
