@@ -951,7 +951,7 @@ static void is_model(struct fixpid_autotune_model expected)
 // What a function leaves unset on the stack is a large number.
 static void fill_stack(void)
 {
-    volatile uint8_t bytes[1024];
+    volatile uint8_t bytes[512];
 
     for (unsigned i = 0; i < sizeof bytes; i++) {
         bytes[i] = 1;
