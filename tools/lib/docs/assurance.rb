@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The table of docs/assurance.md: what is claimed, how it is known, of how much, and
 # the command that shows it. What can be counted is counted here.
-require_relative '../prove/breaks'
+require_relative '../prove/seeded'
 require_relative '../demo/plot'
 require_relative '../demo/clouds'
 require_relative '../demo/faults'
@@ -45,7 +45,7 @@ module Assurance
   end
 
   def proved
-    breaks = Breaks.all(Proofs.all)
+    breaks = Seeded.all(Proofs.all)
     groups.except(LEAVES).map do |group, proofs|
       noticed = breaks.count { |broken| broken.proof.group == group }
       Claim.new('proved', of_the_proofs(group, proofs), "#{proofs.size} proofs in the forms " \

@@ -259,4 +259,5 @@ part_proofs() {
 part_prove() {
     need ruby cc:gcc
     count 'tools/prove' '^ok ' '^FAILED ' tools/prove
+    count 'tools/prove --eva' '^ok ' '^FAILED ' tools/prove --eva
 }
