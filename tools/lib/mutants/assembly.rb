@@ -5,8 +5,9 @@
 # for its twin, with the other destination, with a number one off. The chips'
 # simulators must answer otherwise than the host to the rows of test/target/arith.c,
 # or a break must stand in test/mutants/assembly.txt with the reason why it changes
-# nothing. Called by tools/test assembly, after test/target/run arith, with SDCC in
-# the environment; with names of files only those are broken. It takes hours.
+# nothing. build/test/assembly.txt says of each break who noticed it, as it goes.
+# Called by tools/test assembly, after test/target/run arith, with SDCC in the
+# environment; with names of files only those are broken.
 require 'fileutils'
 require 'open3'
 require_relative 'breaks'
@@ -100,38 +101,47 @@ module Instructions
   end
 end
 
-# A chip's program with a broken source, and what it answers.
+# A chip's program with a broken source, and what it answers: in a folder of its
+# own, for two may be asked at a time.
 class Board
-  ROOT = 'build/assembly'
-  SECONDS_MOST = 60 # of a processor's time; the longest whole run takes 10
   EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
 
-  def self.of(file)
-    file.start_with?('src/avr/') ? Avr.new(file) : Pic.new(file)
+  def self.of(file, folder)
+    file.start_with?('src/avr/') ? Avr.new(file, folder) : Pic.new(file, folder)
   end
 
-  def initialize(file)
+  def initialize(file, folder)
     @file = file
-    @source = "#{ROOT}/src"
-    FileUtils.mkdir_p(ROOT)
-    @whole = File.read(file)
+    @folder = folder
+    @source = "#{folder}/src"
+    FileUtils.rm_rf(folder)
+    FileUtils.mkdir_p(folder)
+    FileUtils.cp_r('src', @source)
   end
 
-  # :refused, :endless, :different, or nil if every answer is right.
+  # In the first way that does: :refused, :endless, :different; or nil if every
+  # answer is right.
   def notice(text)
-    FileUtils.rm_rf(@source)
-    FileUtils.cp_r('src', @source)
     File.write("#{@source}/#{@file.delete_prefix('src/')}", text)
     ways.each do |way|
       return :refused unless build(way)
 
-      found = answers
+      found = changed?(way) && answers
       return found if found
     end
     nil
   end
 
   private
+
+  # Of what is the same instruction for instruction there is nothing to ask. The
+  # first of each way is unbroken, and is asked.
+  def changed?(way)
+    @unbroken ||= {}
+    bytes = File.binread(code)
+    whole = @unbroken[way] ||= bytes
+    whole.equal?(bytes) || whole != bytes
+  end
 
   def built?(*command)
     _, status = Open3.capture2e(*command)
@@ -140,47 +150,52 @@ class Board
 end
 
 class Pic < Board
-  def initialize(file)
+  SECONDS_MOST = 60 # of a processor's time; the longest whole run takes 10
+  # What an object at a fixed address in access RAM has of its own.
+  PLACED = %w[-DFIXPID_AN937_PLACE=__at(0x20) -DFIXPID_AN937_SIGNALS_PLACE=__at(0x38)].freeze
+
+  def initialize(file, folder)
     super
     @controller, family = file.match(%r{fixpid_(\w+)_(pic1[48])\.c\z}).captures
     @chip = { 'pic14' => 'pic16f684', 'pic18' => 'pic18f4520' }.fetch(family)
-    @image = "#{ROOT}/#{@controller}-#{@chip}"
+    @image = "#{folder}/#{@controller}"
     @own = file.delete_prefix('src/')
   end
 
   private
 
+  # AN937 has other instructions for an object in access RAM, and for one that is
+  # pointed at.
   def ways
-    [nil]
+    object = ["-DFIXPID_#{@controller.upcase}_OBJECT=#{@controller}_controller"]
+    @controller == 'an937' ? [object, object + PLACED, []] : [object]
   end
 
-  def build(_way)
+  def build(way)
     board = "port/pic/#{@chip}"
     built?('tools/lib/build_pic', @chip, @image, '-Iinclude', '-Itest/target', '-Iport', '-Iport/pic', "-I#{board}",
-            "-DREPLY=#{@controller}_arith", "-DFIXPID_#{@controller.upcase}_OBJECT=#{@controller}_controller", *EVERY_BIT,
-            "-I#{@source}", 'test/target/driver_main.c', 'test/target/arith.c', "test/target/arith_#{@controller}.c",
-            "#{@source}/#{@own}")
+           "-DREPLY=#{@controller}_arith", *way, *EVERY_BIT, "-I#{@source}", 'test/target/driver_main.c', 'test/target/arith.c',
+           "test/target/arith_#{@controller}.c", "#{@source}/#{@own}")
   end
 
-  # Some rows first: they notice nearly all.
+  def code
+    "#{@image}.hex"
+  end
+
   def answers
-    rows(61) || rows(1)
-  end
-
-  def rows(apart)
-    output, status = Open3.capture2e('build/target/digests', "#{@image}.cod", @controller, apart.to_s,
+    output, status = Open3.capture2e('build/target/digests', "#{@image}.cod", @controller,
                                      rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1])
-    return :endless if status.termsig == Signal.list['XCPU']
+    return :endless if status.termsig == Signal.list['XCPU'] || output.include?('no answer')
 
     output.match?(/ different 0$/) ? nil : :different
   end
 end
 
 class Avr < Board
-  PROGRAM = "#{ROOT}/arith.elf"
+  SECONDS_MOST = 30 # from one line to the next; the longest takes 3
   FLAGS = %w[-std=gnu99 -w -Iinclude -Itest/support -Itest/target].freeze
 
-  def initialize(file)
+  def initialize(file, folder)
     super
     @sources = [main(file[/fixpid_(\w+)_avr/, 1]), *Dir['test/target/arith*.c'] - ['test/target/arith_main.c']]
   end
@@ -192,8 +207,8 @@ class Avr < Board
     text = File.readlines('test/target/arith_main.c').reject do |line|
       line.match?(/^    (?:all_rows|add_row|print_digest)\("?\w/) && !line.match?(/\b#{controller}(?:_arith)?\b/)
     end
-    File.write("#{ROOT}/main.c", text.join)
-    "#{ROOT}/main.c"
+    File.write("#{@folder}/main.c", text.join)
+    "#{@folder}/main.c"
   end
 
   # What a function leaves in its registers is another one's with each.
@@ -202,61 +217,116 @@ class Avr < Board
   end
 
   def build(way)
-    built?('avr-gcc', '-mmcu=atmega2560', *FLAGS, *way, *EVERY_BIT, "-I#{@source}", *@sources, 'test/avr/avr_stdio.c', '-o', PROGRAM)
+    built?('avr-gcc', '-mmcu=atmega2560', *FLAGS, *way, *EVERY_BIT, "-I#{@source}", *@sources, 'test/avr/avr_stdio.c', '-o', program) &&
+      built?('avr-objcopy', '-O', 'binary', program, code)
+  end
+
+  def program
+    "#{@folder}/arith.elf"
+  end
+
+  def code
+    "#{@folder}/arith.bin"
   end
 
   def expected
     @expected ||= begin
-      host = "#{ROOT}/arith.host"
+      host = "#{@folder}/arith.host"
       built?('gcc', *FLAGS, '-O2', '-Itest/target/shim', *EVERY_BIT, '-Isrc', *@sources, '-o', host) or
         abort 'FAILED the host has no answers'
       Open3.capture2(host).first.lines
     end
   end
 
-  # It is stopped at the first line that is another one.
+  # It is stopped at the first line that is another one, or does not come.
   def answers
-    lines = 0
-    Open3.popen2e('test/avr/run', PROGRAM, 'atmega2560', pgroup: true) do |input, output, process|
+    found = nil
+    Open3.popen2e('test/avr/run', program, 'atmega2560', pgroup: true) do |input, output, process|
       input.close
-      good = expected.all? { |line| IO.select([output], nil, nil, SECONDS_MOST) && output.gets == line && lines += 1 }
-      Process.kill('KILL', -process.pid) unless good
+      expected.each do |line|
+        found = :endless unless IO.select([output], nil, nil, SECONDS_MOST)
+        found ||= :different unless output.gets == line
+        break if found
+      end
+      Process.kill('KILL', -process.pid) if found
     end
-    lines == expected.size ? nil : :different
+    found
   rescue Errno::ESRCH
-    :different
+    found
+  end
+end
+
+# All breaks of a file, by two boards.
+class Broken
+  ROOT = 'build/assembly'
+  WORKERS = 2
+
+  def initialize(file, excuses, report)
+    @file = file
+    @excuses = excuses
+    @report = report
+    @text = File.read(file)
+    @breaks = Instructions.breaks(file, @text)
+  end
+
+  def judge
+    caught = results
+    survivors = @breaks.reject { |mutant| caught[mutant] }.map { |mutant| keys.fetch(mutant) }
+    unexplained = survivors.reject { |key| @excuses.cover?(key) }
+    stale = @excuses.stale(@file, survivors)
+    held = unexplained.empty? && stale.empty?
+    ends = caught.values.tally
+    ends.default = 0
+    puts "#{held ? 'ok' : 'FAILED'} #{@file}: #{@breaks.size} breaks of #{Instructions.places(@text).size} instructions, " \
+         "#{ends[:different]} answer otherwise, #{ends[:endless]} do not end, #{ends[:refused]} are refused, " \
+         "#{survivors.size} change nothing"
+    puts unexplained.map { |key| "Nobody notices: #{key}" }, stale.map { |key| "No longer true: #{key}" }
+    held
+  end
+
+  private
+
+  def keys
+    @keys ||= Excuses.keys(@breaks, @text)
+  end
+
+  def results
+    queue = Queue.new
+    @breaks.each { |mutant| queue << mutant }
+    queue.close
+    found = {}
+    lock = Mutex.new
+    workers = (0...WORKERS).map do |worker|
+      Thread.new { work(queue, Board.of(@file, "#{ROOT}/#{worker}")) { |mutant, by| lock.synchronize { found[mutant] = tell(mutant, by) } } }
+    end
+    workers.each(&:join)
+    found
+  end
+
+  def work(queue, board)
+    board.notice(@text).nil? or abort "FAILED #{@file}: the unbroken one is noticed"
+    while (mutant = queue.pop)
+      yield mutant, board.notice(mutant.source)
+    end
+  end
+
+  def tell(mutant, noticed)
+    @report.puts "#{keys.fetch(mutant)}: #{noticed || 'nobody'}"
+    @report.flush
+    noticed
   end
 end
 
 if $PROGRAM_NAME == __FILE__
   $stdout.sync = true
+  Thread.abort_on_exception = true
   excuses = Excuses.new('test/mutants/assembly.txt')
   files = Dir['src/{avr,pic14,pic18}/*.[ch]'].sort.reject { |file| Instructions.places(File.read(file)).empty? }
   files.empty? and abort 'FAILED no assembly to break'
-  chosen = ARGV.empty? ? files : files & ARGV
+  strangers = excuses.strangers(files)
+  puts strangers.map { |key| "FAILED test/mutants/assembly.txt names what is not broken: #{key}" }
   FileUtils.mkdir_p('build/test')
   report = File.open('build/test/assembly.txt', 'w')
-  good = chosen.map do |file|
-    board = Board.of(file)
-    board.notice(File.read(file)).nil? or abort "FAILED #{file}: the unbroken one is noticed"
-    breaks = Instructions.breaks(file)
-    keys = Excuses.keys(breaks, File.read(file))
-    caught = breaks.to_h do |mutant|
-      found = board.notice(mutant.source)
-      report.puts "#{mutant}: #{found || 'nobody'}"
-      report.flush
-      [mutant, found]
-    end
-    survivors = breaks.reject { |mutant| caught[mutant] }.map { |mutant| keys.fetch(mutant) }
-    unexplained = survivors.reject { |key| excuses.cover?(key) }
-    stale = excuses.stale(file, survivors)
-    ends = caught.values.tally
-    held = unexplained.empty? && stale.empty?
-    puts "#{held ? 'ok' : 'FAILED'} #{file}: #{breaks.size} breaks of #{Instructions.places(File.read(file)).size} instructions, " \
-         "#{ends[:different].to_i} answer otherwise, #{ends[:endless].to_i} do not end, #{ends[:refused].to_i} are refused, " \
-         "#{survivors.size} change nothing"
-    puts unexplained.map { |key| "Nobody notices: #{key}" }, stale.map { |key| "No longer true: #{key}" }
-    held
-  end
-  exit(good.all? ? 0 : 1)
+  good = (ARGV.empty? ? files : files & ARGV).map { |file| Broken.new(file, excuses, report).judge }
+  exit(good.all? && strangers.empty? ? 0 : 1)
 end
