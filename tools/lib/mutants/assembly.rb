@@ -150,6 +150,7 @@ class Board
 end
 
 class Pic < Board
+  TRAPS = { 'pic14' => [], 'pic18' => ['test/target/traps.asm'] }.freeze # SDCC ends a function of a PIC16 itself
   SECONDS_MOST = 60 # of a processor's time; the longest whole run takes 10
   # What an object at a fixed address in access RAM has of its own.
   PLACED = %w[-DFIXPID_AN937_PLACE=__at(0x20) -DFIXPID_AN937_SIGNALS_PLACE=__at(0x38)].freeze
@@ -157,6 +158,7 @@ class Pic < Board
   def initialize(file, folder)
     super
     @controller, family = file.match(%r{fixpid_(\w+)_(pic1[48])\.c\z}).captures
+    @traps = TRAPS.fetch(family)
     @chip = { 'pic14' => 'pic16f684', 'pic18' => 'pic18f4520' }.fetch(family)
     @image = "#{folder}/#{@controller}"
     @own = file.delete_prefix('src/')
@@ -175,7 +177,7 @@ class Pic < Board
     board = "port/pic/#{@chip}"
     built?('tools/lib/build_pic', @chip, @image, '-Iinclude', '-Itest/target', '-Iport', '-Iport/pic', "-I#{board}",
            "-DREPLY=#{@controller}_arith", *way, *EVERY_BIT, "-I#{@source}", 'test/target/driver_main.c', 'test/target/arith.c',
-           "test/target/arith_#{@controller}.c", "#{@source}/#{@own}")
+           "test/target/arith_#{@controller}.c", "#{@source}/#{@own}", *@traps)
   end
 
   def code
