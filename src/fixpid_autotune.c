@@ -250,21 +250,6 @@ static int16_t deviation_from(int16_t setpoint, int16_t measurement)
     return (int16_t)difference;
 }
 
-static void step_experiment(FIXPID_DATA struct fixpid_autotune *self,
-                            int16_t setpoint, int16_t measurement)
-{
-    int16_t deviation = deviation_from(setpoint, measurement);
-
-    if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
-        deviation = (int16_t)-deviation;
-    }
-    if (SELF.state == PHASE_NOISE) {
-        measure_noise(self, deviation);
-    } else {
-        step_relay(self, deviation);
-    }
-}
-
 // Within the range as it stands, also if a bit of the output was flipped.
 static int16_t limited_output(FIXPID_DATA const struct fixpid_autotune *self)
 {
@@ -287,7 +272,16 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
         if (status != FIXPID_AUTOTUNE_RUNNING) {
             fixpid_autotune_finish(self, status);
         } else {
-            step_experiment(self, setpoint, measurement);
+            int16_t deviation = deviation_from(setpoint, measurement);
+
+            if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+                deviation = (int16_t)-deviation;
+            }
+            if (SELF.state == PHASE_NOISE) {
+                measure_noise(self, deviation);
+            } else {
+                step_relay(self, deviation);
+            }
         }
     }
     return limited_output(self);
