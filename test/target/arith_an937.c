@@ -19,15 +19,37 @@ static void add_sum(void)
         (uint32_t)fixpid_number_term(TESTED.ki_q4, &TESTED.accumulated_error));
 }
 
-// Three products of one sign, and with the middle one of the other.
+// Three products of one sign, and with the middle one of the other; the error
+// has 16 bits, so that one beyond has the other sign.
 static void add_sums(uint16_t left, uint16_t right)
 {
-    fixpid_number_difference(&TESTED.error, left, right);
+    fixpid_number_set(&TESTED.error, (int16_t)(left - right));
     fixpid_number_difference(&TESTED.accumulated_error, left, right);
     fixpid_number_difference(&TESTED.delta, left, right);
     add_sum();
     fixpid_number_difference(&TESTED.accumulated_error, right, left);
     add_sum();
+}
+
+// Sums around -2^24 and 2^24, where they are limited: 128 * 2 * 65535 + error.
+static void add_ends(void)
+{
+    int16_t error = 512;
+
+    TESTED.kp_q4 = 1;
+    TESTED.ki_q4 = 128;
+    TESTED.kd_q4 = 128;
+    while (error != 0) {
+        error--;
+        fixpid_number_set(&TESTED.error, error);
+        fixpid_number_difference(&TESTED.accumulated_error, 65535u, 0);
+        fixpid_number_difference(&TESTED.delta, 65535u, 0);
+        add_sum();
+        fixpid_number_set(&TESTED.error, (int16_t)-error);
+        fixpid_number_difference(&TESTED.accumulated_error, 0, 65535u);
+        fixpid_number_difference(&TESTED.delta, 0, 65535u);
+        add_sum();
+    }
 }
 
 // A number that is set, and two sums.
@@ -53,6 +75,9 @@ void an937_arith(void)
     uint16_t magnitude = 0;
 
     arith_begin();
+    if (arith_row == 0u) { // its gains are 0
+        add_ends();
+    }
     TESTED.kp_q4 = (uint8_t)arith_row;
     TESTED.ki_q4 = (uint8_t)arith_row;
     TESTED.kd_q4 = (uint8_t)arith_row;

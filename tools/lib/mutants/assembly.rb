@@ -125,22 +125,28 @@ class Board
     File.write("#{@source}/#{@file.delete_prefix('src/')}", text)
     ways.each do |way|
       return :refused unless build(way)
+      # Of what is the same instruction for instruction there is nothing to ask.
+      next if File.binread(code) == @whole[way]
 
-      found = changed?(way) && answers
+      found = answers
       return found if found
     end
     nil
   end
 
+  # The file as it is, first; and what it answers, if that is to be asked.
+  def learn(asked)
+    @whole = ways.to_h do |way|
+      build_whole(way) or abort "FAILED #{@file} cannot be built"
+      asked && answers and abort "FAILED #{@file}: the unbroken one is noticed"
+      [way, File.binread(code)]
+    end
+  end
+
   private
 
-  # Of what is the same instruction for instruction there is nothing to ask. The
-  # first of each way is unbroken, and is asked.
-  def changed?(way)
-    @unbroken ||= {}
-    bytes = File.binread(code)
-    whole = @unbroken[way] ||= bytes
-    whole.equal?(bytes) || whole != bytes
+  def build_whole(way)
+    build(way)
   end
 
   def built?(*command)
@@ -176,8 +182,25 @@ class Pic < Board
   def build(way)
     board = "port/pic/#{@chip}"
     built?('tools/lib/build_pic', @chip, @image, '-Iinclude', '-Itest/target', '-Iport', '-Iport/pic', "-I#{board}",
-           "-DREPLY=#{@controller}_arith", *way, *EVERY_BIT, "-I#{@source}", 'test/target/driver_main.c', 'test/target/arith.c',
-           "test/target/arith_#{@controller}.c", "#{@source}/#{@own}", *@traps)
+           "-DREPLY=#{@controller}_arith", *way, *EVERY_BIT, "-I#{@source}", *others(way), "#{@source}/#{@own}", *@traps)
+  end
+
+  # What asks stays as it is. (A PIC16's is compiled with the bank of all.)
+  def build_whole(way)
+    build(way) or return false
+    return true if @chip == 'pic16f684'
+
+    kept = "#{@folder}/others#{ways.index(way)}"
+    FileUtils.mkdir_p(kept)
+    objects = others(way).map { |file| "#{@image}.d/#{File.basename(file, '.*')}.o" }
+    FileUtils.cp(objects, kept)
+    @others[way] = objects.map { |object| "#{kept}/#{File.basename(object)}" }
+    true
+  end
+
+  def others(way)
+    @others ||= {}
+    @others[way] || ['test/target/driver_main.c', 'test/target/arith.c', "test/target/arith_#{@controller}.c"]
   end
 
   def code
@@ -299,17 +322,17 @@ class Broken
     found = {}
     lock = Mutex.new
     workers = (0...WORKERS).map do |worker|
-      Thread.new { work(queue, Board.of(@file, "#{ROOT}/#{worker}")) { |mutant, by| lock.synchronize { found[mutant] = tell(mutant, by) } } }
+      Thread.new do
+        board = Board.of(@file, "#{ROOT}/#{worker}")
+        board.learn(worker.zero?)
+        while (mutant = queue.pop)
+          noticed = board.notice(mutant.source)
+          lock.synchronize { found[mutant] = tell(mutant, noticed) }
+        end
+      end
     end
     workers.each(&:join)
     found
-  end
-
-  def work(queue, board)
-    board.notice(@text).nil? or abort "FAILED #{@file}: the unbroken one is noticed"
-    while (mutant = queue.pop)
-      yield mutant, board.notice(mutant.source)
-    end
   end
 
   def tell(mutant, noticed)
