@@ -9,10 +9,18 @@ FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE an937_controller;
 
 static uint8_t flags;
 
+// Who calls may have selected any bank.
+#if defined(__SDCC_pic16)
+#define SELECT_ANOTHER_BANK() __asm movlb 15 __endasm
+#else
+#define SELECT_ANOTHER_BANK()
+#endif
+
 // The products and their sum, with its division.
 static void add_sum(void)
 {
     flags = 0;
+    SELECT_ANOTHER_BANK();
     arith_add((uint32_t)fixpid_an937_output(&TESTED, &flags));
     arith_add(flags);
     arith_add(
@@ -31,10 +39,11 @@ static void add_sums(uint16_t left, uint16_t right)
     add_sum();
 }
 
-// Sums around -2^24 and 2^24, where they are limited: 128 * 2 * 65535 + error.
+// Sums around -2^24 and 2^24, where they are limited: 128 * (65535 + 65533) and
+// the error.
 static void add_ends(void)
 {
-    int16_t error = 512;
+    int16_t error = 1024;
 
     TESTED.kp_q4 = 1;
     TESTED.ki_q4 = 128;
@@ -43,12 +52,27 @@ static void add_ends(void)
         error--;
         fixpid_number_set(&TESTED.error, error);
         fixpid_number_difference(&TESTED.accumulated_error, 65535u, 0);
-        fixpid_number_difference(&TESTED.delta, 65535u, 0);
+        fixpid_number_difference(&TESTED.delta, 65533u, 0);
         add_sum();
         fixpid_number_set(&TESTED.error, (int16_t)-error);
         fixpid_number_difference(&TESTED.accumulated_error, 0, 65535u);
-        fixpid_number_difference(&TESTED.delta, 0, 65535u);
+        fixpid_number_difference(&TESTED.delta, 0, 65533u);
         add_sum();
+    }
+}
+
+// Sums of which some bytes are 0: 128 * error.
+static void add_round(void)
+{
+    int16_t error = INT16_MIN;
+
+    TESTED.kp_q4 = 128;
+    TESTED.ki_q4 = 0;
+    TESTED.kd_q4 = 0;
+    while (error != 0) {
+        fixpid_number_set(&TESTED.error, error);
+        add_sum();
+        error = (int16_t)(error + 512);
     }
 }
 
@@ -77,6 +101,7 @@ void an937_arith(void)
     arith_begin();
     if (arith_row == 0u) { // its gains are 0
         add_ends();
+        add_round();
     }
     TESTED.kp_q4 = (uint8_t)arith_row;
     TESTED.ki_q4 = (uint8_t)arith_row;
