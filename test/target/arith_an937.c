@@ -9,11 +9,13 @@ FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE an937_controller;
 
 static uint8_t flags;
 
-// Who calls may have selected any bank.
+// Who calls may have selected any bank, and left FSR0 anywhere.
 #if defined(__SDCC_pic16)
 #define SELECT_ANOTHER_BANK() __asm movlb 15 __endasm
+#define POINT_ELSEWHERE() __asm lfsr 0, 0x700 __endasm
 #else
 #define SELECT_ANOTHER_BANK()
+#define POINT_ELSEWHERE()
 #endif
 
 // The products and their sum, with its division.
@@ -23,6 +25,7 @@ static void add_sum(void)
     SELECT_ANOTHER_BANK();
     arith_add((uint32_t)fixpid_an937_output(&TESTED, &flags));
     arith_add(flags);
+    POINT_ELSEWHERE();
     arith_add(
         (uint32_t)fixpid_number_term(TESTED.ki_q4, &TESTED.accumulated_error));
 }

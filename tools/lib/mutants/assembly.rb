@@ -84,10 +84,10 @@ class Pic < Board
   private
 
   # AN937 has other instructions for an object in access RAM, and for one that is
-  # pointed at.
+  # pointed at, wherever it is.
   def ways
     object = ["-DFIXPID_#{@controller.upcase}_OBJECT=#{@controller}_controller"]
-    @controller == 'an937' ? [object, object + PLACED, []] : [object]
+    @controller == 'an937' ? [object, object + PLACED, %w[-DFIXPID_AN937_PLACE=__at(0x200)]] : [object]
   end
 
   def build(way)

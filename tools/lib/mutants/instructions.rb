@@ -45,7 +45,7 @@ module Instructions
         starts = position
         position += line.size
         inside = line.match?(/__asm\s*$/) || (inside && !line.include?('__endasm'))
-        parts = inside ? [[0, line[/\A[^;\n]*/]]] : strings(line)
+        parts = inside ? [[0, line[/\A[^;\n]*/]]] : macro(line) + strings(line)
         unknown = inside && line[/\A\s+([a-z]\w*)/, 1]
         unknown && !MNEMONICS.include?(unknown) and abort "FAILED what does #{unknown} do?"
         parts.flat_map { |offset, part| words(part).map { |at, name, operands| [starts + offset + at, name, operands] } }
@@ -53,6 +53,12 @@ module Instructions
     end
 
     private
+
+    # That a macro stands for, in a source with __asm.
+    def macro(line)
+      match = line.match(/\A#define \w+ (?=(?:#{MNEMONICS.join('|')})\b)/)
+      match ? [[match.end(0), match.post_match]] : []
+    end
 
     def strings(line)
       return [] if line.match?(%r{\A\s*(?://|#include)}) || !line.include?('"')
