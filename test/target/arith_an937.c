@@ -79,6 +79,56 @@ static void add_round(void)
     }
 }
 
+// Sums that change their sign with the second or the third product.
+static void add_crossings(int16_t other)
+{
+    int16_t error = -512;
+
+    TESTED.kp_q4 = 1;
+    TESTED.ki_q4 = 1;
+    TESTED.kd_q4 = 1;
+    while (error != 512) {
+        fixpid_number_set(&TESTED.error, error);
+        fixpid_number_set(&TESTED.accumulated_error, other);
+        fixpid_number_set(&TESTED.delta, other);
+        add_sum();
+        error++;
+    }
+}
+
+static uint16_t state;
+
+// Its lower bits come round soon: they are above.
+static uint16_t any16(void)
+{
+    state = (uint16_t)(state * 25173u + 13849u);
+    return (uint16_t)((state << 8) | (state >> 8));
+}
+
+// Products of which no two are alike.
+static void add_mixed(uint8_t times)
+{
+    uint8_t count = times;
+    uint16_t left;
+    uint16_t right;
+
+    state = arith_row;
+    TESTED.kp_q4 = (uint8_t)arith_row;
+    TESTED.ki_q4 = (uint8_t)(arith_row + 85u);
+    TESTED.kd_q4 = (uint8_t)(arith_row + 170u);
+    while (count != 0u) {
+        count--;
+        fixpid_number_set(&TESTED.error, (int16_t)any16());
+        left = any16();
+        right = any16();
+        fixpid_number_difference(&TESTED.accumulated_error, left, right);
+        left = any16();
+        right = any16();
+        fixpid_number_difference(&TESTED.delta, left, right);
+        add_sum();
+    }
+}
+
 // A number that is set, and two sums.
 static void add_numbers(uint16_t magnitude, uint16_t limit)
 {
@@ -105,7 +155,11 @@ void an937_arith(void)
     if (arith_row == 0u) { // its gains are 0
         add_ends();
         add_round();
+        add_crossings(150);
+        add_crossings(-150);
+        add_mixed(255); // and kp is 0
     }
+    add_mixed(32);
     TESTED.kp_q4 = (uint8_t)arith_row;
     TESTED.ki_q4 = (uint8_t)arith_row;
     TESTED.kd_q4 = (uint8_t)arith_row;
