@@ -951,7 +951,7 @@ static void is_model(struct fixpid_autotune_model expected)
 // What a function leaves unset on the stack is a large number.
 static void fill_stack(void)
 {
-    volatile uint8_t bytes[1024];
+    volatile uint8_t bytes[512];
 
     for (unsigned i = 0; i < sizeof bytes; i++) {
         bytes[i] = 1;
@@ -1647,7 +1647,7 @@ void test_result_sums_at_the_ends_of_what_cycles_have_are_taken(void)
     takes_sums();
     sums->on_steps = 32766;
     takes_sums();
-    sums->all = 32767 * 32767;
+    sums->all = INT32_C(32767) * 32767;
     takes_sums();
 }
 
