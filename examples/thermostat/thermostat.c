@@ -106,12 +106,15 @@ static int16_t heater_duty(int16_t output)
 // The duty without the derivative, whose noise would else stay in the integral.
 static int16_t steady_duty(int16_t duty)
 {
-    const int32_t steady = duty - (fixpid_pid_derivative(&thermostat) / Q8_ONE);
+    int32_t steady = duty - (fixpid_pid_derivative(&thermostat) / Q8_ONE);
 
     if (steady > PORT_DRIVE_FULL) {
-        return PORT_DRIVE_FULL;
+        steady = PORT_DRIVE_FULL;
     }
-    return (steady < 0) ? 0 : (int16_t)steady;
+    if (steady < 0) {
+        steady = 0;
+    }
+    return (int16_t)steady;
 }
 
 // Without a sensor the heater is off. When there is one again, the controller
@@ -135,6 +138,8 @@ static void control(void)
         go_on_from(duty);
     } else if (age_periods >= RENEWED_PERIODS) {
         go_on_from(steady_duty(duty));
+    } else {
+        // as it is
     }
     lost = false;
     duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
