@@ -166,8 +166,9 @@ good = [
   expect('not back', fault({ end: 'out' }), 'the loop hangs: out of control in the end'),
   expect('off too late', fault({ off_after_s: 0.0341 }), 'nothing works: off, later than the watchdog'),
   expect('a late watchdog', fault({ kind: 'hangs', value: 0.05, off_after_s: 0.051 }), ''),
-  expect('a sensor that is not noticed', fault({ kind: 'open', off_first_s: -1 }), 'sensor at an end: off'),
-  expect('one noticed too late', fault({ kind: 'open', off_first_s: 0.003 }), 'sensor at an end: off after'),
+  expect('a sensor that is not noticed', fault({ kind: 'open', for_s: 1, off_first_s: -1 }), 'sensor at an end: off'),
+  expect('one noticed too late', fault({ kind: 'open', for_s: 1, off_first_s: 0.003 }), 'sensor at an end: off after'),
+  expect('one that is whole before it can be noticed', fault({ kind: 'open', for_s: 0.002, off_first_s: -1 }), ''),
   expect('a fault with no number', fault({ worst: 'nan' }), /no number worst/),
   expect('a row of a fault that breaks off', fault({ end: "\n" }), /not a row of a fault/)
 ]
