@@ -148,10 +148,11 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
     const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
     const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
                                        (uint16_t)SELF.config.output_min);
-    const uint16_t wanted =
-        (SELF.config.swing != 0u)
-            ? SELF.config.swing
-            : (uint16_t)(24u * (uint16_t)fixpid_autotune_hysteresis(self));
+    const uint16_t eight = // hystereses; SDCC would link a multiplication
+        (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
+    const uint16_t wanted = (SELF.config.swing != 0u)
+                                ? SELF.config.swing
+                                : (uint16_t)(eight + eight + eight);
     uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
 
     SELF.centre =
@@ -239,7 +240,7 @@ static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
     if (SELF.last_period < LAST_PERIOD_MIN) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
-    if (swing < (uint16_t)(4u * (uint16_t)fixpid_autotune_hysteresis(self))) {
+    if ((swing >> 2) < (uint16_t)fixpid_autotune_hysteresis(self)) {
         return FIXPID_AUTOTUNE_TOO_SMALL;
     }
     return FIXPID_AUTOTUNE_DONE;
