@@ -120,7 +120,7 @@ class Board
   # :refused, :endless, :different, or nil if every answer is right.
   def notice(text)
     FileUtils.rm_rf(@source)
-    FileUtils.cp_r('src', @source)
+    FileUtils.cp_r(%w[include src], ROOT)
     File.write("#{@source}/#{@file.delete_prefix('src/')}", text)
     ways.each do |way|
       return :refused unless build(way)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# What package managers read of this project, their manifests, says what the
+# project itself says: the version of include/fixpid.h, the sources of
+# CMakeLists.txt, the headers of include/, and what the library is as
+# library.properties has it. Prints `ok MANIFEST` or `FAILED MANIFEST` and why. With
+# --update it first writes those that are made from the headers.
+require 'json'
+
+module Manifests
+  SOURCES = File.read('CMakeLists.txt')[/set\(fixpid_sources\s(.*?)\)/m, 1].split.freeze
+  HEADERS = Dir['include/*.h'].sort.freeze
+  VERSION = File.read('include/fixpid.h').scan(/^#define FIXPID_VERSION_\w+ (\d+)$/).join('.').freeze
+  # What all manifests have in common is here once.
+  PROPERTIES = File.readlines('library.properties', chomp: true).to_h { |line| line.split('=', 2) }.freeze
+
+  # Arduino looks for headers in src/ only.
+  FORWARDS = HEADERS.to_h do |header|
+    ["src/#{File.basename(header)}", <<~TEXT]
+      // SPDX-License-Identifier: MIT
+      // For Arduino, which looks for headers in src/ only.
+      #include "../#{header}"
+    TEXT
+  end.freeze
+
+  class << self
+    def written
+      FORWARDS.merge('keywords.txt' => keywords)
+    end
+
+    # {manifest => what is wrong with it}
+    def wrong
+      @wrong = Hash.new { |hash, path| hash[path] = [] }
+      version_and_sources
+      written.each { |path, text| same(path, 'what --update writes', text, File.exist?(path) ? File.read(path) : nil) }
+      arduino
+      platformio
+      @wrong
+    end
+
+    private
+
+    def same(path, what, wanted, found)
+      @wrong[path] << "#{what}: #{found.inspect}, not #{wanted.inspect}" unless found == wanted
+      @wrong[path]
+    end
+
+    # Every file or folder is there.
+    def there(path, what, files)
+      missing = files.reject { |file| File.exist?(file) }
+      same(path, "#{what} that are not there", [], missing)
+    end
+
+    def version_and_sources
+      same('CMakeLists.txt', 'sources', Dir['src/**/*.c'].sort, SOURCES.sort)
+      same('CHANGELOG.md', 'newest version', VERSION, File.read('CHANGELOG.md')[/^## ([^\s,]+)/, 1])
+    end
+
+    # The words that the editor colours: types, functions, and the constants.
+    def keywords
+      text = HEADERS.map { |header| File.read(header).gsub(%r{//.*}, '') }.join
+      types = text.scan(/^(?:struct|enum) (fixpid_\w+) \{/)
+      functions = text.scan(/^\w[\w *]*\b(fixpid_\w+)\(/)
+      constants = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
+      { 'KEYWORD1' => types, 'KEYWORD2' => functions, 'LITERAL1' => constants }.flat_map do |kind, words|
+        words.flatten.uniq.sort.map { |word| "#{word}\t#{kind}\n" }
+      end.join
+    end
+
+    def arduino
+      path = 'library.properties'
+      same(path, 'version', VERSION, PROPERTIES['version'])
+      there(path, 'headers', PROPERTIES['includes'].split(',').map { |header| "include/#{header}" })
+      same(path, 'headers in src/', FORWARDS.keys, Dir['src/fixpid*.h'].select { |file| HEADERS.include?("include/#{File.basename(file)}") }.sort)
+      sketches = Dir['examples/arduino/*']
+      same(path, 'sketches', sketches.map { |folder| "#{folder}/#{File.basename(folder)}.ino" }, Dir['examples/arduino/*/*.ino'])
+    end
+
+    def common(path, version, description, url, license)
+      same(path, 'version', VERSION, version)
+      same(path, 'description', PROPERTIES['sentence'].chomp('.'), description)
+      same(path, 'URL', PROPERTIES['url'], url)
+      same(path, 'licence', PROPERTIES['license'], license)
+    end
+
+    def platformio
+      path = 'library.json'
+      library = JSON.parse(File.read(path))
+      common(path, *library.values_at('version', 'description', 'homepage', 'license'))
+      same(path, 'headers', PROPERTIES['includes'].split(','), library['headers'])
+      there(path, 'exported files', library['export']['include'])
+      same(path, 'examples', Dir['examples/arduino/*'].sort, library['examples'].map { |example| example['base'] }.sort)
+      there(path, 'files of examples', library['examples'].flat_map { |example| example['files'].map { |file| "#{example['base']}/#{file}" } })
+    end
+  end
+end
+
+if $PROGRAM_NAME == __FILE__
+  Manifests.written.each { |path, text| File.write(path, text) } if ARGV == ['--update']
+  wrong = Manifests.wrong
+  wrong.each { |path, faults| puts faults.empty? ? "ok #{path}" : "FAILED #{path}: #{faults.join("\n    ")}" }
+  exit(wrong.values.all?(&:empty?) ? 0 : 1)
+end
