@@ -57,6 +57,7 @@ has_package() {
 #endif' c++ -lgpsim
         ;;
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
+    arduino-core-avr) [ -f /usr/share/arduino/hardware/arduino/avr/boards.txt ] ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
     *) die "setup.sh does not know how to tell whether $1 is there" ;;

@@ -29,9 +29,9 @@ static int16_t tune()
 {
     fixpid_autotune_config experiment = fixpid_autotune_config();
     experiment.output_max = 255;
-    experiment.measurement_min = -1;   // no measurement is beyond these
+    experiment.measurement_min = -1; // no measurement is beyond these
     experiment.measurement_max = 1023;
-    experiment.swing = 80;             // about a twelfth of the scale
+    experiment.swing = 80; // about a twelfth of the scale
     experiment.timeout_steps = 2000;
     experiment.cycles = 2;
     (void)fixpid_autotune_init(&tuner, &experiment);
@@ -61,14 +61,18 @@ void setup()
         Serial.println(F("no gains"));
         return;
     }
-    Serial.print(F("kp "));
-    Serial.print(config.gains.kp_q8 / 256.0);
-    Serial.print(F(", ki "));
-    Serial.print(config.gains.ki_q24 / 16777216.0, 5);
-    Serial.print(F(", kd "));
-    Serial.println(config.gains.kd_q8 / 256.0);
+    Serial.print(F("kp_q8 "));
+    Serial.print(config.gains.kp_q8);
+    Serial.print(F(", ki_q24 "));
+    Serial.print(config.gains.ki_q24);
+    Serial.print(F(", kd_q8 "));
+    Serial.println(config.gains.kd_q8);
 
     (void)fixpid_pid_init(&controller, &config);
+    struct fixpid_autotune_model found;
+    if (fixpid_autotune_model(&tuner, &found)) {
+        fixpid_pid_seed(&controller, found.holding); // no bump at the change
+    }
     for (int step = 0; step <= 400; step++) {
         const int16_t measurement = plant(drive);
         drive = fixpid_pid_step(&controller, SETPOINT, measurement);

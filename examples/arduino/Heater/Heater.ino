@@ -7,7 +7,7 @@ const unsigned long PERIOD_MS = 100; // 10 steps per second
 const int16_t SETPOINT = 600;        // in counts of A0
 
 // kp, ki per second, kd in seconds, steps per second, derivative filter
-static const fixpid_pid_gains gains = FIXPID_PID_GAINS(2.5, 0.6, 0.5, 10, 2);
+static const fixpid_pid_gains gains = FIXPID_PID_GAINS(2.5, 1.6, 0.5, 10, 2);
 static fixpid_pid heater;
 static unsigned long last_ms;
 
