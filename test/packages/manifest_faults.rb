@@ -16,6 +16,9 @@ FAULTS = [
   ['library.properties', 'url=', 'url=x', /FAILED library.json: URL/],
   ['library.json', '"examples/arduino"', '"examples/uno"', /FAILED library.json: exported files/],
   ['library.json', '"version": "0.1.0"', '"version": "0.1"', /FAILED library.json: version/],
+  ['meson.build', "  'src/fixpid_slew.c',\n", '', /FAILED meson.build: sources/],
+  ['meson.build', "version: '0", "version: '1", /FAILED meson.build: version/],
+  ['fixpid.pc.in', 'without float', 'with float', /FAILED fixpid.pc.in: description/],
   ['examples/arduino/Oven/Heater.ino', nil, '', /FAILED library.properties: sketches/]
 ].freeze
 

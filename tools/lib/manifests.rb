@@ -14,6 +14,11 @@ module Manifests
   VERSION = File.read('include/fixpid.h').scan(/^#define FIXPID_VERSION_\w+ (\d+)$/).join('.').freeze
   # What all manifests have in common is here once.
   PROPERTIES = File.readlines('library.properties', chomp: true).to_h { |line| line.split('=', 2) }.freeze
+  DESCRIPTION = PROPERTIES['sentence'].chomp('.').freeze
+
+  # What a program's sources take in, and below what a package manager's users get.
+  SMALL_FILES = %w[CMakeLists.txt LICENSE fixpid.pc.in include meson.build src].freeze
+  USER_FILES = JSON.parse(File.read('library.json'))['export']['include'].freeze
 
   # Arduino looks for headers in src/ only.
   FORWARDS = HEADERS.to_h do |header|
@@ -35,6 +40,7 @@ module Manifests
       version_and_sources
       written.each { |path, text| same(path, 'what --update writes', text, File.exist?(path) ? File.read(path) : nil) }
       arduino
+      meson
       platformio
       @wrong
     end
@@ -79,9 +85,17 @@ module Manifests
 
     def common(path, version, description, url, license)
       same(path, 'version', VERSION, version)
-      same(path, 'description', PROPERTIES['sentence'].chomp('.'), description)
+      same(path, 'description', DESCRIPTION, description)
       same(path, 'URL', PROPERTIES['url'], url)
       same(path, 'licence', PROPERTIES['license'], license)
+    end
+
+    def meson
+      path = 'meson.build'
+      text = File.read(path)
+      same(path, 'version', VERSION, text[/version: '([\d.]+)'/, 1])
+      same(path, 'sources', SOURCES, text.scan(%r{'(src/\S+\.c)'}).flatten)
+      same('fixpid.pc.in', 'description', DESCRIPTION, File.read('fixpid.pc.in')[/^Description: (.*)/, 1])
     end
 
     def platformio
@@ -89,7 +103,7 @@ module Manifests
       library = JSON.parse(File.read(path))
       common(path, *library.values_at('version', 'description', 'homepage', 'license'))
       same(path, 'headers', PROPERTIES['includes'].split(','), library['headers'])
-      there(path, 'exported files', library['export']['include'])
+      there(path, 'exported files', USER_FILES)
       same(path, 'examples', Dir['examples/arduino/*'].sort, library['examples'].map { |example| example['base'] }.sort)
       there(path, 'files of examples', library['examples'].flat_map { |example| example['files'].map { |file| "#{example['base']}/#{file}" } })
     end
