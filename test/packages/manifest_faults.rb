@@ -19,6 +19,15 @@ FAULTS = [
   ['meson.build', "  'src/fixpid_slew.c',\n", '', /FAILED meson.build: sources/],
   ['meson.build', "version: '0", "version: '1", /FAILED meson.build: version/],
   ['fixpid.pc.in', 'without float', 'with float', /FAILED fixpid.pc.in: description/],
+  ['idf_component.yml', 'version: 0.1.0', 'version: 0.1', /FAILED idf_component.yml: version/],
+  ['idf_component.yml', 'examples/esp-idf/heater', 'examples/heater', /FAILED idf_component.yml: examples/],
+  ['zephyr/module.yml', 'examples/zephyr', 'examples/zephyros', %r{FAILED zephyr/module.yml: files}],
+  ['zephyr/Kconfig', 'config FIXPID_NO_ASSEMBLY', 'config FIXPID_PLAIN_C', %r{FAILED zephyr/CMakeLists.txt: options}],
+  ['fixpid.fixpid.pdsc', 'Cversion="0.1.0"', 'Cversion="0.1.1"', /FAILED fixpid.fixpid.pdsc: versions of components/],
+  ['fixpid.fixpid.pdsc', 'src/fixpid_tpo.c', 'src/fixpid_tp.c', /FAILED fixpid.fixpid.pdsc: sources/],
+  ['conanfile.py', '"include/*"', '"inc/*"', /FAILED conanfile.py: exported files/],
+  ['vcpkg/fixpid/vcpkg.json', '"license": "MIT"', '"license": "BSD"', %r{FAILED vcpkg/fixpid/vcpkg.json: licence}],
+  ['README.md', '| `conan` |', '| `conan_create` |', /FAILED README.md: tests that are not there/],
   ['examples/arduino/Oven/Heater.ino', nil, '', /FAILED library.properties: sketches/]
 ].freeze
 

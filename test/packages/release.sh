@@ -52,8 +52,9 @@ release() {
         ./quick_start >printed
         quick_start_printed printed
     done
-    echo '#include "../fixpid_pid_single.h"' >single/fixpid_pid.h
-    cc -Isingle -DFIXPID_PID_IMPLEMENTATION "$root/examples/quick_start.c" -o quick_start
+    printf '%s\n' '#define FIXPID_PID_IMPLEMENTATION' \
+        '#include "../fixpid_pid_single.h"' >single/fixpid_pid.h
+    cc -Isingle "$root/examples/quick_start.c" -o quick_start
     ./quick_start >printed
     quick_start_printed printed
 }

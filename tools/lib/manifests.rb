@@ -7,6 +7,9 @@
 # library.properties has it. Prints `ok MANIFEST` or `FAILED MANIFEST` and why. With
 # --update it first writes those that are made from the headers.
 require 'json'
+require 'yaml'
+
+Encoding.default_external = 'UTF-8'
 
 module Manifests
   SOURCES = File.read('CMakeLists.txt')[/set\(fixpid_sources\s(.*?)\)/m, 1].split.freeze
@@ -42,6 +45,11 @@ module Manifests
       arduino
       meson
       platformio
+      esp_idf
+      zephyr
+      cmsis_pack
+      conan_and_vcpkg
+      readme
       @wrong
     end
 
@@ -106,6 +114,52 @@ module Manifests
       there(path, 'exported files', USER_FILES)
       same(path, 'examples', Dir['examples/arduino/*'].sort, library['examples'].map { |example| example['base'] }.sort)
       there(path, 'files of examples', library['examples'].flat_map { |example| example['files'].map { |file| "#{example['base']}/#{file}" } })
+    end
+
+    def esp_idf
+      path = 'idf_component.yml'
+      component = YAML.safe_load(File.read(path))
+      common(path, *component.values_at('version', 'description', 'url', 'license'))
+      same(path, 'examples', Dir['examples/esp-idf/*'].sort, component['examples'].map { |example| example['path'] })
+    end
+
+    # Its sources are all that there are; an option that a file reads is one.
+    def zephyr
+      path = 'zephyr/module.yml'
+      parts = YAML.safe_load(File.read(path))
+      same(path, 'keys', %w[name build samples], parts.keys)
+      there(path, 'files', ["#{parts['build']['cmake']}/CMakeLists.txt", parts['build']['kconfig'], *parts['samples']])
+      options = File.read('zephyr/Kconfig').scan(/^(?:menu)?config (\w+)$/).flatten
+      same('zephyr/CMakeLists.txt', 'options', options.sort, File.read('zephyr/CMakeLists.txt').scan(/CONFIG_(\w+)/).flatten.uniq.sort)
+    end
+
+    # A component for each header. What is for SDCC on a PIC is in none.
+    def cmsis_pack
+      path = 'fixpid.fixpid.pdsc'
+      text = File.read(path)
+      common(path, text[/<release version="(.*?)"/, 1], *%w[description url].map { |tag| text[%r{<#{tag}>(.*?)</}, 1] }, text[/spdx="(.*?)"/, 1])
+      same(path, 'versions of components', [VERSION], text.scan(/Cversion="(.*?)"/).flatten.uniq)
+      files = text.scan(/<file category="(\w+)" name="(.*?)"/).group_by(&:first).transform_values { |pairs| pairs.map(&:last) }
+      same(path, 'sources', SOURCES.grep_v(%r{/pic1[48]/}).sort, files['source'].sort)
+      same(path, 'headers', HEADERS - ['include/fixpid.h'], files['header'].sort)
+      there(path, 'files', files['include'].uniq)
+    end
+
+    def conan_and_vcpkg
+      conan = File.read('conanfile.py')
+      common('conanfile.py', *%w[version description homepage license].map { |name| conan[/^    #{name} = "(.*)"$/, 1] })
+      same('conanfile.py', 'exported files', SMALL_FILES, conan[/exports_sources = \((.*?)\)/m, 1].scan(/"(.*?)"/).flatten.map { |name| name.chomp('/*') })
+      port = JSON.parse(File.read('vcpkg/fixpid/vcpkg.json'))
+      common('vcpkg/fixpid/vcpkg.json', *port.values_at('version', 'description', 'homepage', 'license'))
+    end
+
+    # Each way to install names tests that there are.
+    def readme
+      rows = File.read('README.md')[/<!-- install:begin -->(.*?)<!-- install:end -->/m, 1].lines.grep(/^\| (?!with |-)/)
+      tests = `test/packages/run --list; test/consumers/run --list`.split
+      named = rows.map { |row| row.split('|').last(2).first.scan(/`(\w+)`/).flatten }
+      same('README.md', 'ways to install without a test', 0, named.count(&:empty?))
+      same('README.md', 'tests that are not there', [], named.flatten - tests)
     end
   end
 end

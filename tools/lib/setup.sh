@@ -39,6 +39,11 @@ builds() {
     return $try_status
 }
 
+# has_module NAME: of Debian's Python, or of the one that PYTHON names.
+has_module() {
+    "${PYTHON:-/usr/bin/python3}" -c "import $1" >/dev/null 2>&1
+}
+
 # has_package NAME: whether what this Debian package is needed for is there.
 # The compilers are asked, so that it may have come in any other way.
 has_package() {
@@ -58,6 +63,11 @@ has_package() {
         ;;
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
     arduino-core-avr) [ -f /usr/share/arduino/hardware/arduino/avr/boards.txt ] ;;
+    picolibc-riscv64-unknown-elf)
+        builds '#include <stdio.h>' riscv64-unknown-elf-gcc \
+            --specs=picolibc.specs -march=rv32imc -mabi=ilp32
+        ;;
+    python3-kconfiglib) has_module kconfiglib ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
     *) die "setup.sh does not know how to tell whether $1 is there" ;;
