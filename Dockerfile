@@ -15,7 +15,7 @@ RUN apt-get update && \
         gcc-arm-none-eabi gcc-avr gcc-riscv64-unknown-elf gcovr git \
         gnuplot-nox gpsim-dev gputils libboost-dev libboost-graph-dev \
         libc6-dev libclang-rt-14-dev libsimavr-dev libxml2-utils lld make \
-        meson mspdebug patch picolibc-riscv64-unknown-elf pkg-config pmccabe \
+        meson mspdebug patch pkg-config pmccabe \
         python3-kconfiglib qemu-system-arm qemu-system-misc ruby sdcc \
         sdcc-libraries sdcc-ucsim shellcheck simavr util-linux xz-utils \
         zlib1g-dev \

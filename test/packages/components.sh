@@ -51,7 +51,7 @@ esp_idf_riscv() {
     esp_idf -DCMAKE_SYSTEM_NAME=Generic \
         -DCMAKE_C_COMPILER=riscv64-unknown-elf-gcc \
         -DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY \
-        '-DCMAKE_C_FLAGS=-march=rv32imc -mabi=ilp32 --specs=picolibc.specs'
+        "-DCMAKE_C_FLAGS=-march=rv32imc -mabi=ilp32 -ffreestanding -I$here/esp-idf/no_library"
     riscv64-unknown-elf-nm build/fixpid/libidf_fixpid.a |
         grep -q ' T fixpid_pid_step$'
     riscv64-unknown-elf-nm build/main/libidf_main.a | grep -q ' T app_main$'

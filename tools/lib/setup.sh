@@ -63,10 +63,6 @@ has_package() {
         ;;
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
     arduino-core-avr) [ -f /usr/share/arduino/hardware/arduino/avr/boards.txt ] ;;
-    picolibc-riscv64-unknown-elf)
-        builds '#include <stdio.h>' riscv64-unknown-elf-gcc \
-            --specs=picolibc.specs -march=rv32imc -mabi=ilp32
-        ;;
     python3-kconfiglib) has_module kconfiglib ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
