@@ -3,14 +3,15 @@
 # shellcheck disable=SC2154 # root: of the runner, which sources this
 # One header for each controller, as tools/release makes them.
 
-# single_headers: all of them, and a source that implements each, in the working
-# folder.
+# single_headers: all of them, and a source that implements each, where another header
+# includes it once more, in the working folder.
 single_headers() {
     (cd "$root" && ruby tools/lib/single_header.rb "$OLDPWD")
     for header in *_single.h; do
         noun=${header%_single.h}
-        printf '#define %s_IMPLEMENTATION\n#include "%s"\n' \
-            "$(echo "$noun" | tr '[:lower:]' '[:upper:]')" "$header" >"$noun.c"
+        printf '#define %s_IMPLEMENTATION\n#include "%s"\n#include "%s"\n' \
+            "$(echo "$noun" | tr '[:lower:]' '[:upper:]')" "$header" "$header" \
+            >"$noun.c"
     done
 }
 
