@@ -53,28 +53,24 @@ class SingleHeader
     Manifests::SOURCES.grep_v(%r{/pic1[48]/}).select { |source| SingleHeader.noun_of(source) == @noun }
   end
 
-  # Once is enough for a file with a guard, but not if it was within an #if.
-  def expanded(path, conditional: false)
-    lines = File.readlines(path)
-    guard = lines.index { |line| line.start_with?('#ifndef FIXPID_') && path.end_with?('.h') && line.strip.end_with?('_H') }
+  # Once is enough for a file with a guard. If that was within an #if that is false, a
+  # compiler misses what is in it.
+  def expanded(path)
     return '' if @seen[path]
 
-    @seen[path] = true if guard && !conditional
-    depth = guard ? -1 : 0
-    lines.grep_v(%r{\A// SPDX}).map do |line|
-      depth += { 'if' => 1, 'en' => -1 }.fetch(line[/\A#\s*(if|en)/, 1], 0)
-      name = line[/\A#include "(.*)"/, 1]
-      name ? included(path, name, conditional || depth.positive?) : line
-    end.join
+    text = File.read(path).sub(%r{\A// SPDX.*\n}, '')
+    @seen[path] = text.match?(/^#ifndef FIXPID_\w*H\n/)
+    text.gsub(/^#include "(.*)".*\n/) { included(path, $1) }
   end
 
   # The assembly of a PIC is in sources of its own.
-  def included(path, name, conditional)
+  def included(path, name)
     return '' if name.match?(%r{\Apic1[48]/})
 
-    file = [File.join(File.dirname(path), name), "src/#{name}", "include/#{name}"].map { |found| File.expand_path(found, '/')[1..] }
-                                                                             .find { |found| File.exist?(found) && !Manifests::FORWARDS.key?(found) }
-    expanded(file, conditional: conditional)
+    file = ["#{File.dirname(path)}/#{name}", "src/#{name}", "include/#{name}"].find do |found|
+      File.exist?(found) && !Manifests::FORWARDS.key?(found)
+    end
+    expanded(file)
   end
 end
 
