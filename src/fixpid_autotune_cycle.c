@@ -148,13 +148,14 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
     const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
     const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
                                        (uint16_t)SELF.config.output_min);
-    const uint16_t eight = // hystereses; SDCC would link a multiplication
-        (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
-    const uint16_t wanted = (SELF.config.swing != 0u)
-                                ? SELF.config.swing
-                                : (uint16_t)(eight + eight + eight);
-    uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
+    uint16_t wanted = SELF.config.swing;
+    uint32_t amplitude;
 
+    if (wanted == 0u) { // 24 hystereses; SDCC would link a multiplication
+        wanted = (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
+        wanted = (uint16_t)(wanted + wanted + wanted);
+    }
+    amplitude = amplitude_for(wanted, swing, relay_counts);
     SELF.centre =
         (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
                                                             AT_LOW) +
