@@ -38,7 +38,7 @@ single_whole() {
     diff library functions
 }
 
-# The recorded rows, with the library's headers made of these.
+# The recorded rows, and the relay's model, with the library's headers made of these.
 single_vectors() {
     single_headers
     mkdir include
@@ -57,6 +57,15 @@ slew slew
 tpo tpo
 gains gains
 END
+    support=$root/test/support
+    autotune=$root/test/autotune
+    ruby "$autotune/table.rb" "$root/test/vectors/autotune.csv" >table.c
+    cc -Iinclude "-I$autotune" "$autotune/autotune_plant.c" "$autotune/rows.c" \
+        "$autotune/player.c" table.c fixpid_pid.c fixpid_autotune.c -o rows
+    ./rows
+    cc -Iinclude "-I$support" "$root/test/relay/trace.c" "$support/trace_lines.c" \
+        "$support/numbers.c" fixpid_relay.c -o trace
+    ./trace 3200 | ruby "$root/test/relay/model.rb"
 }
 
 # SDCC has its own folders for PICs.
