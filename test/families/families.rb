@@ -193,6 +193,7 @@ class Families
   def break_library
     copy = "#{@folder}/broken"
     FileUtils.cp_r('src', copy)
+    FileUtils.cp_r('include', @folder) # which src/ looks for beside it
     DEFECTS.each do |file, (line, wrong)|
       text = File.read("#{copy}/#{file}")
       raise Host::Failure, "#{file} has changed: break it anew" unless text.scan(line).size == 1

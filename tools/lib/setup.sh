@@ -39,6 +39,11 @@ builds() {
     return $try_status
 }
 
+# has_module NAME: of Debian's Python, or of the one that PYTHON names.
+has_module() {
+    "${PYTHON:-/usr/bin/python3}" -c "import $1" >/dev/null 2>&1
+}
+
 # has_package NAME: whether what this Debian package is needed for is there.
 # The compilers are asked, so that it may have come in any other way.
 has_package() {
@@ -57,6 +62,8 @@ has_package() {
 #endif' c++ -lgpsim
         ;;
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
+    arduino-core-avr) [ -f /usr/share/arduino/hardware/arduino/avr/boards.txt ] ;;
+    python3-kconfiglib) has_module kconfiglib ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
     *) die "setup.sh does not know how to tell whether $1 is there" ;;

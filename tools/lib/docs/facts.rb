@@ -7,8 +7,9 @@ module Facts
   SOURCES = FILES.grep(%r{\A(?:#{FOLDERS.join('|')})/}).grep_v(/\.(?:md|png|csv)\z/).select { |path| File.file?(path) }.freeze
   EXTENSIONS = 'c|h|cc|hh|asm|rb|sh|cmake|txt|csv|yml|md|json'.freeze
 
-  # Names in documents that are nothing of this project's.
+  # Names in documents of what is not among this project's files.
   ELSEWHERE = {
+    'fixpid_pid_single.h' => 'made by tools/release',
     'arm_pid_q15' => 'of CMSIS-DSP',
     'arm_pid_init_q15' => 'of CMSIS-DSP',
     'arm_pid_reset_q15' => 'of CMSIS-DSP',

@@ -27,7 +27,7 @@ class Board
     @source = "#{folder}/src"
     FileUtils.rm_rf(folder)
     FileUtils.mkdir_p(folder)
-    FileUtils.cp_r('src', @source)
+    FileUtils.cp_r(%w[include src], folder)
   end
 
   # In the first way that does: :refused, :endless, :different; or nil if every

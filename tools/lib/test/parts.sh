@@ -172,6 +172,11 @@ part_consumers() {
     count 'test/port_check/run' '^ok ' '^FAILED ' test/port_check/run
 }
 
+part_packages() {
+    need ruby
+    count packages '^ok ' '^FAILED ' test/packages/run
+}
+
 part_firmware() {
     need clang
     need_sdcc

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Finds the gains of a controller by an experiment on the plant, and then controls
+// with them. Nothing has to be wired: the plant is simulated. For a real one,
+// measure and drive in `plant`, once in a sample period.
+#include <fixpid_autotune.h>
+#include <fixpid_pid.h>
+
+const int16_t SETPOINT = 400;
+
+static fixpid_autotune tuner;
+static fixpid_pid controller;
+
+// A first-order lag behind a dead time of 8 steps: the measurement that follows
+// one step with this drive.
+static int16_t plant(int16_t drive)
+{
+    static int32_t heat;
+    static int16_t pipe[8];
+    static uint8_t newest;
+
+    heat += (pipe[newest] * 1024L - heat) / 64;
+    pipe[newest] = drive;
+    newest = (newest + 1) % 8;
+    return (int16_t)(heat / 256);
+}
+
+// The drive that the experiment ends with.
+static int16_t tune()
+{
+    fixpid_autotune_config experiment = fixpid_autotune_config();
+    experiment.output_max = 255;
+    experiment.measurement_min = -1; // no measurement is beyond these
+    experiment.measurement_max = 1023;
+    experiment.swing = 80; // about a twelfth of the scale
+    experiment.timeout_steps = 2000;
+    experiment.cycles = 2;
+    (void)fixpid_autotune_init(&tuner, &experiment);
+
+    int16_t drive = 0;
+    unsigned steps = 0;
+    while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) {
+        drive = fixpid_autotune_step(&tuner, SETPOINT, plant(drive));
+        steps++;
+    }
+    Serial.print(F("status "));
+    Serial.print(fixpid_autotune_status(&tuner));
+    Serial.print(F(" after "));
+    Serial.print(steps);
+    Serial.println(F(" steps"));
+    return drive;
+}
+
+void setup()
+{
+    Serial.begin(115200);
+    int16_t drive = tune();
+
+    fixpid_pid_config config = fixpid_pid_config();
+    config.output_max = 255;
+    if (!fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_SIMC_PI, 16, &config)) {
+        Serial.println(F("no gains"));
+        return;
+    }
+    Serial.print(F("kp_q8 "));
+    Serial.print(config.gains.kp_q8);
+    Serial.print(F(", ki_q24 "));
+    Serial.print(config.gains.ki_q24);
+    Serial.print(F(", kd_q8 "));
+    Serial.println(config.gains.kd_q8);
+
+    (void)fixpid_pid_init(&controller, &config);
+    struct fixpid_autotune_model found;
+    if (fixpid_autotune_model(&tuner, &found)) {
+        fixpid_pid_seed(&controller, found.holding); // no bump at the change
+    }
+    for (int step = 0; step <= 400; step++) {
+        const int16_t measurement = plant(drive);
+        drive = fixpid_pid_step(&controller, SETPOINT, measurement);
+        if (step % 40 == 0) {
+            Serial.print(measurement);
+            Serial.print(' ');
+            Serial.println(drive);
+        }
+    }
+    Serial.println(F("done"));
+}
+
+void loop()
+{
+}

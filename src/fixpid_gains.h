@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// For Arduino, which looks for headers in src/ only.
+#include "../include/fixpid_gains.h"
