@@ -14,7 +14,9 @@ RUN apt-get update && \
         cppcheck dpkg-dev flex g++ gcc gcc-arm-none-eabi gcc-avr \
         gcc-riscv64-unknown-elf gcovr gnuplot-nox gpsim-dev gputils \
         libboost-dev libboost-graph-dev libc6-dev libclang-rt-14-dev \
-        libsimavr-dev lld make mspdebug patch pmccabe qemu-system-arm \
+        libsimavr-dev lld make mspdebug patch pmccabe python3-cffi \
+        python3-dev python3-matplotlib python3-numpy python3-scipy \
+        python3-setuptools python3-venv python3-wheel qemu-system-arm \
         qemu-system-misc ruby sdcc sdcc-libraries sdcc-ucsim shellcheck \
         simavr util-linux zlib1g-dev \
     && rm -rf /var/lib/apt/lists/*

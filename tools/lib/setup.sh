@@ -39,6 +39,11 @@ builds() {
     return $try_status
 }
 
+# has_module NAME: of Debian's Python, or of the one that PYTHON names.
+has_module() {
+    "${PYTHON:-/usr/bin/python3}" -c "import $1" >/dev/null 2>&1
+}
+
 # has_package NAME: whether what this Debian package is needed for is there.
 # The compilers are asked, so that it may have come in any other way.
 has_package() {
@@ -59,6 +64,16 @@ has_package() {
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
+    python3-cffi) has_module cffi ;;
+    python3-dev) builds '#include <Python.h>' cc \
+        "-I$("${PYTHON:-/usr/bin/python3}" -c 'import sysconfig
+print(sysconfig.get_path("include"))')" ;;
+    python3-matplotlib) has_module matplotlib ;;
+    python3-numpy) has_module numpy ;;
+    python3-scipy) has_module scipy ;;
+    python3-setuptools) has_module setuptools ;;
+    python3-venv) has_module venv && has_module ensurepip ;;
+    python3-wheel) has_module wheel ;;
     *) die "setup.sh does not know how to tell whether $1 is there" ;;
     esac
 }

@@ -188,6 +188,13 @@ part_target() {
     count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
 }
 
+part_python() {
+    need cc:gcc :libc6-dev :python3-dev :python3-venv :python3-cffi \
+        :python3-setuptools :python3-wheel :python3-numpy :python3-scipy \
+        :python3-matplotlib
+    count 'test/python/run' '^ok ' '^FAILED ' test/python/run
+}
+
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
     count 'test/families/run' '^ok ' '^FAILED ' test/families/run
