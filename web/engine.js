@@ -55,15 +55,15 @@ export function run(state) {
     return { n, results: results(), series: series(Math.max(n, 0)) };
 }
 
-// The same of the autotuner, with `rules`: { rule, results or null where it has
-// no gains }.
+// The same of the autotuner, with `rules`: { rule, has: whether it has gains,
+// results }.
 export function experiment(state) {
     put(sceneOf(state));
     const n = wasm.tuner_experiment();
     const found = { n, results: results(), series: series(Math.max(n, 0)) };
     found.rules = Object.entries(RULE).map(([rule, at]) => {
-        const has = n > 0 && wasm.tuner_rule(at) === 1;
-        return { rule, results: has ? results() : null };
+        const has = wasm.tuner_rule(at) === 1;
+        return { rule, has, results: results() };
     });
     return found;
 }

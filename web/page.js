@@ -57,8 +57,8 @@ function tunedFor(s) {
 }
 
 function rowsFor(s) {
-    tuned.rows ??= tuned.found.rules.map(({ rule, results }) => {
-        if (results === null) {
+    tuned.rows ??= tuned.found.rules.map(({ rule, has, results }) => {
+        if (!has) {
             return { rule, gains: null };
         }
         const gains = gainsOfRule(s, results);

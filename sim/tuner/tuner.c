@@ -320,6 +320,13 @@ static void happen(int i, double *setpoint)
     }
 }
 
+static void forget_results(void)
+{
+    for (int i = 0; i < TUNER_RESULTS; i++) {
+        results[i] = 0.0;
+    }
+}
+
 static void see(int i)
 {
     values[VALUE_TRUE][i] = scene_value(&scene);
@@ -335,6 +342,7 @@ int tuner_run(void)
     const int n = steps();
     double setpoint = params[PARAM_SETPOINT];
 
+    forget_results();
     if (!begin()) {
         return -1;
     }
@@ -393,9 +401,7 @@ int tuner_experiment(void)
 {
     int n = 0;
 
-    for (int i = 0; i < TUNER_RESULTS; i++) {
-        results[i] = 0.0;
-    }
+    forget_results();
     if (!begin_experiment()) {
         return -1;
     }
@@ -410,6 +416,9 @@ int tuner_experiment(void)
         counts[COUNT_OUTPUT][n] = u;
         keep(n, 0, 0, 0, 0);
         values[VALUE_TRUE][n] = scene_value(&scene);
+        values[VALUE_TWIN][n] = 0.0;
+        values[VALUE_TWIN_OUTPUT][n] = 0.0;
+        values[VALUE_BASE][n] = 0.0;
         scene_move(&scene, u);
         n++;
     }
@@ -420,16 +429,16 @@ int tuner_experiment(void)
 int tuner_rule(int rule)
 {
     struct fixpid_pid_config config = {.options = 0};
+    const bool has =
+        fixpid_autotune_result(&autotune, (uint8_t)rule,
+                               (uint8_t)params[PARAM_ROBUSTNESS], &config);
 
-    if (!fixpid_autotune_result(&autotune, (uint8_t)rule,
-                                (uint8_t)params[PARAM_ROBUSTNESS], &config)) {
-        return 0;
-    }
+    // A rule without gains leaves zeros.
     results[RESULT_KP] = config.gains.kp_q8;
     results[RESULT_KI] = config.gains.ki_q24;
     results[RESULT_KD] = config.gains.kd_q8;
     results[RESULT_FILTER] = config.gains.derivative_filter;
     results[RESULT_WEIGHT] = config.setpoint_weight_q8;
     results[RESULT_OPTIONS] = config.options;
-    return 1;
+    return has ? 1 : 0;
 }

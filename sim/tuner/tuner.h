@@ -137,7 +137,7 @@ int tuner_run(void);
 int tuner_experiment(void);
 
 // The gains of one rule after an experiment, in tuner_results. Returns 1, or 0
-// where the rule has none.
+// where the rule has none, which are zeros then.
 int tuner_rule(int rule);
 
 #endif

@@ -11,34 +11,34 @@
 #include <stdint.h>
 #include <string.h>
 
-static inline double fabs(double x)
+static inline double math_fabs(double x)
 {
     return __builtin_fabs(x);
 }
 
-static inline double floor(double x)
+static inline double math_floor(double x)
 {
     return __builtin_floor(x);
 }
 
-static inline double ceil(double x)
+static inline double math_ceil(double x)
 {
     return __builtin_ceil(x);
 }
 
-static inline double fmin(double a, double b)
+static inline double math_fmin(double a, double b)
 {
     return (a < b) ? a : b;
 }
 
-static inline double fmax(double a, double b)
+static inline double math_fmax(double a, double b)
 {
     return (a > b) ? a : b;
 }
 
 // sin r and cos r, for |r| <= pi / 4, by Taylor's series: what is left out is
 // below 1e-17.
-static inline double math_sin(double r)
+static inline double math_sine_part(double r)
 {
     const double z = r * r;
     double sum = 1.0;
@@ -48,7 +48,7 @@ static inline double math_sin(double r)
     return r * sum;
 }
 
-static inline double math_cos(double r)
+static inline double math_cosine_part(double r)
 {
     const double z = r * r;
     double sum = 1.0;
@@ -61,28 +61,29 @@ static inline double math_cos(double r)
 // sin(x + quarter pi / 2), for |x| below some thousands.
 static inline double math_wave(double x, int quarter)
 {
-    const double turns = floor((x * 0.63661977236758134308) + 0.5);
+    const double turns = math_floor((x * 0.63661977236758134308) + 0.5);
     const double r =
         (x - (turns * 1.57079632679489655800)) - (turns * 6.1232339957367e-17);
     const int at = ((int)turns + quarter) & 3;
-    const double value = ((at & 1) != 0) ? math_cos(r) : math_sin(r);
+    const double value =
+        ((at & 1) != 0) ? math_cosine_part(r) : math_sine_part(r);
     return ((at & 2) != 0) ? -value : value;
 }
 
-static inline double sin(double x)
+static inline double math_sine(double x)
 {
     return math_wave(x, 0);
 }
 
-static inline double cos(double x)
+static inline double math_cosine(double x)
 {
     return math_wave(x, 1);
 }
 
 // For |x| < 700.
-static inline double exp(double x)
+static inline double math_exp(double x)
 {
-    const double twos = floor((x * 1.44269504088896340736) + 0.5);
+    const double twos = math_floor((x * 1.44269504088896340736) + 0.5);
     const double r = (x - (twos * 6.93147180369123816490e-01)) -
                      (twos * 1.90821492927058770002e-10);
     double sum = 1.0;
@@ -95,13 +96,25 @@ static inline double exp(double x)
     return sum * power;
 }
 
-static inline double tanh(double x)
+static inline double math_tanh(double x)
 {
-    if (fabs(x) > 20.0) {
+    if (math_fabs(x) > 20.0) {
         return (x > 0.0) ? 1.0 : -1.0;
     }
-    const double square = exp(2.0 * x);
+    const double square = math_exp(2.0 * x);
     return (square - 1.0) / (square + 1.0);
 }
+
+// They have names of their own, as a compiler may call the system's for a
+// builtin.
+#define fabs math_fabs
+#define floor math_floor
+#define ceil math_ceil
+#define fmin math_fmin
+#define fmax math_fmax
+#define sin math_sine
+#define cos math_cosine
+#define exp math_exp
+#define tanh math_tanh
 
 #endif

@@ -2,8 +2,8 @@
 # frozen_string_literal: true
 
 # ES modules as one: each after those that it imports, without the lines that
-# import and the word export. Their names must differ: a second one is a syntax
-# error in the browser, and an error here for what is at the left edge.
+# import, the word export, and what only people read: comments and indentation.
+# Their names must differ: a second one is an error.
 module Modules
   IMPORT = %r!^import (?:\{[^}]*\} from )?'\./([\w.]+)';\n!.freeze
   NAME = /^(?:export )?(?:async )?(?:function|const|let|class) (\w+)/.freeze
@@ -16,7 +16,7 @@ module Modules
       twice = texts.values.flat_map { |text| text.scan(NAME).flatten }.tally.select { |_, times| times > 1 }.keys
       raise "names of two modules: #{twice.join(', ')}" unless twice.empty?
 
-      texts.values.join("\n").gsub('</script', '<\/script')
+      texts.values.join("\n").gsub('</script', '<\/script').gsub(%r{^ *//.*\n}, '').gsub(/^ +|^\n/, '')
     end
 
     private
