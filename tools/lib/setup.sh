@@ -64,6 +64,9 @@ has_package() {
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
+    mkdocs-material)
+        has_module 'mkdocs.utils; assert "material" in mkdocs.utils.get_theme_names()'
+        ;;
     python3-cffi) has_module cffi ;;
     python3-dev) builds '#include <Python.h>' cc \
         "-I$("${PYTHON:-/usr/bin/python3}" -c 'import sysconfig
