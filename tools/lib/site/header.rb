@@ -7,16 +7,18 @@ require_relative 'names'
 # each comment about macros. Names are links. Nothing in the header changes.
 class Header
   # What only the compiler needs.
-  SKIPPED = %r{^(?:// SPDX.*|#include .*|FIXPID_C_(?:BEGIN|END)|#ifndef FIXPID\w*_H|#define FIXPID\w*_H|#endif)$}.freeze
-  NAME = /\b(?:fixpid|FIXPID)_\w+(?:\.h\b)?|\bfixpid\.h\b/.freeze
-  TOKEN = %r{//[^\n]*|^#(?:[^\n]*\\\n)*[^\n]*|"[^"\n]*"|\b[A-Za-z_]\w*\b}.freeze
+  SKIPPED = %r{^(?:// SPDX.*|#include .*|FIXPID_C_(?:BEGIN|END)|#ifndef FIXPID\w*_H|#define FIXPID\w*_H)$}.freeze
+  NAME = /\b(?:(?:struct|union|enum) )?(?:fixpid|FIXPID)_\w+(?:\.h\b)?|\bfixpid\.h\b/.freeze
+  TOKEN = %r{//[^\n]*|^#(?:[^\n]*\\\n)*[^\n]*|"[^"\n]*"|#{NAME}|\b[A-Za-z_]\w*\b}.freeze
   TYPES = /\A(?:u?int\d+_t|bool|void|char|unsigned|int)\z/.freeze
   KEYWORDS = /\A(?:struct|union|enum|const|volatile|extern|template|static|inline)\z/.freeze
+  TYPE = /\A(struct|union|enum) /.freeze
 
   def initialize(path, names)
     @file = File.basename(path)
     @names = names
-    @text = File.read(path)
+    @text = File.read(path).delete_suffix("#endif\n")
+    @own = [] # names that need no link where they are explained
   end
 
   def page
@@ -31,53 +33,58 @@ class Header
   def blocks
     found = [[[], []]]
     depth = 0
-    @text.each_line(chomp: true) do |line|
+    logical_lines.each do |line|
       next if depth.zero? && line.match?(SKIPPED)
 
       comment = depth.zero? && line.start_with?('//')
       found << [[], []] if depth.zero? && (line.empty? || (comment && found.last[1].any?))
       found.last[comment ? 0 : 1] << line unless line.empty? && depth.zero?
-      depth += line.count('{') - line.count('}') unless line.match?(/\A *#|\\\z/)
+      depth += line.count('{') - line.count('}') unless line.start_with?('#')
     end
     found.reject { |pair| pair.all?(&:empty?) }
   end
 
+  # A macro of several lines is one.
+  def logical_lines
+    @text.split("\n").slice_when { |line, _| !line.end_with?('\\') }.map { |lines| lines.join("\n") }
+  end
+
   # A block with its headings. Each function of several under one comment has its own.
   def section(comment, code)
+    @own = Names.declared(code).map(&:last)
     parts = functions(code)
-    titles = parts.map { |part| Names.declared("#{part.join("\n")}\n").find { |kind, _| kind == :function } }
+    titles = parts.map { |part| Names.declared(part).find { |kind, _| kind == :function } }
     return ["#{heading(comment, code)}\n", prose(comment), listing(code)].join("\n") unless titles.all? && parts.any?
 
     parts.each_with_index.map do |part, i|
-      "### `#{titles[i][1]}` { ##{titles[i][1]} }\n\n#{prose(comment) if i.zero?}\n#{listing(part)}\n"
+      "## `#{titles[i][1]}` { ##{titles[i][1]} }\n\n#{prose(comment) if i.zero?}\n#{listing(part)}\n"
     end.join
   end
 
-  # The code cut after each declaration.
+  # The code cut after each declaration; what follows the last one belongs to it.
   def functions(code)
-    code.slice_after { |line| line.match?(/;\s*(?:\/\/.*)?\z/) }.to_a
+    parts = code.slice_after { |line| line.match?(%r{;\s*(?://.*)?\z}) }.to_a
+    parts[-2..] = [parts[-2] + parts[-1]] if parts.size > 1 && parts[-1].all? { |line| line.start_with?('#') }
+    parts
   end
 
   def heading(comment, code)
-    declared = Names.declared("#{code.join("\n")}\n")
-    type = declared.find { |kind, _| %i[struct enum].include?(kind) }
-    anchors = declared.map(&:last)
-    return anchored("### #{type[0]} `#{type[1]}`", type[1], anchors) if type
-    return '' if comment.empty?
+    declared = Names.declared(code)
+    type = declared.find { |kind, _| Names::TYPES.include?(kind) }
+    return anchored("#{type[0]} `#{type[1]}`", type, declared) if type
 
-    macros = declared.select { |kind, _| kind == :macro }.map(&:last)
-    return anchored("### `#{macros[0]}`", macros[0], anchors) if macros.size == 1
+    macros = declared.select { |kind, _| kind == :macro }
+    return '' if comment.empty? || macros.empty?
+    return anchored("`#{macros[0][1]}`", macros[0], declared) if macros.size == 1
 
-    clause = comment.map { |line| line.delete_prefix('//').strip }.join(' ')[/\A[^.,:;]+/]
-    return '' if macros.empty?
-
-    anchored("### #{clause}", nil, anchors)
+    clause = comment.map { |line| line.delete_prefix('//').strip }.join(' ')[/\A[^.,:;(]+/].strip
+    anchored(clause.delete_prefix('These are ').sub(/\A./, &:upcase), nil, declared)
   end
 
   # A heading, and behind it a place for each further name to link to.
-  def anchored(text, id, names)
-    places = (names - [id]).map { |name| "<span id=\"#{name}\"></span>" }.join
-    "#{text}#{id && " { ##{id} }"}\n\n#{places.empty? ? '' : "<div>#{places}</div>\n"}"
+  def anchored(title, first, declared)
+    places = (declared - [first]).map { |name| "<span id=\"#{Names.anchor(*name)}\"></span>" }.join
+    "## #{title}#{first && " { ##{Names.anchor(*first)} }"}\n\n#{places.empty? ? '' : "<div>#{places}</div>\n"}"
   end
 
   # A comment as paragraphs, lists and, where it is indented, as it stands.
@@ -126,9 +133,11 @@ class Header
     text.split(/(#{NAME})/).map { |word| link(word) || CGI.escapeHTML(word) }.join
   end
 
-  def link(word)
-    address = @names.address(word, @file)
-    address && "<a href=\"#{address}\">#{CGI.escapeHTML(word)}</a>"
+  # Nothing is linked where it is explained.
+  def link(words)
+    name = words.split.last
+    address = @names.address(words, @file) unless @own.include?(name)
+    address && CGI.escapeHTML(words).sub(name) { "<a href=\"#{address}\">#{name}</a>" }
   end
 
   def listing(code)
@@ -148,6 +157,8 @@ class Header
   end
 
   def token(word)
+    return linked(word).sub(TYPE, '<span class="k">\1</span> ') if word.match?(TYPE)
+
     style = case word
             when %r{\A//} then 'c1'
             when /\A#/ then 'cp'

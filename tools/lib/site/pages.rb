@@ -33,11 +33,15 @@ class Pages
 
   private
 
-  # Its links to files go to their pages. Lists begin after an empty line, and no comment
-  # stands before a table.
+  # Its links to files go to their pages. Lists begin after an empty line, no comment
+  # stands before a table, and each column of one has a name for those who hear it.
   def rewritten(path, text)
     text = text.gsub(LINK) { "](#{address(path, $1)}#{$2})" }
-    outside_of_code(text) { |prose| lists(prose.gsub(/^<!--.*?-->\n/m, "\n").gsub(/<!--.*?-->/m, '')) }
+    outside_of_code(text) { |prose| named_columns(lists(prose.gsub(/^<!--.*?-->\n/m, "\n").gsub(/<!--.*?-->/m, ''))) }
+  end
+
+  def named_columns(text)
+    text.gsub(/^\| *\|(.*\n\|[ :|-]+\n)/) { "| <span class=\"unseen\">name</span> |#{$1}" }
   end
 
   def address(path, link)

@@ -195,6 +195,11 @@ part_python() {
     count 'test/python/run' '^ok ' '^FAILED ' test/python/run
 }
 
+part_site() {
+    need ruby mkdocs :mkdocs-material clang wasm-ld:lld
+    count 'test/site/run' '^ok ' '^FAILED ' test/site/run
+}
+
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
     count 'test/families/run' '^ok ' '^FAILED ' test/families/run

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Long tables of numbers are sorted by a click on a column's name. Wide ones, like wide
-// code, move sideways by themselves, and can be reached by keys to do so.
+// code, move sideways by themselves, and can be reached by keys to do so. The search has
+// a name for those who hear it.
 'use strict';
 
 const LONG = 8; // rows
@@ -47,9 +48,6 @@ function makeSortable(table) {
         button.type = 'button';
         button.className = 'sort';
         button.append(...cell.childNodes);
-        if (!button.textContent.trim()) {
-            button.setAttribute('aria-label', 'name');
-        }
         button.addEventListener('click', () => sort(table, column));
         cell.append(button);
     });
@@ -74,3 +72,5 @@ function reachable() {
 }
 addEventListener('load', reachable);
 addEventListener('resize', reachable);
+
+document.querySelector('.md-search').setAttribute('aria-label', 'Search');
