@@ -74,8 +74,9 @@ class Header
     return anchored("#{type[0]} `#{type[1]}`", type, declared) if type
 
     macros = declared.select { |kind, _| kind == :macro }
-    return '' if comment.empty? || macros.empty?
+    return '' if macros.empty?
     return anchored("`#{macros[0][1]}`", macros[0], declared) if macros.size == 1
+    return places(declared) if comment.empty?
 
     clause = comment.map { |line| line.delete_prefix('//').strip }.join(' ')[/\A[^.,:;(]+/].strip
     anchored(clause.delete_prefix('These are ').sub(/\A./, &:upcase), nil, declared)
@@ -83,8 +84,13 @@ class Header
 
   # A heading, and behind it a place for each further name to link to.
   def anchored(title, first, declared)
-    places = (declared - [first]).map { |name| "<span id=\"#{Names.anchor(*name)}\"></span>" }.join
-    "## #{title}#{first && " { ##{Names.anchor(*first)} }"}\n\n#{places.empty? ? '' : "<div>#{places}</div>\n"}"
+    "## #{title}#{first && " { ##{Names.anchor(*first)} }"}\n\n#{places(declared - [first])}"
+  end
+
+  def places(declared)
+    return '' if declared.empty?
+
+    "<div>#{declared.map { |name| "<span id=\"#{Names.anchor(*name)}\"></span>" }.join}</div>\n"
   end
 
   # A comment as paragraphs, lists and, where it is indented, as it stands.
