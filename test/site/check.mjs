@@ -56,6 +56,97 @@ context.on('response', (response) => {
     }
 });
 
+// Word, and the page that one of its first five results must be of.
+const WORDS = [
+    ['anti-windup', 'include/fixpid_an937.h.html'],
+    ['cascade', 'docs/recipes.html'],
+    ['fixpid_pid_track', 'include/fixpid_pid.h.html'],
+    ['FIXPID_SLEW_RATE', 'include/fixpid_slew.h.html'],
+    ['brown-out', 'docs/ports.html'],
+    ['SIMC', 'include/fixpid_autotune.h.html'],
+    ['CMSIS-DSP', 'docs/migrating.html'],
+    ['pendulum', 'docs/tuning.html'],
+    ['EEPROM', 'docs/recipes.html'],
+    ['numpy', 'python/index.html'],
+];
+
+async function searches(base) {
+    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const lost = [];
+    await page.goto(`${base}/index.html`);
+    for (const [word, wanted] of WORDS) {
+        await page.fill('.md-search__input', '');
+        await page.locator('.md-search__input').pressSequentially(word);
+        const found = await page.waitForFunction((wanted) => {
+            const results = [...document.querySelectorAll('.md-search-result__item')].slice(0, 5);
+            return results.some((item) => item.querySelector('a').href.includes(wanted));
+        }, wanted, { timeout: 8000 }).catch(() => undefined);
+        if (!found) {
+            const first = await page.$$eval('.md-search-result__item > a', (all) => all.map((a) => a.href));
+            lost.push(`${word}: ${first.slice(0, 5)}`);
+        }
+    }
+    await page.close();
+    return lost;
+}
+
+async function sorting() {
+    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const problems = [];
+    await page.goto(`${host}/docs/cost.html`);
+    const table = page.locator('table', { has: page.getByRole('button', { name: 'worst', exact: true }) }).first();
+    const column = (await table.locator('th').allInnerTexts()).findIndex((text) => text.trim() === 'worst');
+    const values = async () => (await table.locator(`tbody td:nth-child(${column + 1})`).allInnerTexts()).map(Number);
+    const before = await values();
+    const ascending = [...before].sort((one, other) => one - other);
+    for (const wanted of [ascending, [...ascending].reverse()]) {
+        await table.getByRole('button', { name: 'worst', exact: true }).press('Enter');
+        if (String(await values()) !== String(wanted)) {
+            problems.push(`sorted: ${await values()}`);
+        }
+    }
+    if (before.length < 50 || String(before) === String(ascending)) {
+        problems.push('the table is short, or was sorted before');
+    }
+    await page.close();
+    return problems;
+}
+
+// The header's words are on its page, in their order, and each function has a heading.
+async function headers() {
+    const page = await browser.newPage();
+    const problems = [];
+    for (const file of readdirSync('include')) {
+        await page.goto(`${host}/include/${file}.html`);
+        const text = readFileSync(join('include', file), 'utf8');
+        const wanted = text.split('\n')
+            .filter((line) => !/^(\/\/ SPDX|#include|FIXPID_C_|#(ifndef|define) FIXPID\w*_H$)/.test(line))
+            .map((line) => line.replace(/^\/\/( *- | \d+\. )?/, '').replace(/`/g, '')).join(' ')
+            .replace(/#endif\s*$/, '').split(/\s+/).filter(Boolean);
+        const shown = (await page.locator('article').innerText()).replace(/[\u200b`]/g, '').split(/\s+/);
+        let place = -1;
+        const lost = wanted.find((word) => (place = shown.indexOf(word, place + 1)) < 0);
+        if (lost !== undefined) {
+            problems.push(`${file} lacks ${lost}`);
+        }
+        for (const [, name] of text.matchAll(/^(?!static)[\w ]*[ *](fixpid_\w+)\(/gm)) {
+            if (await page.locator(`h2[id="${name}"]`).count() !== 1) {
+                problems.push(`${file}: no heading for ${name}`);
+            }
+        }
+    }
+    await page.close();
+    return problems;
+}
+
+if (named.length === 0) {
+    checkNone('the search finds ten words', await searches(host));
+    checkNone('the search finds them from a file, too', await searches(pathToFileURL(site).href));
+    checkNone('a table is sorted by keys', await sorting());
+    checkNone('the headers are on their pages as they are', await headers());
+    check('pages', pages.length > 40, `only ${pages.length}`);
+}
+
 const links = new Map(); // from address to a page that has it
 const anchors = new Map(); // of a page
 const wide = [];
@@ -105,96 +196,5 @@ checkNone('no error', errors);
 checkNone(`nothing moves sideways at ${PHONE} pixels`, wide);
 checkNone('axe-core in light', light);
 checkNone('axe-core in dark', dark);
-
-// Word, and the page that one of its first five results must be of.
-const WORDS = [
-    ['anti-windup', 'include/fixpid_an937.h.html'],
-    ['cascade', 'docs/recipes.html'],
-    ['fixpid_pid_track', 'include/fixpid_pid.h.html'],
-    ['FIXPID_SLEW_RATE', 'include/fixpid_slew.h.html'],
-    ['brown-out', 'docs/ports.html'],
-    ['SIMC', 'include/fixpid_autotune.h.html'],
-    ['CMSIS-DSP', 'docs/migrating.html'],
-    ['pendulum', 'docs/behaviour.html'],
-    ['EEPROM', 'docs/recipes.html'],
-    ['numpy', 'python/README.html'],
-];
-
-async function searches(base) {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
-    const lost = [];
-    await page.goto(`${base}/index.html`);
-    for (const [word, wanted] of WORDS) {
-        await page.fill('.md-search__input', '');
-        await page.fill('.md-search__input', word);
-        const found = await page.waitForFunction((wanted) => {
-            const results = [...document.querySelectorAll('.md-search-result__item')].slice(0, 5);
-            return results.some((item) => item.querySelector('a').href.includes(wanted));
-        }, wanted, { timeout: 20000 }).catch(() => undefined);
-        if (!found) {
-            const first = await page.$$eval('.md-search-result__item > a', (all) => all.map((a) => a.href));
-            lost.push(`${word}: ${first.slice(0, 5)}`);
-        }
-    }
-    await page.close();
-    return lost;
-}
-
-async function sorting() {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
-    const problems = [];
-    await page.goto(`${host}/docs/cost.html`);
-    const table = page.locator('table', { has: page.getByRole('button', { name: 'worst', exact: true }) }).first();
-    const column = (await table.locator('th').allInnerTexts()).findIndex((text) => text.trim() === 'worst');
-    const values = async () => (await table.locator(`tbody td:nth-child(${column + 1})`).allInnerTexts()).map(Number);
-    const before = await values();
-    const ascending = [...before].sort((one, other) => one - other);
-    for (const wanted of [ascending, [...ascending].reverse()]) {
-        await table.getByRole('button', { name: 'worst', exact: true }).press('Enter');
-        if (String(await values()) !== String(wanted)) {
-            problems.push(`sorted: ${await values()}`);
-        }
-    }
-    if (before.length < 50 || String(before) === String(ascending)) {
-        problems.push('the table is short, or was sorted before');
-    }
-    await page.close();
-    return problems;
-}
-
-// The header's words are on its page, in their order, and each function has a heading.
-async function headers() {
-    const page = await browser.newPage();
-    const problems = [];
-    for (const file of readdirSync('include')) {
-        await page.goto(`${host}/include/${file}.html`);
-        const text = readFileSync(join('include', file), 'utf8');
-        const wanted = text.split('\n')
-            .filter((line) => !/^(\/\/ SPDX|#include|FIXPID_C_|#(ifndef|define) FIXPID\w*_H$)/.test(line))
-            .map((line) => line.replace(/^\/\/( - | \d+\. )?/, '').replace(/`/g, '')).join(' ')
-            .replace(/#endif\s*$/, '').split(/\s+/).filter(Boolean);
-        const shown = (await page.locator('article').innerText()).replace(/[\u200b`]/g, '').split(/\s+/);
-        let place = -1;
-        const lost = wanted.find((word) => (place = shown.indexOf(word, place + 1)) < 0);
-        if (lost !== undefined) {
-            problems.push(`${file} lacks ${lost}`);
-        }
-        for (const [, name] of text.matchAll(/^(?!static)[\w ]*[ *](fixpid_\w+)\(/gm)) {
-            if (await page.locator(`h2[id="${name}"]`).count() !== 1) {
-                problems.push(`${file}: no heading for ${name}`);
-            }
-        }
-    }
-    await page.close();
-    return problems;
-}
-
-if (named.length === 0) {
-    checkNone('the search finds ten words', await searches(host));
-    checkNone('the search finds them from a file, too', await searches(pathToFileURL(site).href));
-    checkNone('a table is sorted by keys', await sorting());
-    checkNone('the headers are on their pages as they are', await headers());
-    check('pages', pages.length > 40, `only ${pages.length}`);
-}
 server.close();
 await finish();
