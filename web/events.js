@@ -50,6 +50,21 @@ function tidyTime(s, seconds) {
     return Number((Math.round(inside / step) * step).toPrecision(6));
 }
 
+// Flags that are near to each other stand below each other: a row for each.
+function rowsOf(s) {
+    const near = 0.17 * s.DURATION;
+    const order = s.events.map((event, i) => ({ at: event.at, i })).sort((a, b) => a.at - b.at);
+    const ends = []; // of each row, the last flag's time
+    const rows = new Array(s.events.length).fill(0);
+    for (const { at, i } of order) {
+        let row = ends.findIndex((end) => at - end >= near);
+        row = row < 0 ? ends.length : row;
+        ends[row] = at;
+        rows[i] = row;
+    }
+    return rows;
+}
+
 // The flags above the plots; update(state) after each change. `plots` has the
 // gutters, onEvents(events) takes what was moved.
 export function createFlags(place, plots, state, onEvents) {
@@ -96,8 +111,11 @@ export function createFlags(place, plots, state, onEvents) {
         if (flags.length !== s.events.length) {
             build(s.events.length);
         }
+        const rows = rowsOf(s);
+        place.style.setProperty('--rows', Math.max(1, ...rows.map((row) => row + 1)));
         s.events.forEach((event, i) => {
             const part = event.at / s.DURATION;
+            flags[i].style.setProperty('--row', rows[i]);
             const text = textOf(s, event);
             flags[i].textContent = text;
             flags[i].hidden = part > 1;

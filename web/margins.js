@@ -226,11 +226,11 @@ export function controllerAt(law, w) {
 
 // --- In time ----------------------------------------------------------------
 
-// The closed loop without limits and rounding after a push, its gain times
-// `factor`: the measurement of each step.
-export function linearResponse(plant, law, factor, n) {
-    const size = plant.phi.length;
-    let x = new Array(size).fill(0);
+// The closed loop without limits and rounding, its gain times `factor`: the
+// measurement of each step after a count on the first one, and after a step of
+// `driven` output counts before it.
+export function linearResponse(plant, law, factor, n, driven = 0) {
+    let x = plant.now.map((b) => b * driven);
     const outputs = new Float64Array(n + plant.steps + 2);
     const seen = new Float64Array(n);
     let [integral, derivative] = [0, 0];
@@ -269,7 +269,7 @@ function largest(seen, from, to) {
 
 // The loop is stable if what is left of a push goes on getting less.
 export function isStable(plant, law, factor, n) {
-    const seen = linearResponse(plant, law, factor, n);
+    const seen = linearResponse(plant, law, factor, n, 1);
     const early = largest(seen, n / 4, n / 2);
     const late = largest(seen, 3 * n / 4, n);
     return Number.isFinite(late) && (late < early * 0.999 || late < 1e-9);
@@ -347,6 +347,12 @@ export function marginsOf(s, results) {
     const end = loop(Math.PI);
     if (end[0] < 0 && 1 / Math.hypot(...end) >= 1) {
         upper = Math.min(upper ?? Infinity, 1 / Math.hypot(...end));
+    }
+    // So is its start, where the loop has an end there.
+    const [start, before] = [loop(lowest / 10), loop(lowest / 100)];
+    if (before[0] < 0 && Math.abs(before[1]) < 0.1 * Math.abs(before[0]) && Math.abs(start[0] / before[0] - 1) < 0.05) {
+        const margin = 1 / Math.hypot(...before);
+        [upper, lower] = margin >= 1 ? [Math.min(upper ?? Infinity, margin), lower] : [upper, Math.max(lower ?? 0, margin)];
     }
     const around = [grid[Math.max(0, best - 1)], grid[Math.min(POINTS - 1, best + 1)]];
     return {
