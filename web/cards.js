@@ -129,7 +129,7 @@ export function fillRules(place, rows, chosen, onUse) {
             percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError), use];
     };
     place.replaceChildren(table('Gains and what they do in this scene',
-        ['Rule', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error', ''],
+        ['Rule', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error', 'Take it'],
         rows.map((row) => ({ cells: cellsOf(row), chosen: row.rule === chosen }))));
 }
 

@@ -177,14 +177,15 @@ function experimentText(s, found) {
 function showTuning(s) {
     find('#tuning').hidden = mode !== 'tune';
     if (mode !== 'tune') {
+        find('#found').textContent = '';
+        find('#rules').replaceChildren();
         return null;
     }
     const found = tunedFor(s);
     setText(find('#found'), experimentText(s, found));
-    find('#rules').hidden = found.results.STATUS !== STATUS.DONE;
-    if (!find('#rules').hidden) {
-        fillRules(find('#rules'), rowsFor(s), s.rule, useRule);
-    }
+    const done = found.results.STATUS === STATUS.DONE;
+    find('#rules').hidden = !done;
+    fillRules(find('#rules'), done ? rowsFor(s) : [], s.rule, useRule);
     return found;
 }
 
@@ -236,6 +237,7 @@ function showRefused(s) {
     find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
     find('#header').textContent = '';
     find('#chips').replaceChildren();
+    find('#chips-text').textContent = '';
     find('#copy').disabled = true;
     find('#save').disabled = true;
     find('#keep').disabled = true;

@@ -67,6 +67,64 @@ export function presetState(id) {
     return structuredClone(found);
 }
 
+// --- What is within reason ---------------------------------------------------
+// A link and a field may hold anything. What a controller refuses stays, to be
+// told; what no plant is, or what would take minutes, becomes the nearest that
+// can be shown.
+
+const REAL = [-1e6, 1e6];
+const COUNTS = [-32768, 32767];
+const BOUNDS = {
+    GAIN: REAL, T1: [0, 1e5], T2: [0, 1e5], DAMPING: [0.001, 100], DEAD: [0, 1e5], START: REAL,
+    SENSOR_BITS: [6, 15], SENSOR_LOW: REAL, SENSOR_RANGE: [0.001, 1e6], NOISE: [0, 1000],
+    OUTPUT_MIN: COUNTS, OUTPUT_MAX: COUNTS, RATE: [0.01, 20000], DURATION: [1e-4, 1e6], SETPOINT: REAL,
+    KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, 0xE0],
+    INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
+};
+const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
+    'SWING', 'CYCLES', 'ROBUSTNESS'];
+
+function clamped(value, [low, high]) {
+    return Math.min(high, Math.max(low, value));
+}
+
+// A lag that is shorter than a part of a step is none that can be simulated, and
+// dead time ends with the memory for it.
+function ofPlant(s) {
+    const shortest = 1 / (30 * s.RATE);
+    const dead = [0, 4000 / s.RATE];
+    switch (s.PLANT) {
+    case PLANT.MOTOR:
+        return { GAIN: [0.1, 1000], T1: [0.5, 1e4], T2: [0, 1000], RATE: [50, 20000], DURATION: [0.01, 20] };
+    case PLANT.PENDULUM:
+        return { GAIN: [0.1, 100], T1: [0.005, 10], T2: [0.02, 10], RATE: [256, 256], DURATION: [0.1, 60], START: [-90, 90] };
+    case PLANT.OVEN:
+        return { T1: [Math.max(shortest, s.DURATION / 5000), 1e5], T2: [Math.max(shortest, s.DURATION / 5000), 1e5], DEAD: dead };
+    case PLANT.INTEGRATOR:
+        return { T2: s.T2 > 0 ? [shortest, 1e5] : REAL, DEAD: dead };
+    default:
+        return { T1: [shortest, 1e5], T2: s.T2 > 0 ? [shortest, 1e5] : REAL, DEAD: dead };
+    }
+}
+
+export function withinReason(s) {
+    const found = { ...s };
+    for (const [name, bounds] of [...Object.entries(BOUNDS), ['RATE', ofPlant(s).RATE ?? REAL]]) {
+        found[name] = clamped(found[name], bounds);
+    }
+    for (const [name, bounds] of Object.entries(ofPlant(found))) {
+        found[name] = clamped(found[name], bounds);
+    }
+    found.DURATION = Math.max(found.DURATION, 4 / found.RATE);
+    WHOLE.forEach((name) => {
+        found[name] = Math.round(found[name]);
+    });
+    found.OPTIONS &= 0xE0;
+    found.events = found.events.map((event) => ({ ...event, at: clamped(event.at, [0, 1e6]),
+        a: clamped(event.a ?? 0, REAL), b: clamped(event.b ?? 0, REAL) }));
+    return found;
+}
+
 // One state at a time; who listens is told of a change once a frame.
 let state = presetState('oven');
 let listener = () => {};
@@ -81,14 +139,14 @@ export function onChange(what) {
 }
 
 export function changeNow(next) {
-    state = next;
+    state = withinReason(next);
     cancelAnimationFrame(waiting);
     waiting = 0;
     listener();
 }
 
 export function change(more) {
-    state = { ...state, ...more };
+    state = withinReason({ ...state, ...more });
     if (waiting === 0) {
         waiting = requestAnimationFrame(() => {
             waiting = 0;

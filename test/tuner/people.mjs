@@ -19,7 +19,7 @@ function readable() {
         .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
     const legends = [...document.querySelectorAll('figcaption, #flags, #presets button[aria-pressed=true]')].map((one) => one.textContent);
     const fields = [...document.querySelectorAll('#panel input, #events input, #events select, #options input')]
-        .map((one) => (one.type === 'checkbox' ? one.checked : one.value));
+        .map((one) => (one.type === 'checkbox' ? one.checked : one.type === 'number' ? Number(one.value) : one.value));
     return [...texts, ...legends, `notes ${[...document.querySelectorAll('.control em')].map((one) => one.textContent)}`, `fields ${fields}`];
 }
 
@@ -167,6 +167,7 @@ const text = (here, selector) => here.locator(selector).first().textContent();
 }
 
 // --- Narrow, dark, and with a reader --------------------------------------------------
+const READ = ['oven', 'an964']; // the others are made of the same parts
 const AXE_SOURCE = readFileSync(AXE, 'utf8');
 
 async function violations(here) {
@@ -181,12 +182,13 @@ for (const scheme of ['light', 'dark']) {
         const wide = [];
         for (const preset of presets) {
             const here = await open(`p=${preset}`, { colorScheme: scheme, ...options });
-            const tunes = [false, (await here.locator('#modes button').count()) > 1 && preset !== 'motor'];
-            for (const tuning of [...new Set(tunes)]) {
+            for (const tuning of preset === 'oven' ? [false, true] : [false]) {
                 if (tuning) {
                     await here.click('#modes button[value=tune]');
                 }
-                found.push(...(await violations(here)).map((one) => `${preset}: ${one}`));
+                if (READ.includes(preset)) {
+                    found.push(...(await violations(here)).map((one) => `${preset}: ${one}`));
+                }
                 const width = await here.evaluate(() => document.documentElement.scrollWidth);
                 wide.push(...(width > (options.viewport?.width ?? 1360) ? [`${preset}: ${width}`] : []));
             }
