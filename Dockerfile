@@ -10,11 +10,11 @@ FROM debian:12
 RUN apt-get update && \
     DEBIAN_FRONTEND=noninteractive apt-get install -y \
         --no-install-recommends \
-        avr-libc bison clang clang-format clang-tidy cmake coreutils \
+        avr-libc bison chromium clang clang-format clang-tidy cmake coreutils \
         cppcheck dpkg-dev flex g++ gcc gcc-arm-none-eabi gcc-avr \
         gcc-riscv64-unknown-elf gcovr gnuplot-nox gpsim-dev gputils \
         libboost-dev libboost-graph-dev libc6-dev libclang-rt-14-dev \
-        libsimavr-dev lld make mspdebug patch pmccabe qemu-system-arm \
+        libsimavr-dev lld make mspdebug nodejs npm patch pmccabe qemu-system-arm \
         qemu-system-misc ruby sdcc sdcc-libraries sdcc-ucsim shellcheck \
         simavr util-linux zlib1g-dev \
     && rm -rf /var/lib/apt/lists/*

@@ -107,9 +107,9 @@ function panesOf(s, found) {
     const terms = {
         title: 'Terms', unit: 'counts',
         series: [
-            { name: 'P', color: 'p', data: each(series.P, (c) => c / p) },
-            { name: 'I', color: 'i', data: each(series.I, (c) => c / i) },
-            { name: 'D', color: 'd', data: each(series.D, (c) => c / d) },
+            { name: 'P', color: 'p', width: 1.25, data: each(series.P, (c) => c / p) },
+            { name: 'I', color: 'i', width: 1.25, data: each(series.I, (c) => c / i) },
+            { name: 'D', color: 'd', width: 1.25, data: each(series.D, (c) => c / d) },
         ],
     };
     const difference = {
@@ -222,7 +222,10 @@ function showHead(s) {
     for (const button of find('#presets').children) {
         button.setAttribute('aria-pressed', String(button.value === s.preset));
     }
-    setText(find('#story'), s.story);
+    if (find('#story').textContent !== s.story) {
+        find('#presets [aria-pressed=true]').scrollIntoView({ block: 'nearest', inline: 'nearest' });
+        setText(find('#story'), s.story);
+    }
     history.replaceState(null, '', `#${fragmentOf(s)}`);
     for (const box of find('#options').querySelectorAll('input')) {
         box.checked = (s.OPTIONS & Number(box.value)) !== 0;
