@@ -50,19 +50,27 @@ function tidyTime(s, seconds) {
     return Number((Math.round(inside / step) * step).toPrecision(6));
 }
 
-// Flags that are near to each other stand below each other: a row for each.
-function rowsOf(s) {
-    const near = 0.17 * s.DURATION;
-    const order = s.events.map((event, i) => ({ at: event.at, i })).sort((a, b) => a.at - b.at);
-    const ends = []; // of each row, the last flag's time
-    const rows = new Array(s.events.length).fill(0);
-    for (const { at, i } of order) {
-        let row = ends.findIndex((end) => at - end >= near);
-        row = row < 0 ? ends.length : row;
-        ends[row] = at;
-        rows[i] = row;
+const LETTER = 7.2; // pixels of a flag's text, about
+const EDGES = 18;
+
+// Where each flag stands: its row, as flags that would cover each other stand
+// below each other, and whether it is to the left of its time.
+function placesOf(s, width, plots) {
+    const flags = s.events.map((event, i) => {
+        const size = LETTER * textOf(s, event).length + EDGES;
+        const x = plots.gutter + (width - plots.gutter - plots.right) * event.at / s.DURATION;
+        const late = x + size > width;
+        return { i, late, left: late ? x - size : x, size };
+    });
+    const ends = []; // of each row, where its last flag ends
+    const places = [];
+    for (const { i, late, left, size } of flags.sort((one, other) => one.left - other.left)) {
+        const free = ends.findIndex((end) => end <= left);
+        const row = free < 0 ? ends.length : free;
+        ends[row] = left + size;
+        places[i] = { row, late };
     }
-    return rows;
+    return places;
 }
 
 // The flags above the plots; update(state) after each change. `plots` has the
@@ -107,23 +115,27 @@ export function createFlags(place, plots, state, onEvents) {
         }
     }
 
-    return (s) => {
+    let last = null;
+    const update = (s) => {
+        last = s;
         if (flags.length !== s.events.length) {
             build(s.events.length);
         }
-        const rows = rowsOf(s);
-        place.style.setProperty('--rows', Math.max(1, ...rows.map((row) => row + 1)));
+        const places = placesOf(s, place.clientWidth, plots);
+        place.style.setProperty('--rows', Math.max(1, ...places.map(({ row }) => row + 1)));
         s.events.forEach((event, i) => {
             const part = event.at / s.DURATION;
-            flags[i].style.setProperty('--row', rows[i]);
+            flags[i].style.setProperty('--row', places[i].row);
             const text = textOf(s, event);
             flags[i].textContent = text;
             flags[i].hidden = part > 1;
-            flags[i].classList.toggle('late', part > 0.72);
+            flags[i].classList.toggle('late', places[i].late);
             flags[i].style.setProperty('--at', part);
             flags[i].setAttribute('aria-label', `${text} at ${short(event.at)} s; the arrow keys move it`);
         });
     };
+    new ResizeObserver(() => last && update(last)).observe(place);
+    return update;
 }
 
 function numberField(label, value, onInput) {
