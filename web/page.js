@@ -396,6 +396,7 @@ function useFit() {
     const { fit, step } = fitOfPage();
     if (fit !== null) {
         mode = 'run';
+        kept = null;
         changeNow({ ...presetState('flow'), ...stateOfFit(currentState(), fit, step, find('#record-unit').value) });
         find('#view').scrollIntoView();
         say('The plant is the one that was recorded.');

@@ -184,7 +184,7 @@ export function fragmentOf(of) {
 }
 
 function eventOf(text) {
-    const [what, at, a, b] = text.split('_');
+    const [what, at, a = 0, b = 0] = text.split('_');
     const event = { at: Number(at), what: String(what).toUpperCase(), a: Number(a), b: Number(b) };
     const good = EVENT[event.what] > 0 && [event.at, event.a, event.b].every(Number.isFinite);
     return good ? event : null;
