@@ -58,11 +58,12 @@ function decibels(factor) {
 }
 
 export function marginFigures(margins) {
-    const { ms, gainMargin, lowerGainMargin, phaseMargin, stable } = margins;
+    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable } = margins;
     return [
         ['Loop', stable ? 'stable' : 'unstable'],
         ['Ms', stable ? ms.toFixed(2) : '–'],
         ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
+        ['Dead time margin', !stable || delayMargin === null ? '–' : `${digits(delayMargin)} s`],
         ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${decibels(gainMargin)})`],
         ...(stable && lowerGainMargin !== null
             ? [['and down to', `${digits(lowerGainMargin)} (${decibels(lowerGainMargin)})`]] : []),

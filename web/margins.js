@@ -303,7 +303,8 @@ function peak(at, low, high) {
     return Math.sqrt(low * high);
 }
 
-// { ms, gainMargin, lowerGainMargin, phaseMargin (degrees), stable, curve: the
+// { ms, gainMargin, lowerGainMargin, phaseMargin (degrees),
+// delayMargin (seconds of further dead time), stable, curve: the
 // loop's points, scale: the slowest time in steps }. A margin that there is
 // none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
@@ -317,7 +318,7 @@ export function marginsOf(s, results) {
     const size = (w) => Math.hypot(...loop(w));
     const sensitivity = (w) => 1 / Math.hypot(...add(ONE, loop(w)));
     let best = 0;
-    let [upper, lower, phase] = [null, null, null];
+    let [upper, lower, phase, delay] = [null, null, null, null];
     for (let i = 0; i < POINTS; i++) {
         if (sensitivity(grid[i]) > sensitivity(grid[best])) {
             best = i;
@@ -339,8 +340,12 @@ export function marginsOf(s, results) {
         if ((Math.hypot(...a) > 1) !== (Math.hypot(...b) > 1)) {
             const w = crossing((x) => size(x) - 1, wa, wb, Math.hypot(...a) > 1);
             const [re, im] = loop(w);
-            const margin = Math.abs(Math.atan2(im, -re)) * DEGREES * -1;
-            phase = Math.min(phase ?? Infinity, -margin);
+            const away = Math.abs(Math.atan2(im, -re)); // from -180 degrees
+            phase = Math.min(phase ?? Infinity, away * DEGREES);
+            // More dead time turns the curve back: from above the axis all the
+            // way round.
+            const left = im < 0 ? away : 2 * Math.PI - away;
+            delay = Math.min(delay ?? Infinity, left / w / s.RATE);
         }
     }
     // The end of the band: a real number there is a crossing, too.
@@ -357,7 +362,7 @@ export function marginsOf(s, results) {
     const around = [grid[Math.max(0, best - 1)], grid[Math.min(POINTS - 1, best + 1)]];
     return {
         ms: sensitivity(peak(sensitivity, ...around)),
-        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase,
+        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase, delayMargin: delay,
         stable: isStable(plant, law, 1, responseSteps(s, results)),
         curve,
     };

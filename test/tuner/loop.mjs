@@ -118,8 +118,9 @@ for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset 
 }
 
 // --- Margins ------------------------------------------------------------------
-// The gain margin is where the loop in time stops being stable, and Ms is the
-// largest of the Fourier transform of what is left of a push.
+// The gain margin is where the loop in time stops being stable, and so is the
+// dead time that the phase margin stands for; Ms is the largest of the Fourier
+// transform of what is left of a push.
 function timeSide(state) {
     const { tuner } = window;
     const { results } = tuner.run(state);
@@ -139,8 +140,9 @@ function timeSide(state) {
         }
         ms = Math.max(ms, Math.hypot(re, im));
     }
-    const { gainMargin, lowerGainMargin } = margins;
-    return { margins: { ...margins, curve: 0 }, ms,
+    const { gainMargin, lowerGainMargin, delayMargin } = margins;
+    const later = (part) => tuner.isStable(tuner.sampledPlant(state, results.DEAD_S + part * delayMargin), law, 1, 2 * n);
+    return { margins: { ...margins, curve: 0 }, ms, early: later(0.97), late: later(1.03),
         below: gainMargin === null || stable(0.97 * gainMargin), above: gainMargin !== null && stable(1.03 * gainMargin),
         inside: lowerGainMargin === null || stable(1.03 * lowerGainMargin),
         outside: lowerGainMargin !== null && stable(0.97 * lowerGainMargin) };
@@ -155,6 +157,8 @@ for (const preset of presets) {
         periodic || Math.abs(found.ms / margins.ms - 1) < 0.02, 'they differ');
     check(`${preset.preset}: gain margin ${margins.gainMargin?.toFixed(2)}`,
         periodic || (found.below && !found.above), 'the loop in time has another one');
+    check(`${preset.preset}: dead time margin ${margins.delayMargin.toPrecision(3)} s`,
+        periodic || (found.early && !found.late), 'the loop in time has another one');
     const unstableAlone = preset.preset === 'an964';
     check(`${preset.preset}: lower gain margin ${margins.lowerGainMargin?.toFixed(2) ?? 'none'}`,
         found.inside && !found.outside && unstableAlone === (margins.lowerGainMargin !== null),
