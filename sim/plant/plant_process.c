@@ -29,12 +29,12 @@ void process_start(struct process *self, double step_s, double fastest_s)
 {
     self->parts = 1;
     while ((self->parts < PARTS_MAX) &&
-           ((step_s / self->parts) > (fastest_s / PARTS_OF_FASTEST))) {
+           ((step_s / (double)self->parts) > (fastest_s / PARTS_OF_FASTEST))) {
         self->parts *= 2;
     }
-    self->part_s = step_s / self->parts;
+    self->part_s = step_s / (double)self->parts;
     const double dead = floor((self->dead_time_s / self->part_s) + 0.5);
-    self->dead_parts = (int)plant_limit(dead, 0.0, PROCESS_LINE - 1.0);
+    self->dead_parts = (int)plant_limit(dead, 0.0, (double)(PROCESS_LINE - 1));
     self->newest = 0;
     self->drive = 0.0;
     for (int i = 0; i < PROCESS_STATES; i++) {
@@ -47,7 +47,7 @@ void process_start(struct process *self, double step_s, double fastest_s)
 
 double process_dead_s(const struct process *self)
 {
-    return self->dead_parts * self->part_s;
+    return (double)self->dead_parts * self->part_s;
 }
 
 void process_move(struct process *self, double drive)
