@@ -51,17 +51,11 @@ function coarse(name, integer, least) {
     return [`${name} is ${integer} steps of ${least}: the next value is ${percent(1 / integer, 0)} away.`];
 }
 
-function pidAdvice(s, r) {
-    const found = [...coarse('kp', r.KP, '1/256'), ...coarse('kd', r.KD, '1/256'),
-        ...coarse('ki', r.KI, '1/2²⁴')];
-    const kept = keptKi(r.KI);
-    if (Math.abs(kept - r.KI) > 0.001 * r.KI) {
-        found.push(`ki is kept with 15 bits, as ${whole(kept)} / 2²⁴: ${percent(Math.abs(kept - r.KI) / r.KI, 2)} away.`);
-    }
-    return found;
+function pidAdvice(r) {
+    return [...coarse('kp', r.KP, '1/256'), ...coarse('ki', r.KI, '1/2²⁴'), ...coarse('kd', r.KD, '1/256')];
 }
 
-function notesAdvice(s, r) {
+function notesAdvice(r, s) {
     const least = s.CONTROLLER === CONTROLLER.AN937 ? '1/16' : '1/1023';
     return ['KP', 'KI', 'KD'].flatMap((name) => (r[name] < 10 ? coarse(name.toLowerCase(), r[name], least) : []));
 }
@@ -102,14 +96,17 @@ export function adviceOf(s, run, margins) {
         return { refused: refusals(s, run.results), warnings: [] };
     }
     const own = s.CONTROLLER === CONTROLLER.PID ? pidAdvice : notesAdvice;
-    return { refused: [], warnings: [...own(s, run.results), ...loopAdvice(s, margins), ...sceneAdvice(s, run)] };
+    return { refused: [], warnings: [...own(run.results, s), ...loopAdvice(s, margins), ...sceneAdvice(s, run)] };
 }
 
-// Beside the labels of the gains: the integers.
+// Beside the labels of the gains: the integers, and of ki the one that its 15
+// bits keep.
 export function notesOf(s, r) {
     if (s.CONTROLLER !== CONTROLLER.PID) {
         return {};
     }
-    return { KP: `${whole(r.KP)} / 256`, KI: `${whole(r.KI)} / 2²⁴`, KD: `${whole(r.KD)} / 256`,
+    const kept = keptKi(r.KI);
+    const ki = kept === r.KI ? `${whole(r.KI)} / 2²⁴` : `${whole(r.KI)} → ${whole(kept)}`;
+    return { KP: `${whole(r.KP)} / 256`, KI: ki, KD: `${whole(r.KD)} / 256`,
         WEIGHT: `${whole(r.WEIGHT)} / 256` };
 }

@@ -20,7 +20,7 @@ export const STATUSES = {
     NO_OSCILLATION: 'No oscillation: the setpoint is out of the output’s reach, or the plant slower than the timeout.',
     SATURATED: 'The measurement reached the end of the sensor: a setpoint further inside, or a larger range.',
     IRREGULAR: 'No two cycles were alike: the output that holds this setpoint is next to an end of its range.',
-    TOO_FAST: 'The period is below 10 steps: sample faster.',
+    TOO_FAST: 'The period is below 10 steps: sample faster, or measure with less noise.',
     TOO_SMALL: 'The swing is below four times the hysteresis: less noise, or more sensor counts.',
     TOO_SLOW: 'The cycles took too many steps: sample more slowly.',
 };
@@ -58,11 +58,12 @@ function decibels(factor) {
 }
 
 export function marginFigures(margins) {
-    const { ms, gainMargin, lowerGainMargin, phaseMargin, stable } = margins;
+    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable } = margins;
     return [
         ['Loop', stable ? 'stable' : 'unstable'],
         ['Ms', stable ? ms.toFixed(2) : '–'],
         ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
+        ['Dead time margin', !stable || delayMargin === null ? '–' : `${digits(delayMargin)} s`],
         ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${decibels(gainMargin)})`],
         ...(stable && lowerGainMargin !== null
             ? [['and down to', `${digits(lowerGainMargin)} (${decibels(lowerGainMargin)})`]] : []),
@@ -129,7 +130,7 @@ export function fillRules(place, rows, chosen, onUse) {
             percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError), use];
     };
     place.replaceChildren(table('Gains and what they do in this scene',
-        ['Rule', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error', ''],
+        ['Rule', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error', 'Take it'],
         rows.map((row) => ({ cells: cellsOf(row), chosen: row.rule === chosen }))));
 }
 
@@ -142,37 +143,38 @@ const TITLES = { [CONTROLLER.AN937]: 'AN937', [CONTROLLER.AN964]: 'AN964' };
 export function costsOf(s, results) {
     if (s.CONTROLLER !== CONTROLLER.PID) {
         return COSTS.filter(([title]) => title === TITLES[s.CONTROLLER])
-            .map(([, chip, worst, , flash, unit, ram]) => ({ chip, worst, flash, unit, ram, how: '' }));
+            .map(([, chip, worst, , flash, unit, ram]) => ({ chip, worst, flash, unit, ram }));
     }
     const features = featuresOf(s, results);
     const rows = (title) => COSTS.filter(([name]) => name === title);
     if (features === 0) {
         return rows('PID, typical').map(([, chip, , bound, flash, unit, ram]) =>
-            ({ chip, worst: bound, flash, unit, ram, how: '' }));
+            ({ chip, worst: bound, flash, unit, ram }));
     }
     return rows('PID').map(([, chip, , bound, flash, unit, ram]) => {
         const known = FEATURES[chip];
         if (!known) {
-            return { chip, worst: bound, flash, unit, ram, how: 'all features' };
+            return { chip, worst: bound, flash, unit, ram, all: true };
         }
         const sum = (at) => known.reduce((total, one) => total + (one[0] === 0 || (features & one[0]) !== 0 ? one[at] : 0), 0);
-        return { chip, worst: Math.min(bound, sum(1)), flash: Math.min(flash, sum(2)), unit, ram, how: '' };
+        return { chip, worst: Math.min(bound, sum(1)), flash: Math.min(flash, sum(2)), unit, ram };
     });
 }
 
 const INSTRUCTIONS = /^(Cortex|RV32)/;
 
 export function fillChips(text, place, s, results) {
-    const rows = costsOf(s, results).map((row) => {
-        const unit = INSTRUCTIONS.test(row.chip) ? 'instructions' : 'cycles';
-        const each = row.worst * s.RATE;
-        return { cells: [row.chip, `${whole(row.worst)} ${unit}`, `${whole(row.flash)} ${row.unit}`, `${row.ram} bytes`,
-            each >= 1e4 ? `${digits(each / 1e6)} million` : whole(each), row.how] };
+    const costs = costsOf(s, results);
+    const rows = costs.map((row) => {
+        const unit = INSTRUCTIONS.test(row.chip) ? 'instr.' : 'cycles';
+        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.worst)} ${unit}`, `${whole(row.flash)} ${row.unit}`,
+            `${row.ram}`, whole(row.worst * s.RATE)] };
     });
     const features = s.CONTROLLER === CONTROLLER.PID
         ? ` Built with -DFIXPID_PID_FEATURES=${hex(featuresOf(s, results))}, which is what these settings need.` : '';
-    text.textContent = `A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init, RAM of one controller; ` +
-        `as docs/cost.md has measured them.${features}`;
+    const star = costs.some((row) => row.all) ? ' * with all features, as single ones were not measured there.' : '';
+    text.textContent = `A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init, RAM of one controller in bytes; ` +
+        `as docs/cost.md has measured them.${features}${star}`;
     place.replaceChildren(table(`At ${short(s.RATE)} steps per second`,
-        ['Chip', 'Step, at most', 'Flash', 'RAM', 'In a second', ''], rows));
+        ['Chip', 'Step, at most', 'Flash', 'RAM', 'A second'], rows));
 }

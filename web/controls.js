@@ -171,10 +171,12 @@ function createControl([key, label, unit, range], id, onInput) {
             onInput(key, Number(number.value));
         }
     });
-    number.addEventListener('change', () => update(now));
+    number.addEventListener('change', () => {
+        number.value = short(now[key]);
+    });
     function update(s, text = note.textContent) {
         now = s;
-        if (document.activeElement !== number || Number(number.value) !== s[key]) {
+        if (document.activeElement !== number) { // not while it is typed in
             number.value = short(s[key]);
         }
         const at = positionOf(range(s), s[key]);

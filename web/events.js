@@ -50,6 +50,29 @@ function tidyTime(s, seconds) {
     return Number((Math.round(inside / step) * step).toPrecision(6));
 }
 
+const LETTER = 7.2; // pixels of a flag's text, about
+const EDGES = 18;
+
+// Where each flag stands: its row, as flags that would cover each other stand
+// below each other, and whether it is to the left of its time.
+function placesOf(s, width, plots) {
+    const flags = s.events.map((event, i) => {
+        const size = LETTER * textOf(s, event).length + EDGES;
+        const x = plots.gutter + (width - plots.gutter - plots.right) * event.at / s.DURATION;
+        const late = x + size > width;
+        return { i, late, left: late ? x - size : x, size };
+    });
+    const ends = []; // of each row, where its last flag ends
+    const places = [];
+    for (const { i, late, left, size } of flags.sort((one, other) => one.left - other.left)) {
+        const free = ends.findIndex((end) => end <= left);
+        const row = free < 0 ? ends.length : free;
+        ends[row] = left + size;
+        places[i] = { row, late };
+    }
+    return places;
+}
+
 // The flags above the plots; update(state) after each change. `plots` has the
 // gutters, onEvents(events) takes what was moved.
 export function createFlags(place, plots, state, onEvents) {
@@ -92,20 +115,27 @@ export function createFlags(place, plots, state, onEvents) {
         }
     }
 
-    return (s) => {
+    let last = null;
+    const update = (s) => {
+        last = s;
         if (flags.length !== s.events.length) {
             build(s.events.length);
         }
+        const places = placesOf(s, place.clientWidth, plots);
+        place.style.setProperty('--rows', Math.max(1, ...places.map(({ row }) => row + 1)));
         s.events.forEach((event, i) => {
             const part = event.at / s.DURATION;
+            flags[i].style.setProperty('--row', places[i].row);
             const text = textOf(s, event);
             flags[i].textContent = text;
             flags[i].hidden = part > 1;
-            flags[i].classList.toggle('late', part > 0.72);
+            flags[i].classList.toggle('late', places[i].late);
             flags[i].style.setProperty('--at', part);
             flags[i].setAttribute('aria-label', `${text} at ${short(event.at)} s; the arrow keys move it`);
         });
     };
+    new ResizeObserver(() => last && update(last)).observe(place);
+    return update;
 }
 
 function numberField(label, value, onInput) {

@@ -92,10 +92,12 @@ export function stateOfFit(s, fit, step, unit) {
     const round = (x) => Number(x.toPrecision(4));
     const gain = fit.rise / step;
     const all = Math.abs(gain) + Math.abs(fit.start);
-    const range = 10 ** Math.ceil(Math.log10(all)) ;
+    const range = 10 ** Math.ceil(Math.log10(all));
     const tidy = [0.2, 0.25, 0.5, 1].map((part) => part * range).find((one) => one >= all) ?? range;
     const low = Math.min(0, fit.start, fit.start + gain) < 0 ? -tidy : 0;
-    const rate = 10 ** Math.round(Math.log10(30 / (fit.lag + fit.dead)));
+    const wanted = 40 / (fit.lag + fit.dead); // steps per second
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    const rate = power * [5, 2, 1].find((one) => one * power <= wanted);
     const seconds = round(12 * (fit.lag + fit.dead));
     return {
         GAIN: round(gain), T1: round(fit.lag), T2: 0, DEAD: round(fit.dead), START: round(fit.start),

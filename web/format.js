@@ -25,7 +25,7 @@ export function digits(value, figures = 3) {
 }
 
 export function percent(part, places = 1) {
-    return `${(100 * part).toFixed(places)} %`;
+    return `${(100 * part).toFixed(places)} %`.replace('-', '−');
 }
 
 // Thousands apart, by a narrow space.

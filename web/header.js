@@ -28,54 +28,72 @@ export function hex(value) {
     return `0x${value.toString(16).toUpperCase().padStart(2, '0')}`;
 }
 
+// A macro of lines, their backslashes under each other.
+function macro(name, lines) {
+    const all = [`#define ${name}`, '    {', ...lines.map((line) => `        ${line}`)];
+    const width = Math.max(...all.map((line) => line.length)) + 1;
+    return [...all.map((line) => `${line.padEnd(width)}\\`), '    }'];
+}
+
+// An integer, what it is called and what it means.
+function field(value, name, meaning = '') {
+    return [`${value},`, `${name}${meaning && `: ${meaning}`}`];
+}
+
+function initialiser(name, fields) {
+    const width = Math.max(...fields.map(([value]) => value.length));
+    return macro(name, fields.map(([value, text], i) => {
+        const last = i === fields.length - 1;
+        return `${(last ? value.slice(0, -1) : value).padEnd(width)} /* ${text} */`;
+    }));
+}
+
 function pidLines(s, r) {
-    const features = hex(featuresOf(s, r));
     return [
-        `// FIXPID_PID_GAINS(${short(s.KP)}, ${short(s.KI)}, ${short(s.KD)}, ${short(s.RATE)}, ${r.FILTER}) is the same where double`,
-        '// has 64 bits; the integers are the same everywhere. Least features:',
-        `// -DFIXPID_PID_FEATURES=${features}`,
-        '#define LOOP_GAINS \\',
-        '    { \\',
-        `        ${r.KP}u,  /* kp_q8: ${short(r.KP / 256)} counts per count */ \\`,
-        `        ${r.KI}u, /* ki_q24: ${short(r.KI * s.RATE / 2 ** 24)} per second */ \\`,
-        `        ${r.KD}u,  /* kd_q8: ${short(r.KD * 2 ** r.FILTER / 256 / s.RATE)} seconds */ \\`,
-        `        ${r.FILTER}u /* derivative_filter */ \\`,
-        '    }',
+        '// The same, folded in double precision:',
+        `// FIXPID_PID_GAINS(${s.KP}, ${s.KI}, ${s.KD}, ${s.RATE}, ${r.FILTER})`,
+        ...initialiser('LOOP_GAINS', [
+            field(`${r.KP}u`, 'kp_q8', short(r.KP / 256)),
+            field(`${r.KI}u`, 'ki_q24', `${short(r.KI * s.RATE / 2 ** 24)} per second`),
+            field(`${r.KD}u`, 'kd_q8', `${short(r.KD * 2 ** r.FILTER / 256 / s.RATE)} s`),
+            field(`${r.FILTER}u`, 'derivative_filter'),
+        ]),
         '',
         '// static const struct fixpid_pid_config config = LOOP_CONFIG;',
-        '#define LOOP_CONFIG \\',
-        '    { \\',
-        `        LOOP_GAINS, ${s.OUTPUT_MIN}, ${s.OUTPUT_MAX}, /* output */ \\`,
-        `        ${s.INTEGRAL_MIN}, ${s.INTEGRAL_MAX}, /* integral, 0 and 0: no range of its own */ \\`,
-        `        ${r.WEIGHT === 256 ? '256u' : `${r.WEIGHT}u`}, /* setpoint_weight_q8 */ \\`,
-        `        ${hex(r.OPTIONS)}u /* options */ \\`,
-        '    }',
+        `// It needs -DFIXPID_PID_FEATURES=${hex(featuresOf(s, r))} or more.`,
+        ...initialiser('LOOP_CONFIG', [
+            field('LOOP_GAINS', 'gains'),
+            field(s.OUTPUT_MIN, 'output_min'),
+            field(s.OUTPUT_MAX, 'output_max'),
+            field(s.INTEGRAL_MIN, 'integral_min'),
+            field(s.INTEGRAL_MAX, 'integral_max'),
+            field(`${r.WEIGHT}u`, 'setpoint_weight_q8'),
+            field(`${hex(r.OPTIONS)}u`, 'options'),
+        ]),
     ];
 }
 
 function an937Lines(s, r) {
     return [
         '// static const struct fixpid_an937_config config = LOOP_CONFIG;',
-        '#define LOOP_CONFIG \\',
-        '    { \\',
-        `        ${r.KP}u, /* kp_q4: ${short(r.KP / 16)} */ \\`,
-        `        ${r.KI}u, /* ki_q4: ${short(r.KI / 16)} per tick */ \\`,
-        `        ${r.KD}u, /* kd_q4: ${short(r.KD / 16)} per sample */ \\`,
-        `        ${s.INTEGRAL_MAX}u, /* accumulated_error_limit */ \\`,
-        `        ${r.FILTER}u /* derivative_period_ticks */ \\`,
-        '    }',
+        ...initialiser('LOOP_CONFIG', [
+            field(`${r.KP}u`, 'kp_q4', short(r.KP / 16)),
+            field(`${r.KI}u`, 'ki_q4', `${short(r.KI / 16)} per tick`),
+            field(`${r.KD}u`, 'kd_q4', short(r.KD / 16)),
+            field(`${s.INTEGRAL_MAX}u`, 'accumulated_error_limit'),
+            field(`${r.FILTER}u`, 'derivative_period_ticks'),
+        ]),
     ];
 }
 
 function an964Lines(s, r) {
     return [
         '// static const struct fixpid_an964_gains gains = LOOP_CONFIG;',
-        '#define LOOP_CONFIG \\',
-        '    { \\',
-        `        ${r.KP}u, /* kp: ${short(r.KP / 1024)} on all terms */ \\`,
-        `        ${r.KI}u, /* ki */ \\`,
-        `        ${r.KD}u /* kd */ \\`,
-        '    }',
+        ...initialiser('LOOP_CONFIG', [
+            field(`${r.KP}u`, 'kp', short(r.KP / 1024)),
+            field(`${r.KI}u`, 'ki'),
+            field(`${r.KD}u`, 'kd'),
+        ]),
     ];
 }
 
@@ -87,8 +105,8 @@ export function headerOf(s, results) {
     const lines = { fixpid_pid: pidLines, fixpid_an937: an937Lines, fixpid_an964: an964Lines }[noun];
     const unit = s.unit.replace(/[^\x20-\x7E]/g, '').replace(/[\\/*?]/g, '') || 'units';
     return [
-        `// Gains of a loop, from the tuner page of fixpid ${VERSION}.`,
-        `// ${short(s.RATE)} steps per second; ${s.SENSOR_BITS}-bit sensor over ${short(s.SENSOR_RANGE)} ${unit}.`,
+        `// Gains of a loop, by the tuner page of fixpid ${VERSION}`,
+        `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
         '#ifndef LOOP_GAINS_H',
         '#define LOOP_GAINS_H',
         `#include "${noun}.h"`,

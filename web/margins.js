@@ -226,11 +226,11 @@ export function controllerAt(law, w) {
 
 // --- In time ----------------------------------------------------------------
 
-// The closed loop without limits and rounding after a push, its gain times
-// `factor`: the measurement of each step.
-export function linearResponse(plant, law, factor, n) {
-    const size = plant.phi.length;
-    let x = new Array(size).fill(0);
+// The closed loop without limits and rounding, its gain times `factor`: the
+// measurement of each step after a count on the first one, and after a step of
+// `driven` output counts before it.
+export function linearResponse(plant, law, factor, n, driven = 0) {
+    let x = plant.now.map((b) => b * driven);
     const outputs = new Float64Array(n + plant.steps + 2);
     const seen = new Float64Array(n);
     let [integral, derivative] = [0, 0];
@@ -269,7 +269,7 @@ function largest(seen, from, to) {
 
 // The loop is stable if what is left of a push goes on getting less.
 export function isStable(plant, law, factor, n) {
-    const seen = linearResponse(plant, law, factor, n);
+    const seen = linearResponse(plant, law, factor, n, 1);
     const early = largest(seen, n / 4, n / 2);
     const late = largest(seen, 3 * n / 4, n);
     return Number.isFinite(late) && (late < early * 0.999 || late < 1e-9);
@@ -303,7 +303,8 @@ function peak(at, low, high) {
     return Math.sqrt(low * high);
 }
 
-// { ms, gainMargin, lowerGainMargin, phaseMargin (degrees), stable, curve: the
+// { ms, gainMargin, lowerGainMargin, phaseMargin (degrees),
+// delayMargin (seconds of further dead time), stable, curve: the
 // loop's points, scale: the slowest time in steps }. A margin that there is
 // none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
@@ -317,7 +318,7 @@ export function marginsOf(s, results) {
     const size = (w) => Math.hypot(...loop(w));
     const sensitivity = (w) => 1 / Math.hypot(...add(ONE, loop(w)));
     let best = 0;
-    let [upper, lower, phase] = [null, null, null];
+    let [upper, lower, phase, delay] = [null, null, null, null];
     for (let i = 0; i < POINTS; i++) {
         if (sensitivity(grid[i]) > sensitivity(grid[best])) {
             best = i;
@@ -339,8 +340,12 @@ export function marginsOf(s, results) {
         if ((Math.hypot(...a) > 1) !== (Math.hypot(...b) > 1)) {
             const w = crossing((x) => size(x) - 1, wa, wb, Math.hypot(...a) > 1);
             const [re, im] = loop(w);
-            const margin = Math.abs(Math.atan2(im, -re)) * DEGREES * -1;
-            phase = Math.min(phase ?? Infinity, -margin);
+            const away = Math.abs(Math.atan2(im, -re)); // from -180 degrees
+            phase = Math.min(phase ?? Infinity, away * DEGREES);
+            // More dead time turns the curve back: from above the axis all the
+            // way round.
+            const left = im < 0 ? away : 2 * Math.PI - away;
+            delay = Math.min(delay ?? Infinity, left / w / s.RATE);
         }
     }
     // The end of the band: a real number there is a crossing, too.
@@ -348,10 +353,16 @@ export function marginsOf(s, results) {
     if (end[0] < 0 && 1 / Math.hypot(...end) >= 1) {
         upper = Math.min(upper ?? Infinity, 1 / Math.hypot(...end));
     }
+    // So is its start, where the loop has an end there.
+    const [start, before] = [loop(lowest / 10), loop(lowest / 100)];
+    if (before[0] < 0 && Math.abs(before[1]) < 0.1 * Math.abs(before[0]) && Math.abs(start[0] / before[0] - 1) < 0.05) {
+        const margin = 1 / Math.hypot(...before);
+        [upper, lower] = margin >= 1 ? [Math.min(upper ?? Infinity, margin), lower] : [upper, Math.max(lower ?? 0, margin)];
+    }
     const around = [grid[Math.max(0, best - 1)], grid[Math.min(POINTS - 1, best + 1)]];
     return {
         ms: sensitivity(peak(sensitivity, ...around)),
-        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase,
+        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase, delayMargin: delay,
         stable: isStable(plant, law, 1, responseSteps(s, results)),
         curve,
     };

@@ -10,8 +10,8 @@ import { createEventList, createFlags } from './events.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
 import { OPTION, headerOf } from './header.js';
-import { isStable, lawOf, marginsOf, responseSteps, sampledPlant } from './margins.js';
-import { limitedSteps, metricsOf, unitsOf } from './metrics.js';
+import { isStable, lawOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
+import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
 import { createPlots, color } from './plot.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, presetState, stateOfFragment } from './state.js';
@@ -107,12 +107,17 @@ function panesOf(s, found) {
     const terms = {
         title: 'Terms', unit: 'counts',
         series: [
-            { name: 'P', color: 'p', data: each(series.P, (c) => c / p) },
-            { name: 'I', color: 'i', data: each(series.I, (c) => c / i) },
-            { name: 'D', color: 'd', data: each(series.D, (c) => c / d) },
+            { name: 'P', color: 'p', width: 1.25, data: each(series.P, (c) => c / p) },
+            { name: 'I', color: 'i', width: 1.25, data: each(series.I, (c) => c / i) },
+            { name: 'D', color: 'd', width: 1.25, data: each(series.D, (c) => c / d) },
         ],
     };
-    return tuning ? [measurement, output] : [measurement, output, terms];
+    const difference = {
+        title: 'Cost of the integers', unit: 'counts of the sensor', leastSpan: 2,
+        series: [{ name: 'beside double precision', color: 'twin', width: 1.25,
+            data: series.VALUE_TRUE.map((value, k) => (value - series.VALUE_TWIN[k]) / unitsPerCount(s)) }],
+    };
+    return tuning ? [measurement, output] : [measurement, output, terms, difference];
 }
 
 function showPlots(s, found) {
@@ -162,29 +167,25 @@ function experimentText(s, found) {
     const { GAIN, LAG, DEAD, HOLDING, HYSTERESIS, NOISE } = found.results;
     const integrating = GAIN === 2 ** 32 - 1;
     const model = integrating ? 'it integrates' : `gain ${digits(GAIN / 256)}, lag ${digits(LAG / 16 / s.RATE)} s`;
+    const served = s.PLANT === PLANT.OSCILLATOR
+        ? ' The rules are for plants that do not ring by themselves, as this one does: look at Ms.' : '';
     return `Done after ${digits(found.n / s.RATE)} s, ${whole(found.n)} steps: ${model}, dead time ` +
         `${digits(DEAD / 16 / s.RATE)} s; output ${HOLDING} holds the setpoint; noise ${digits(NOISE / 16, 2)} counts, ` +
-        `hysteresis ${HYSTERESIS}.`;
+        `hysteresis ${HYSTERESIS}.${served}`;
 }
 
 function showTuning(s) {
-    const card = find('#tuning');
-    card.hidden = !hasTuner(s);
-    if (!hasTuner(s)) {
-        return null;
-    }
+    find('#tuning').hidden = mode !== 'tune';
     if (mode !== 'tune') {
-        setText(find('#found'), 'A relay takes the controller’s place at the setpoint and finds the gains from how the plant swings.');
+        find('#found').textContent = '';
         find('#rules').replaceChildren();
-        find('#rules').hidden = true;
         return null;
     }
     const found = tunedFor(s);
     setText(find('#found'), experimentText(s, found));
-    find('#rules').hidden = found.results.STATUS !== STATUS.DONE;
-    if (!find('#rules').hidden) {
-        fillRules(find('#rules'), rowsFor(s), s.rule, useRule);
-    }
+    const done = found.results.STATUS === STATUS.DONE;
+    find('#rules').hidden = !done;
+    fillRules(find('#rules'), done ? rowsFor(s) : [], s.rule, useRule);
     return found;
 }
 
@@ -207,6 +208,7 @@ function showModes(s) {
         button.setAttribute('aria-pressed', String(button.value === mode));
     }
     find('#keep').hidden = mode === 'tune';
+    find('#flags').hidden = mode === 'tune';
     setText(find('#keep'), kept === null ? 'Keep to compare' : 'Drop what was kept');
 }
 
@@ -220,7 +222,10 @@ function showHead(s) {
     for (const button of find('#presets').children) {
         button.setAttribute('aria-pressed', String(button.value === s.preset));
     }
-    setText(find('#story'), s.story);
+    if (find('#story').textContent !== s.story) {
+        find('#presets [aria-pressed=true]').scrollIntoView({ block: 'nearest', inline: 'nearest' });
+        setText(find('#story'), s.story);
+    }
     history.replaceState(null, '', `#${fragmentOf(s)}`);
     for (const box of find('#options').querySelectorAll('input')) {
         box.checked = (s.OPTIONS & Number(box.value)) !== 0;
@@ -235,6 +240,7 @@ function showRefused(s) {
     find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
     find('#header').textContent = '';
     find('#chips').replaceChildren();
+    find('#chips-text').textContent = '';
     find('#copy').disabled = true;
     find('#save').disabled = true;
     find('#keep').disabled = true;
@@ -281,7 +287,7 @@ function show() {
     showAdvice(s, adviceOf(s, found, margins), mode === 'tune');
     panel(s, notesOf(s, found.results));
     events(s);
-    flags(mode === 'tune' ? { ...s, events: [] } : s);
+    flags(s);
     if (good) {
         showRun(s, found, margins);
     } else {
@@ -390,6 +396,7 @@ function useFit() {
     const { fit, step } = fitOfPage();
     if (fit !== null) {
         mode = 'run';
+        kept = null;
         changeNow({ ...presetState('flow'), ...stateOfFit(currentState(), fit, step, find('#record-unit').value) });
         find('#view').scrollIntoView();
         say('The plant is the one that was recorded.');
@@ -454,7 +461,7 @@ async function startPage() {
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     // What the tests take hold of.
-    window.tuner = { PRESETS, RESULT, RULE, change, changeNow, currentState, experiment, fitStep, gainsOfRule, headerOf, isStable,
+    window.tuner = { PRESETS, RESULT, RULE, change, changeNow, currentState, experiment, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
         lawOf, marginsOf, presetState, readRecording, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
     document.body.dataset.ready = 'yes';
 }

@@ -60,7 +60,7 @@ export function createPlots(element, onCursor) {
             const legend = document.createElement('figcaption');
             const canvas = document.createElement('canvas');
             canvas.setAttribute('aria-hidden', 'true');
-            canvas.className = i === 0 ? 'tall' : 'low';
+            canvas.className = i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}`;
             figure.append(legend, canvas);
             element.append(figure);
             canvas.addEventListener('pointermove', (event) => moved(event, canvas));

@@ -7,6 +7,7 @@
 
 #define PARTS_MAX 64
 #define PARTS_OF_FASTEST 20.0
+#define DEAD_PARTS_MAX ((double)PROCESS_LINE - 1.0)
 
 static void process_rates(const void *plant, const double *state, double *rates)
 {
@@ -29,17 +30,16 @@ void process_start(struct process *self, double step_s, double fastest_s)
 {
     self->parts = 1;
     while ((self->parts < PARTS_MAX) &&
-           ((step_s / self->parts) > (fastest_s / PARTS_OF_FASTEST))) {
+           ((step_s / (double)self->parts) > (fastest_s / PARTS_OF_FASTEST))) {
         self->parts *= 2;
     }
-    self->part_s = step_s / self->parts;
+    self->part_s = step_s / (double)self->parts;
     const double dead = floor((self->dead_time_s / self->part_s) + 0.5);
-    self->dead_parts = (int)plant_limit(dead, 0.0, PROCESS_LINE - 1.0);
+    self->dead_parts = (int)plant_limit(dead, 0.0, DEAD_PARTS_MAX);
     self->newest = 0;
     self->drive = 0.0;
-    for (int i = 0; i < PROCESS_STATES; i++) {
-        self->state[i] = 0.0;
-    }
+    self->state[PROCESS_VALUE] = 0.0;
+    self->state[PROCESS_RATE] = 0.0;
     for (int i = 0; i < PROCESS_LINE; i++) {
         self->line[i] = 0.0;
     }
@@ -47,7 +47,7 @@ void process_start(struct process *self, double step_s, double fastest_s)
 
 double process_dead_s(const struct process *self)
 {
-    return self->dead_parts * self->part_s;
+    return (double)self->dead_parts * self->part_s;
 }
 
 void process_move(struct process *self, double drive)

@@ -73,6 +73,23 @@ static bool within(double value, double low, double high)
     return (value >= low) && (value <= high);
 }
 
+static bool integer_16(int which)
+{
+    return within(params[which], -32768.0, 32767.0);
+}
+
+// What FIXPID_PID_GAINS takes, of gains that are scaled and not yet rounded.
+static bool legal(double kp, double ki, double kd)
+{
+    const bool kp_legal =
+        (kp >= 0.0) && (kp < 32767.5) && FIXPID_PID_COUNTS(kp, kp);
+    const bool kd_legal =
+        (kd >= 0.0) && (kd < 32255.5) && FIXPID_PID_COUNTS(kd, kd);
+    const bool ki_legal =
+        ((ki == 0.0) || (ki >= 8.0)) && ((ki - FIXPID_PID_KI_MAX) < 0.5);
+    return kp_legal && ki_legal && kd_legal;
+}
+
 // The gains of fixpid_pid as FIXPID_PID_GAINS folds and refuses them.
 static bool folded(struct fixpid_pid_gains *gains)
 {
@@ -82,14 +99,11 @@ static bool folded(struct fixpid_pid_gains *gains)
     const double kd =
         FIXPID_PID_KD_Q8(params[PARAM_KD], params[PARAM_RATE], filter);
 
-    results[RESULT_KP] = floor(fmin(fmax(kp, 0.0), 65535.0) + 0.5);
-    results[RESULT_KI] = floor(fmin(fmax(ki, 0.0), 4294967294.0) + 0.5);
-    results[RESULT_KD] = floor(fmin(fmax(kd, 0.0), 65535.0) + 0.5);
+    results[RESULT_KP] = floor(plant_limit(kp, 0.0, 65535.0) + 0.5);
+    results[RESULT_KI] = floor(plant_limit(ki, 0.0, 4294967294.0) + 0.5);
+    results[RESULT_KD] = floor(plant_limit(kd, 0.0, 65535.0) + 0.5);
     results[RESULT_FILTER] = (double)filter;
-    if (!((kp >= 0.0) && (kp < 32767.5) && FIXPID_PID_COUNTS(kp, kp) &&
-          ((ki == 0.0) || (ki >= 8.0)) && (ki - FIXPID_PID_KI_MAX < 0.5) &&
-          (kd >= 0.0) && (kd < 32255.5) && FIXPID_PID_COUNTS(kd, kd) &&
-          (filter <= FIXPID_PID_FILTER_MAX))) {
+    if (!legal(kp, ki, kd) || (filter > FIXPID_PID_FILTER_MAX)) {
         return false;
     }
     gains->kp_q8 = (uint16_t)FIXPID_PID_FOLDED(kp);
@@ -106,16 +120,15 @@ static bool begin_pid(void)
     const double weight = floor((params[PARAM_WEIGHT] * 256.0) + 0.5);
     const bool on_measurement =
         (config.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
+    const bool fits =
+        integer_16(PARAM_OUTPUT_MIN) && integer_16(PARAM_OUTPUT_MAX) &&
+        integer_16(PARAM_INTEGRAL_MIN) && integer_16(PARAM_INTEGRAL_MAX);
 
     results[RESULT_OPTIONS] = params[PARAM_OPTIONS];
     // A weight of 0 is the option, and 0 in the configuration means 256.
     results[RESULT_WEIGHT] = on_measurement ? 0.0 : weight;
-    if (!folded(&config.gains) ||
-        !(on_measurement || within(weight, 1.0, 256.0)) ||
-        !within(params[PARAM_OUTPUT_MIN], -32768.0, 32767.0) ||
-        !within(params[PARAM_OUTPUT_MAX], -32768.0, 32767.0) ||
-        !within(params[PARAM_INTEGRAL_MIN], -32768.0, 32767.0) ||
-        !within(params[PARAM_INTEGRAL_MAX], -32768.0, 32767.0)) {
+    if (!folded(&config.gains) || !fits ||
+        !(on_measurement || within(weight, 1.0, 256.0))) {
         return false;
     }
     config.output_min = (int16_t)params[PARAM_OUTPUT_MIN];
@@ -429,9 +442,8 @@ int tuner_experiment(void)
 int tuner_rule(int rule)
 {
     struct fixpid_pid_config config = {.options = 0};
-    const bool has =
-        fixpid_autotune_result(&autotune, (uint8_t)rule,
-                               (uint8_t)params[PARAM_ROBUSTNESS], &config);
+    const bool has = fixpid_autotune_result(
+        &autotune, (uint8_t)rule, (uint8_t)params[PARAM_ROBUSTNESS], &config);
 
     // A rule without gains leaves zeros.
     results[RESULT_KP] = config.gains.kp_q8;

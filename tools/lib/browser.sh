@@ -2,7 +2,7 @@
 # shellcheck shell=sh
 # Sourced by the tests of pages, after setup.sh: Chromium, and what drives it.
 
-browser=$root/build/browser # node_modules in it
+browser=${root:?}/build/browser # node_modules in it
 export browser
 
 # Debian's Chromium and Node, and the packages of test/browser.

@@ -228,6 +228,10 @@ part_demo() {
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
 }
 
+part_tuner() {
+    count 'test/tuner/run' '^ok ' '^FAILED ' test/tuner/run
+}
+
 part_docs() {
     need ruby gpasm:gputils cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
     check 'documentation' ruby tools/lib/check_docs.rb
