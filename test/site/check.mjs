@@ -112,6 +112,32 @@ async function sorting() {
     return problems;
 }
 
+// On a dark page a picture is dark, and what is drawn on it is light.
+async function pictures() {
+    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const problems = [];
+    await page.goto(`${host}/docs/behaviour.html`);
+    await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
+    for (const picture of await page.locator('article img').all()) {
+        const seen = `data:image/png;base64,${(await picture.screenshot()).toString('base64')}`;
+        const [mean, most] = await page.evaluate(async (address) => {
+            const image = new Image();
+            image.src = address;
+            await image.decode();
+            const canvas = new OffscreenCanvas(image.width, image.height).getContext('2d');
+            canvas.drawImage(image, 0, 0);
+            const { data } = canvas.getImageData(0, 0, image.width, image.height);
+            const green = data.filter((_, i) => i % 4 === 1);
+            return [green.reduce((sum, value) => sum + value, 0) / green.length, Math.max(...green.slice(0, 100000))];
+        }, seen);
+        if (mean > 64 || most < 160) {
+            problems.push(`${await picture.getAttribute('src')}: light ${mean}, at most ${most} of 255`);
+        }
+    }
+    await page.close();
+    return problems;
+}
+
 // The header's words are on its page, in their order, and each function has a heading.
 async function headers() {
     const page = await browser.newPage();
@@ -143,6 +169,7 @@ if (named.length === 0) {
     checkNone('the search finds ten words', await searches(host));
     checkNone('the search finds them from a file, too', await searches(pathToFileURL(site).href));
     checkNone('a table is sorted by keys', await sorting());
+    checkNone('pictures are dark on a dark page', await pictures());
     checkNone('the headers are on their pages as they are', await headers());
     check('pages', pages.length > 40, `only ${pages.length}`);
 }
@@ -172,6 +199,7 @@ for (const name of pages) {
         await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
         dark.push(...(await violations(page, COLOURS)).map((text) => `${name}: ${text}`));
         await page.setViewportSize({ width: PHONE, height: 844 });
+        await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
         light.push(...(await violations(page, PLACES)).map((text) => `${name} on a phone: ${text}`));
     }
     await page.close();
