@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The numbers of fixpid_an937_arith.h in sign-magnitude, and their products
 // from 8 x 8 bits, for chips whose words are bytes. A sign is 0 or 1, and 1 may
-// stand by a magnitude of 0.
+// stand by a magnitude of 0. Only the lowest bit of its byte is read: another
+// one that has flipped would make of every sum a difference, for good.
 #ifndef FIXPID_AN937_NARROW_H
 #define FIXPID_AN937_NARROW_H
 #include <stdint.h>
@@ -27,7 +28,7 @@ fixpid_number_value(FIXPID_DATA const union fixpid_an937_number *number)
 {
     const int32_t magnitude = (int32_t)number->parts.magnitude;
 
-    return (number->parts.negative != 0u) ? -magnitude : magnitude;
+    return ((number->parts.negative & 1u) != 0u) ? -magnitude : magnitude;
 }
 
 FIXPID_INLINE void fixpid_number_difference(
@@ -52,7 +53,7 @@ FIXPID_INLINE void fixpid_number_add(
     const uint16_t summand = addend->parts.magnitude;
     uint16_t sum = number->parts.magnitude;
 
-    if (number->parts.negative == addend->parts.negative) {
+    if (((number->parts.negative ^ addend->parts.negative) & 1u) == 0u) {
         sum = (uint16_t)(sum + summand);
         if (sum < summand) { // a carry
             sum = UINT16_MAX;
@@ -83,7 +84,7 @@ FIXPID_INLINE int32_t fixpid_number_term(
     // Deviation 10.8: at most 24 bits, never negative.
     const int32_t product = (int32_t)(((uint32_t)high << 8) | (low & 0xFFu));
 
-    return (number->parts.negative != 0u) ? -product : product;
+    return ((number->parts.negative & 1u) != 0u) ? -product : product;
 }
 
 #endif

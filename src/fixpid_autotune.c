@@ -118,7 +118,7 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
                           int16_t deviation)
 {
     const int32_t bend =
-        (int32_t)deviation - SELF.highest - SELF.highest + SELF.lowest;
+        (int32_t)SELF.lowest - SELF.highest - SELF.highest + deviation;
     uint32_t noise = (uint32_t)((bend < 0) ? -bend : bend);
 
     if (noise > NOISE_MAX) {
@@ -216,19 +216,21 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
     }
 }
 
-// A measurement at its limits says more than a relay that does not switch.
-static void watch_ends(FIXPID_DATA struct fixpid_autotune *self,
-                       int16_t measurement)
+// The status with which this measurement ends the experiment, or RUNNING. A
+// measurement at its limits says more than a relay that does not switch.
+static uint8_t watch_ends(FIXPID_DATA const struct fixpid_autotune *self,
+                          int16_t measurement)
 {
-    if (SELF.elapsed >= SELF.config.timeout_steps) {
-        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_NO_OSCILLATION);
-    }
     if (measurement <= SELF.config.measurement_min) {
-        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_SATURATED);
+        return FIXPID_AUTOTUNE_SATURATED;
     }
     if (measurement >= SELF.config.measurement_max) {
-        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_SATURATED);
+        return FIXPID_AUTOTUNE_SATURATED;
     }
+    if (SELF.elapsed >= SELF.config.timeout_steps) {
+        return FIXPID_AUTOTUNE_NO_OSCILLATION;
+    }
+    return FIXPID_AUTOTUNE_RUNNING;
 }
 
 // measurement - setpoint, within 32767
@@ -265,18 +267,21 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
 {
     FIXPID_ASSERT(VALID(self));
     if (SELF.state >= PHASE_NOISE) {
-        watch_ends(self, measurement);
-    }
-    if (SELF.state >= PHASE_NOISE) {
-        int16_t deviation = deviation_from(setpoint, measurement);
+        const uint8_t status = watch_ends(self, measurement);
 
-        if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
-            deviation = (int16_t)-deviation;
-        }
-        if (SELF.state == PHASE_NOISE) {
-            measure_noise(self, deviation);
+        if (status != (uint8_t)FIXPID_AUTOTUNE_RUNNING) {
+            fixpid_autotune_finish(self, status);
         } else {
-            step_relay(self, deviation);
+            int16_t deviation = deviation_from(setpoint, measurement);
+
+            if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+                deviation = (int16_t)-deviation;
+            }
+            if (SELF.state == PHASE_NOISE) {
+                measure_noise(self, deviation);
+            } else {
+                step_relay(self, deviation);
+            }
         }
     }
     return limited_output(self);

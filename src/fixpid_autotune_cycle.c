@@ -148,12 +148,14 @@ static void recentre(FIXPID_DATA struct fixpid_autotune *self)
     const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
     const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
                                        (uint16_t)SELF.config.output_min);
-    const uint16_t wanted =
-        (SELF.config.swing != 0u)
-            ? SELF.config.swing
-            : (uint16_t)(24u * (uint16_t)fixpid_autotune_hysteresis(self));
-    uint32_t amplitude = amplitude_for(wanted, swing, relay_counts);
+    uint16_t wanted = SELF.config.swing;
+    uint32_t amplitude;
 
+    if (wanted == 0u) { // 24 hystereses; SDCC would link a multiplication
+        wanted = (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
+        wanted = (uint16_t)(wanted + wanted + wanted);
+    }
+    amplitude = amplitude_for(wanted, swing, relay_counts);
     SELF.centre =
         (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
                                                             AT_LOW) +
@@ -239,7 +241,7 @@ static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
     if (SELF.last_period < LAST_PERIOD_MIN) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
-    if (swing < (uint16_t)(4u * (uint16_t)fixpid_autotune_hysteresis(self))) {
+    if ((swing >> 2) < (uint16_t)fixpid_autotune_hysteresis(self)) {
         return FIXPID_AUTOTUNE_TOO_SMALL;
     }
     return FIXPID_AUTOTUNE_DONE;

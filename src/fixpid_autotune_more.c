@@ -471,10 +471,13 @@ static int32_t with_sign_of(int32_t sign, uint32_t value)
 }
 
 // scale * total / steps, in two parts. pre: total / steps is below 2^16, and
-// scale at most 32767
+// scale at most 32767. (A remainder by % would link SDCC's function for it.)
 static uint32_t part_of(uint32_t total, uint16_t steps, uint16_t scale)
 {
-    return ((total / steps) * scale) + (((total % steps) * scale) / steps);
+    const uint32_t whole = total / steps;
+    const uint32_t rest = total - (whole * steps);
+
+    return (whole * scale) + ((rest * scale) / steps);
 }
 
 // The mean deviation, 1/256 of a count.
@@ -526,6 +529,7 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
 {
     FIXPID_DATA const struct fixpid_autotune_sums *const sums =
         &SELF.sums[relay];
+    const uint32_t rise = magnitude(sums->rise);
     int32_t area;
 
     if (!sums_make_sense(sums)) {
@@ -534,7 +538,7 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
     // Each within 32767^2, and 16376. Each cycle has steps at high and at low.
     area = with_sign_of(sums->all, part_of(magnitude(sums->all), sums->steps,
                                            sums->on_steps)) -
-           sums->on - (sums->rise / 2);
+           sums->on - with_sign_of(sums->rise, rise >> 1);
     if (area <= 0) {
         return false;
     }
@@ -545,7 +549,7 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
     set(sheet, STEPS, sums->steps, 0);
     set(sheet, HIGH_STEPS, sums->on_steps, 0);
     set(sheet, LOW_STEPS, (uint16_t)(sums->steps - sums->on_steps), 0);
-    set(sheet, RISE, magnitude(sums->rise), 0);
+    set(sheet, RISE, rise, 0);
     calculate(sheet, relay_numbers);
     if (sums->rise < 0) {
         set(sheet, TURN, 0, 0);

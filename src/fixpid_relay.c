@@ -395,7 +395,7 @@ static bool tune_derivative(struct fixpid_pid_gains *gains,
 
 // Whether nothing is divided by zero, nor by a period that no cycles have:
 // flipped bits may have made an experiment done.
-static bool sums_make_sense(FIXPID_DATA const struct fixpid_relay *self)
+static bool swings_make_sense(FIXPID_DATA const struct fixpid_relay *self)
 {
     if (SELF.averaged == 0u) {
         return false;
@@ -457,7 +457,7 @@ bool fixpid_relay_result(FIXPID_DATA const struct fixpid_relay *self,
     if (rule > LAST_RULE) {
         return false;
     }
-    if (!sums_make_sense(self)) {
+    if (!swings_make_sense(self)) {
         return false;
     }
     if (!serves(self, rule)) {

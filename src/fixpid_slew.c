@@ -8,7 +8,7 @@
 // the greater minus the less is their distance, below 2^32.
 #define OFFSET ((uint32_t)0x80000000u)
 #define COUNT_OFFSET 0x8000u // of whole counts
-#define HALF UINT32_C(0x8000)
+#define HALF_COUNT UINT32_C(0x8000)
 
 static uint32_t offset_q16(int16_t counts)
 {
@@ -70,7 +70,7 @@ int16_t fixpid_slew_step(FIXPID_DATA struct fixpid_slew *self, int16_t target)
     }
     SELF.value = value_of(value);
     // The value is a target or seed at most: 2^32 - 2^16 in offset binary.
-    counts = (uint16_t)((value + HALF) >> 16);
+    counts = (uint16_t)((value + HALF_COUNT) >> 16);
     counts ^= COUNT_OFFSET;
     return (int16_t)counts;
 }

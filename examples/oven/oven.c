@@ -59,8 +59,8 @@ static int16_t heater_duty(int32_t output)
 
 // There is at most one control tick, as 255 ms are less than its period. One
 // without a sensor makes the controller start anew: the heater has been off.
-// The gains are set each time, as a bit that has flipped in them would else
-// last.
+// What else only init sets is set each time, as a bit that has flipped in it
+// would else last.
 static void count_milliseconds(uint8_t ticks)
 {
     static uint16_t waited_ms = 0;
@@ -73,6 +73,10 @@ static void count_milliseconds(uint8_t ticks)
         } else {
             (void)fixpid_an937_set_gains(&oven, OVEN_KP_Q4, OVEN_KI_Q4,
                                          OVEN_KD_Q4);
+            (void)fixpid_an937_set_accumulated_error_limit(
+                &oven, ACCUMULATED_ERROR_LIMIT);
+            (void)fixpid_an937_set_derivative_period(&oven,
+                                                     DERIVATIVE_PERIOD_TICKS);
             fixpid_an937_tick(&oven);
         }
     }

@@ -107,7 +107,6 @@ static void control(void)
     static bool lost = false;
     static uint8_t periods = 0; // since the controller began anew
 
-    periods++;
     follow_selector();
     const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
@@ -116,6 +115,7 @@ static void control(void)
         port_drive(0);
         return;
     }
+    periods++;
     if (lost || (periods >= RENEWED_PERIODS)) {
         lost = false;
         periods = 0;

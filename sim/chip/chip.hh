@@ -102,6 +102,8 @@ class Chip
     void poke_u32(unsigned address, uint32_t value);
     void fill_ram(unsigned value); // all of it, no register
     unsigned ram_bytes() const;    // that the chip has
+    unsigned peek_eeprom(unsigned address) const;
+    void poke_eeprom(unsigned address, unsigned value);
 
     // ---- Symbols: "x" finds C's x, which is _x, before assembly's x ----
 

@@ -66,7 +66,7 @@ static struct seen {
     double error;
     double outside_s; // when the error was outside of the band last
     double on_s;      // when the drive was on last
-    double off_s;     // when it was off first, since the fault; negative: never
+    double off_s;     // from when on it was off for a tick; negative: never
 } seen;
 
 static uint32_t random_state;
@@ -408,8 +408,9 @@ static void judge_drive(double now_s, int drive, int asked)
         seen.drive_high = higher(seen.drive_high, drive);
         seen.asked_low = lower(seen.asked_low, asked);
         seen.asked_high = higher(seen.asked_high, asked);
-        if ((drive == 0) && (seen.off_s < 0.0)) {
-            seen.off_s = now_s;
+        const double since_s = fmax(seen.on_s, fault.at_s);
+        if ((seen.off_s < 0.0) && ((now_s - since_s) > TICK_S)) {
+            seen.off_s = since_s;
         }
     }
 }

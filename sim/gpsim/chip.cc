@@ -12,6 +12,8 @@
 #include <sstream>
 #include <utility>
 
+#include <gpsim/eeprom.h>
+
 #include "parts.hh"
 
 using namespace parts;
@@ -275,6 +277,47 @@ void Chip::set_oscillator(double hertz)
     self->processor->set_frequency(hertz);
 }
 
+// ---- Faults ----
+
+// What `hang` has put in the place of an instruction.
+namespace
+{
+
+constexpr unsigned goto_pic14 = 0x2800;   // and eleven bits of the address
+constexpr unsigned to_itself_18 = 0xD7FF; // bra $
+
+struct Hung {
+    unsigned at;
+    unsigned was;
+};
+std::vector<Hung> hung;
+
+void mend(pic_processor &chip)
+{
+    for (const Hung &one : hung) {
+        chip.pma->put_opcode(one.at, one.was);
+    }
+    hung.clear();
+}
+
+} // namespace
+
+void Chip::reset()
+{
+    mend(*self->processor);
+    self->processor->reset(POR_RESET);
+}
+
+void Chip::hang()
+{
+    const unsigned at = program_counter();
+
+    mend(*self->processor);
+    hung.push_back({at, self->processor->pma->get_opcode(at)});
+    self->processor->pma->put_opcode(
+        at, is_pic18() ? to_itself_18 : goto_pic14 | (at & 0x7FFu));
+}
+
 // ---- Memory ----
 
 // The register itself, below the actions on it.
@@ -366,6 +409,25 @@ unsigned Chip::ram_bytes() const
         }
     }
     return (unsigned)bytes.size();
+}
+
+static Register *eeprom_cell(pic_processor &chip, unsigned address)
+{
+    EEPROM *const eeprom = chip.get_eeprom();
+    if ((eeprom == nullptr) || (address >= eeprom->get_rom_size())) {
+        throw ChipError(printed("no EEPROM at %03x", address));
+    }
+    return eeprom->get_rom()[address];
+}
+
+unsigned Chip::peek_eeprom(unsigned address) const
+{
+    return eeprom_cell(*self->processor, address)->get_value();
+}
+
+void Chip::poke_eeprom(unsigned address, unsigned value)
+{
+    eeprom_cell(*self->processor, address)->put_value(value & 0xFF);
 }
 
 // ---- Symbols ----

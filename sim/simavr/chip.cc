@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include <simavr/avr_adc.h>
+#include <simavr/avr_eeprom.h>
 #include <simavr/avr_timer.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_core.h>
@@ -507,6 +508,28 @@ void Chip::fill_ram(unsigned value)
 
     std::fill(&self->avr->data[first], &self->avr->data[self->avr->ramend + 1],
               (uint8_t)value);
+}
+
+// simavr tells where it has the byte, and nothing if there is none.
+static uint8_t &eeprom_cell(avr_t *avr, unsigned address)
+{
+    avr_eeprom_desc_t cell = {nullptr, (uint16_t)address, 1};
+
+    (void)avr_ioctl(avr, AVR_IOCTL_EEPROM_GET, &cell);
+    if (cell.ee == nullptr) {
+        throw ChipError("no EEPROM at " + std::to_string(address));
+    }
+    return *cell.ee;
+}
+
+unsigned Chip::peek_eeprom(unsigned address) const
+{
+    return eeprom_cell(self->avr, address);
+}
+
+void Chip::poke_eeprom(unsigned address, unsigned value)
+{
+    eeprom_cell(self->avr, address) = (uint8_t)value;
 }
 
 // ---- Symbols ----

@@ -26,9 +26,9 @@ static struct input {
 // Marsaglia's xorshift of 32 bits. pre: noise_state != 0.
 static double uniform(void)
 {
-    noise_state ^= noise_state << 13;
+    noise_state ^= (noise_state & 0x7FFFFu) << 13;
     noise_state ^= noise_state >> 17;
-    noise_state ^= noise_state << 5;
+    noise_state ^= (noise_state & 0x7FFFFFFu) << 5;
     return (double)noise_state / 4294967296.0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fixpid_sum_with_term and fixpid_sixteenth of fixpid_an937_arith.h for an AVR
-// with a multiplier: 8 x 8 products, and nibbles that change places.
+// fixpid_sum_with_term, fixpid_error_term and fixpid_sixteenth of
+// fixpid_an937_arith.h for an AVR with a multiplier: 8 x 8 products, and
+// nibbles that change places.
 //
 // gcc keeps r1 at 0 and does not mind r0. `andi` wants the upper registers.
 #ifndef FIXPID_AN937_AVR_H
@@ -35,6 +36,12 @@ fixpid_sum_with_term(int32_t sum, uint8_t gain,
             : "+&r"(sum), "+&r"(sign), "=&r"(upper)
             : "r"(gain), "r"(number->parts.magnitude));
     return sum;
+}
+
+FIXPID_INLINE int32_t fixpid_error_term(
+    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
+{
+    return fixpid_sum_with_term(0, gain, error);
 }
 
 // 10 cycles: each nibble moves one place, that of the byte above comes in.

@@ -145,7 +145,7 @@ fixpid_add_product:
     addwf   PRODL, f, a
     movlw   0
     addwfc  PRODH, f, a
-    tstfsz  POSTINC0, a                 ; sign
+    btfsc   POSTINC0, 0, a              ; sign
     bra     fixpid_subtract
     movf    POSTINC0, w, a              ; padding
     movf    LOW, w, b
@@ -347,7 +347,7 @@ static FIXPID_DATA union {
         const uint16_t high = (gain)*high_byte;                                \
         product.bytes.middle = (uint16_t)(high + (uint8_t)(low >> 8));         \
         product.bytes.lowest = (uint8_t)low;                                   \
-        if ((factor).negative != 0u) {                                         \
+        if (((factor).negative & 1u) != 0u) {                                  \
             (sum) -= product.all;                                              \
         } else {                                                               \
             (sum) += product.all;                                              \

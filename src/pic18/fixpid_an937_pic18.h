@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The numbers of fixpid_an937_arith.h for a PIC18 under SDCC, in sign-magnitude
-// as fixpid_an937_narrow.h has them, with the products in assembly or in C.
+// as fixpid_an937_narrow.h has them, with the products in assembly or in C. The
+// sign is the lowest bit of its byte, whatever the others are.
 //
 // Macros instead of functions: SDCC's pic16 port keeps a copy of each inline
 // function and reaches the numbers through a pointer; in C a step takes 408
@@ -33,8 +34,9 @@ extern FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
     } while (0)
 
 #define fixpid_number_value(number)                                            \
-    (((number)->parts.negative != 0u) ? (-(int32_t)(number)->parts.magnitude)  \
-                                      : ((int32_t)(number)->parts.magnitude))
+    ((((number)->parts.negative & 1u) != 0u)                                   \
+         ? (-(int32_t)(number)->parts.magnitude)                               \
+         : ((int32_t)(number)->parts.magnitude))
 
 #define fixpid_number_difference(number, left, right)                          \
     do {                                                                       \
@@ -50,7 +52,8 @@ extern FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
 #define fixpid_number_add(number, addend, limit, flags)                        \
     do {                                                                       \
         FIXPID_AN937_WORD = (number)->parts.magnitude;                         \
-        if ((number)->parts.negative == (addend)->parts.negative) {            \
+        if ((((number)->parts.negative ^ (addend)->parts.negative) & 1u) ==    \
+            0u) {                                                              \
             fixpid_an937_word =                                                \
                 (uint16_t)(fixpid_an937_word + (addend)->parts.magnitude);     \
             if (fixpid_an937_word < (addend)->parts.magnitude) {               \

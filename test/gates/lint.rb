@@ -4,8 +4,10 @@
 # tools/lib/lint.rb on a library of one function, clean and with faults.
 require_relative 'planted'
 
-HEADER = "// SPDX-License-Identifier: MIT\n#ifndef FIXPID_TOY_H\n#define FIXPID_TOY_H\n#include <stdint.h>\n\n" \
-         "uint8_t fixpid_toy_step(uint8_t value);\n\n#endif\n"
+def header(inline = '')
+  "// SPDX-License-Identifier: MIT\n#ifndef FIXPID_TOY_H\n#define FIXPID_TOY_H\n#include <stdint.h>\n\n" \
+    "uint8_t fixpid_toy_step(uint8_t value);\n#{inline}\n#endif\n"
+end
 
 # The library with these lines in its function; `before` stands above it.
 def source(lines, before: '')
@@ -13,8 +15,8 @@ def source(lines, before: '')
     "#{lines.gsub(/^/, '    ')}    return value;\n}\n"
 end
 
-def lint(lines, *options, before: '', programs: {})
-  files = { 'include/fixpid_toy.h' => HEADER, 'src/fixpid_toy.c' => source(lines, before: before),
+def lint(lines, *options, before: '', inline: '', programs: {})
+  files = { 'include/fixpid_toy.h' => header(inline), 'src/fixpid_toy.c' => source(lines, before: before),
             '.clang-tidy' => File.read("#{PROJECT}/.clang-tidy"),
             'tools/lib/cppcheck.txt' => File.read("#{PROJECT}/tools/lib/cppcheck.txt") }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
@@ -46,7 +48,13 @@ Planted.refused('42 lines', quick(long), /42 lines \(at most 40\)/)
 Planted.passed('42 lines with a reason', quick(long, before: "// Deviation 40 lines: a reason\n"))
 Planted.refused('42 lines with another rule', quick(long, before: "// Deviation 11.5: a reason\n"), /42 lines/)
 Planted.refused('two conditions in a decision', quick("if ((value > 1u) && (value < 5u)) {\n    value++;\n}\n"),
-                /two conditions in one decision/)
+                /src.fixpid_toy\.c.*two conditions in one decision/)
+Planted.refused('two conditions in a header',
+                quick('', inline: "static inline uint8_t both(uint8_t a, uint8_t b)\n{\n" \
+                                  "    return (uint8_t)((a != 0u) || (b != 0u));\n}\n"),
+                /include.fixpid_toy\.h.*two conditions in one decision/)
+Planted.passed('two conditions in a macro and in a comment',
+               quick("value++; // && and ||\n", before: "#define BOTH(a, b) \\\n    (((a) != 0) && ((b) != 0))\n"))
 Planted.refused('a pmccabe that says nothing', quick('', programs: { 'pmccabe' => 'exit 0' }), /pmccabe sees 0 of 1 functions/)
 Planted.refused('a pmccabe that cannot read it',
                 quick('', programs: { 'pmccabe' => %q(echo "\"src/fixpid_toy.c\", line 7: not enough }'s" >&2) }), /not enough }'s/)

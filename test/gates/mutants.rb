@@ -99,4 +99,49 @@ keys = Excuses.keys(Breaks.of('src/x.c', alike), alike)
 Planted.expect('an excuse names one break', keys.values.uniq.size, keys.size)
 Planted.expect('and counts from above', keys.values.grep(/0u` -> `1u/).map { |key| key[/\(.*\)/] },
                ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
+
+# tools/lib/mutants/assembly.rb with a chip that answers right while it adds.
+TOY = "// add %0, %1\nstatic int f(int a, int b)\n{\n    __asm__(\"add %0, %1\\n\\t\"\n            \"andi %0, 1\"\n            : ...);\n}\n"
+CHIP = <<~TEXT
+  require '#{PROJECT}/tools/lib/mutants/assembly'
+
+  class Toy < Board
+    private
+
+    def ways
+      [1, 2]
+    end
+
+    def build(_way)
+      FileUtils.cp("\#{@source}/avr/toy.h", code)
+      !File.read(code).include?('ori')
+    end
+
+    def code
+      "\#{@folder}/code"
+    end
+
+    def answers
+      File.read(code).include?(ARGV.first) ? nil : :different
+    end
+  end
+
+  Thread.abort_on_exception = true
+  Board.define_singleton_method(:of) { |*arguments| Toy.new(*arguments) }
+  exit(Broken.new('src/avr/toy.h', Excuses.new('excuses'), File.open('report', 'w')).judge)
+TEXT
+TOYS = ['"andi %0, 1": `andi %0, 1` -> `nop`', '"andi %0, 1": `andi %0, 1` -> `andi %0, 2`',
+        '"andi %0, 1": `andi %0, 1` -> `andi %0, 0`'].map { |break_| "src/avr/toy.h, f: #{break_}" }.freeze
+
+def assembly(excuses, right: '"add', source: TOY)
+  Planted.tree('src/avr/toy.h' => source, 'excuses' => excuses.map { |line| "#{line}\n" }.join) do
+    Planted.run('ruby', '-e', CHIP, right)
+  end
+end
+
+Planted.passed('instructions that somebody notices', assembly(TOYS))
+Planted.refused('an instruction that nobody notices', assembly(TOYS.drop(1)), /^FAILED src.avr.toy.h/, /Nobody notices: .*`nop`/)
+Planted.refused('an instruction that somebody does', assembly(TOYS + [TOYS.first.sub('andi %0, 1"', 'add %0, %1"')]), /No longer true/)
+Planted.refused('a chip that answers wrong unbroken', assembly(TOYS, right: 'xor'), /the unbroken one is noticed/)
+Planted.refused('a program that cannot be built', assembly([], source: TOY.sub('andi', 'ori')), /cannot be built/)
 Planted.finish

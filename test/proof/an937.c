@@ -32,11 +32,6 @@ int32_t fixpid_number_term_contract(uint8_t gain,
 
 static bool sound_number(const union fixpid_an937_number *n, number most)
 {
-#if defined(FIXPID_AN937_NARROW_H)
-    if (n->parts.negative > 1u) {
-        return false;
-    }
-#endif
     return inside(value_of(n), -most - 1, most);
 }
 

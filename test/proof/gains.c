@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// fixpid_gains: nothing undefined, and what it gives is accepted by fixpid_pid
-// or untouched. Its quotients of 64 bits are for its unit test: a solver is
-// slow at them.
+// fixpid_gains against its header, whatever its quotients are: those of 64 bits
+// are for its unit test, because a solver is slow at them.
 #include "prove.h"
 
 #include "fixpid_gains.h"
@@ -24,18 +23,39 @@ static bool legal_gains(const struct fixpid_pid_gains *gains)
            (gains->derivative_filter <= FIXPID_PID_FILTER_MAX);
 }
 
-// floor(a * b / divisor + 1 / 2) is anything here.
-uint32_t scaled_contract(uint32_t a, uint32_t b, uint32_t divisor)
-{
-    const uint32_t quotient = nondet_uint32();
+// floor(a * b / divisor + 1 / 2), of which is known here only that it is one
+// function, and 0 of 0.
+uint32_t __CPROVER_uninterpreted_quotient(uint32_t a, uint32_t b,
+                                          uint32_t divisor);
 
-    (void)b;
-    pre(inside(divisor, 1, (number)1 << 31));
-    assume((a != 0u) || (quotient == 0u));
-    return quotient;
+static uint32_t quotient(uint32_t a, uint32_t b, uint32_t divisor)
+{
+    const uint32_t q = __CPROVER_uninterpreted_quotient(a, b, divisor);
+
+    assume((a != 0u) || (q == 0u));
+    return q;
 }
 
-// By contract: scaled.
+uint32_t scaled_contract(uint32_t a, uint32_t b, uint32_t divisor)
+{
+    pre(inside(divisor, 1, (number)1 << 31));
+    return quotient(a, b, divisor);
+}
+
+static bool in_range(number gain, number milli, number most)
+{
+    return (gain <= most) && ((gain != 0) || (milli == 0));
+}
+
+static bool same_gains(const struct fixpid_pid_gains *a,
+                       const struct fixpid_pid_gains *b)
+{
+    return (a->kp_q8 == b->kp_q8) && (a->ki_q24 == b->ki_q24) &&
+           (a->kd_q8 == b->kd_q8) &&
+           (a->derivative_filter == b->derivative_filter);
+}
+
+// What is legal is converted, and nothing else. By contract: scaled.
 void prove_from_milli(void)
 {
     const struct fixpid_gains_milli milli = nondet_milli();
@@ -43,35 +63,60 @@ void prove_from_milli(void)
     const uint32_t rate = nondet_uint32();
     const uint8_t filter = nondet_uint8();
     struct fixpid_pid_gains gains = before;
+    const bool accepted = fixpid_gains_from_milli(&gains, &milli, rate, filter);
 
-    if (fixpid_gains_from_milli(&gains, &milli, rate, filter)) {
-        claim(legal_rate(rate) && legal_gains(&gains));
-        claim((gains.kp_q8 == 0u) == (milli.kp == 0u));
-        claim((gains.kd_q8 == 0u) == (milli.kd == 0u));
-        claim(gains.derivative_filter == filter);
-        // At least 8 / 2^24: ki / 1000 / (rate / 1000) * 2^24
-        claim((milli.ki == 0u) || ((number)milli.ki << 21 >= (number)rate));
+    if (!legal_rate(rate) || (filter > FIXPID_PID_FILTER_MAX)) {
+        claim(!accepted);
     } else {
-        claim((gains.kp_q8 == before.kp_q8) &&
-              (gains.ki_q24 == before.ki_q24) &&
-              (gains.kd_q8 == before.kd_q8) &&
-              (gains.derivative_filter == before.derivative_filter));
+        // kp / 1000 * 256, ki / 1000 / (rate / 1000) * 2^24, and
+        // kd / 1000 * (rate / 1000) / 2^filter * 256
+        const number kp = quotient(milli.kp, 32, 125);
+        const number ki = quotient(milli.ki, (uint32_t)1 << 24, rate);
+        const number kd =
+            quotient(milli.kd, rate * 4u, (uint32_t)15625 << filter);
+
+        claim(accepted ==
+              (in_range(kp, milli.kp, FIXPID_PID_KP_MAX) &&
+               in_range(kd, milli.kd, FIXPID_PID_KD_MAX) &&
+               (ki <= FIXPID_PID_KI_MAX) &&
+               // at least 8 / 2^24
+               ((milli.ki == 0u) || ((number)milli.ki << 21 >= (number)rate))));
+        if (accepted) {
+            claim(legal_gains(&gains));
+            claim((gains.kp_q8 == kp) && (gains.ki_q24 == ki) &&
+                  (gains.kd_q8 == kd) && (gains.derivative_filter == filter));
+        }
+    }
+    if (!accepted) {
+        claim(same_gains(&gains, &before));
     }
 }
 
-// By contract: scaled.
+// The other way round: kp, ki * (rate / 1000) and kd / (rate / 1000) * 2^filter
+// in thousandths. By contract: scaled.
 void prove_to_milli(void)
 {
     const struct fixpid_pid_gains gains = nondet_pid_gains();
     const struct fixpid_gains_milli before = nondet_milli();
     const uint32_t rate = nondet_uint32();
     struct fixpid_gains_milli milli = before;
+    const bool accepted = fixpid_gains_to_milli(&milli, &gains, rate);
 
-    if (fixpid_gains_to_milli(&milli, &gains, rate)) {
-        claim(legal_rate(rate) && legal_gains(&gains));
-        // kp / 256 * 1000, half up
-        claim(milli.kp == floor_by(((number)gains.kp_q8 * 125) + 16, 5));
+    if (!legal_rate(rate) || !legal_gains(&gains)) {
+        claim(!accepted);
     } else {
+        const uint32_t ki = quotient(gains.ki_q24, rate, (uint32_t)1 << 24);
+        const uint32_t kd = quotient(
+            gains.kd_q8, (uint32_t)15625 << gains.derivative_filter, rate * 4u);
+
+        claim(accepted == ((ki != TOO_MUCH) && (kd != TOO_MUCH)));
+        if (accepted) {
+            // kp / 256 * 1000, half up
+            claim(milli.kp == floor_by(((number)gains.kp_q8 * 125) + 16, 5));
+            claim((milli.ki == ki) && (milli.kd == kd));
+        }
+    }
+    if (!accepted) {
         claim((milli.kp == before.kp) && (milli.ki == before.ki) &&
               (milli.kd == before.kd));
     }

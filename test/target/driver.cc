@@ -97,6 +97,11 @@ void Driver::poison_object()
     }
 }
 
+void Driver::flip(unsigned byte, unsigned bits)
+{
+    chip.poke(object + byte, chip.peek(object + byte) ^ bits);
+}
+
 void Driver::put(const question &asked)
 {
     const unsigned char *const bytes =

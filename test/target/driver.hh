@@ -25,6 +25,9 @@ class Driver
     // has cleared. A port relies on that.
     void poison_ram();
 
+    // Bits of a byte of the controller's object flip, between two turns.
+    void flip(unsigned byte, unsigned bits);
+
     // Question after question: `ask` gives the next or ends the run with false,
     // `judge` gets what came back. Throws ChipError for anything else that ends
     // the run, or if gpsim had anything to say.

@@ -14,6 +14,13 @@
 #define SUM_MAX INT64_C(0xFFFFFF)
 #define OTHERS 0x14u // flags that must stay
 
+// The bits of a sign's byte that mean nothing.
+#if defined(FIXPID_AN937_NARROW_H)
+#define BESIDE_SIGN 0xFEu
+#else
+#define BESIDE_SIGN 0u // two's complement has no such byte
+#endif
+
 void setUp(void)
 {
 }
@@ -131,6 +138,23 @@ void test_number_add_nasty_numbers_and_limits_crossed(void)
                 check_add(number_of(magnitude), nasty[j], limits[k]);
                 check_add(number_of(-(int32_t)magnitude), nasty[j], limits[k]);
                 check_add(minus_zero(), nasty[j], limits[k]);
+            }
+        }
+    }
+}
+
+void test_number_with_bits_beside_its_sign_is_the_same(void)
+{
+    for (unsigned i = 0; i < NASTY_COUNT; i++) {
+        for (unsigned bit = 0; bit < 8u; bit++) {
+            union fixpid_an937_number number = number_of(nasty[i]);
+            const int32_t term = fixpid_number_term(255, &number);
+
+            number.parts.negative ^= (uint8_t)((1u << bit) & BESIDE_SIGN);
+            TEST_ASSERT_EQUAL_INT32(nasty[i], fixpid_number_value(&number));
+            TEST_ASSERT_EQUAL_INT32(term, fixpid_number_term(255, &number));
+            for (unsigned j = 0; j < NASTY_COUNT; j++) {
+                check_add(number, nasty[j], UINT16_MAX);
             }
         }
     }

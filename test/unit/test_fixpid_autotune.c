@@ -951,7 +951,7 @@ static void is_model(struct fixpid_autotune_model expected)
 // What a function leaves unset on the stack is a large number.
 static void fill_stack(void)
 {
-    volatile uint8_t bytes[1024];
+    volatile uint8_t bytes[512];
 
     for (unsigned i = 0; i < sizeof bytes; i++) {
         bytes[i] = 1;
@@ -1629,6 +1629,28 @@ void test_result_sums_that_no_cycles_have_are_refused(void)
     refuses_sums();
 }
 
+static void takes_sums(void)
+{
+    autotune_controller.sums[1].rise = 0;
+    (void)model();
+}
+
+void test_result_sums_at_the_ends_of_what_cycles_have_are_taken(void)
+{
+    struct fixpid_autotune_sums *const sums = &autotune_controller.sums[1];
+
+    done();
+    sums->steps = 32767;
+    sums->on_steps = 1;
+    sums->all = 0;
+    sums->on = -32767;
+    takes_sums();
+    sums->on_steps = 32766;
+    takes_sums();
+    sums->all = INT32_C(32767) * 32767;
+    takes_sums();
+}
+
 // Without a cycle there is nothing to divide by.
 void test_result_no_number_of_cycles_divides_by_nothing(void)
 {
@@ -1646,6 +1668,10 @@ void test_step_a_flipped_bit_of_the_output_keeps_it_within_its_range(void)
     autotune_controller.output = 32767;
     TEST_ASSERT_EQUAL_INT16(300, step(0));
     autotune_controller.output = -32768;
+    TEST_ASSERT_EQUAL_INT16(-300, step(0));
+    autotune_controller.output = 301;
+    TEST_ASSERT_EQUAL_INT16(300, step(0));
+    autotune_controller.output = -301;
     TEST_ASSERT_EQUAL_INT16(-300, step(0));
     autotune_controller.output = 299;
     TEST_ASSERT_EQUAL_INT16(299, step(0));

@@ -1941,6 +1941,10 @@ void test_step_by_hand_a_flipped_bit_keeps_the_output_within_its_limits(void)
     pid_controller.integral = -INT32_C(0x40000000);
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 0, 0));
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_output(&pid_controller));
+    pid_controller.integral = INT32_C(256) * 65536; // just beyond
+    TEST_ASSERT_EQUAL_INT16(255, fixpid_pid_step(&pid_controller, 0, 0));
+    pid_controller.integral = -65536;
+    TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 0, 0));
 }
 
 // An integral of -190 counts becomes the output held.

@@ -35,6 +35,7 @@ void setUp(void)
         DERIVATIVE_PERIOD_TICKS};
 
     fixpid_an937_init(&motor, &config);
+    deaf_ticks = 0;
     port_drive_Stub(drive);
     port_read_Stub(convert);
 }
@@ -90,6 +91,71 @@ void test_control_ticks_that_came_together_are_reported_as_lost(void)
     TEST_ASSERT_EQUAL_INT32(4, fixpid_an937_accumulated_error(&motor));
     TEST_ASSERT_BITS_HIGH(FIXPID_AN937_TICK_OVERRUN,
                           fixpid_an937_flags(&motor));
+}
+
+static void passes(unsigned count, uint16_t setpoint, uint16_t speed)
+{
+    for (unsigned i = 0; i < count; i++) {
+        pass(1, setpoint, speed);
+    }
+}
+
+void test_control_tachometer_without_pulses_drive_is_off_after_20_ticks(void)
+{
+    passes(DEAF_TICKS - 1u, 500, LOW_END);
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
+    pass(0, 500, LOW_END); // between two ticks
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
+    pass(1, 500, LOW_END);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+void test_control_tachometer_at_full_scale_drive_is_off_after_20_ticks(void)
+{
+    passes(DEAF_TICKS - 1u, 500, HIGH_END);
+    TEST_ASSERT_EQUAL_INT16(-PORT_DRIVE_FULL, duty);
+    pass(1, 500, HIGH_END);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+void test_control_drive_that_is_off_stays_off_whatever_is_read(void)
+{
+    passes(DEAF_TICKS, 500, 0);
+    passes(2, 500, 499);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+    pass(0, 500, 1023);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+void test_control_tachometer_that_answers_once_is_believed(void)
+{
+    passes(DEAF_TICKS - 1u, 500, 0);
+    pass(1, 500, LOW_END + 1);
+    passes(DEAF_TICKS - 1u, 500, 0);
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
+    pass(1, 600, HIGH_END - 1);
+    passes(DEAF_TICKS - 1u, 500, 1023);
+    TEST_ASSERT_EQUAL_INT16(-PORT_DRIVE_FULL, duty);
+}
+
+void test_control_ticks_that_came_together_count_for_the_tachometer(void)
+{
+    pass(DEAF_TICKS - 1u, 500, 0);
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
+    pass(255, 500, 0);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+// Of PORT_DRIVE_FULL / 2, with P alone: 24 for each count.
+void test_control_an_end_is_believed_where_less_than_half_the_drive_pushes(void)
+{
+    (void)fixpid_an937_set_gains(&motor, KP_Q4, 0, 0);
+    passes(2u * DEAF_TICKS, 21, 0);
+    TEST_ASSERT_EQUAL_INT16(21 * 24, duty);
+    passes(2u * DEAF_TICKS, 1002, 1023);
+    TEST_ASSERT_EQUAL_INT16(-21 * 24, duty);
+    passes(DEAF_TICKS, 22, 0);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
 }
 
 // The schedule's counter cannot be cleared: one test tells its whole story.

@@ -4,6 +4,7 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/fixpid_an937.c")
+TEST_SOURCE_FILE("src/fixpid_an937_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/oven")
 
@@ -134,17 +135,22 @@ void test_main_controller_starts_anew_after_a_slow_tick_without_sensor(void)
     run();
 }
 
-void test_flipped_bits_in_the_gains_last_until_the_next_slow_tick(void)
+void test_flipped_bits_in_the_settings_last_until_the_next_slow_tick(void)
 {
-    static const struct fixpid_an937_config config = {OVEN_KP_Q4, OVEN_KI_Q4,
-                                                      OVEN_KD_Q4, 100, 1};
+    static const struct fixpid_an937_config config = {
+        OVEN_KP_Q4, OVEN_KI_Q4, OVEN_KD_Q4, ACCUMULATED_ERROR_LIMIT, 1};
 
     (void)fixpid_an937_init(&oven, &config);
     oven.kp_q4 ^= 0x80u;
     oven.ki_q4 ^= 0x40u;
     oven.kd_q4 ^= 0x01u;
+    oven.accumulated_error_limit ^= 0x4000u;
+    oven.derivative_period_ticks ^= 0x08u;
     reach_slow_tick();
     TEST_ASSERT_EQUAL_UINT8(OVEN_KP_Q4, oven.kp_q4);
     TEST_ASSERT_EQUAL_UINT8(OVEN_KI_Q4, oven.ki_q4);
     TEST_ASSERT_EQUAL_UINT8(OVEN_KD_Q4, oven.kd_q4);
+    TEST_ASSERT_EQUAL_UINT16(ACCUMULATED_ERROR_LIMIT,
+                             oven.accumulated_error_limit);
+    TEST_ASSERT_EQUAL_UINT8(1, oven.derivative_period_ticks);
 }

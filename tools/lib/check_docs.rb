@@ -205,7 +205,7 @@ def renewed(path, text)
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/assurance.md'
-    part(text, 'proofs', Assurance.table)
+    part(text, 'claims', Assurance.table)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', bounds_table), 'forms', Forms.table)
   when 'docs/ports.md'
@@ -269,7 +269,7 @@ end
 Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
-@failures.concat(Facts.failures)
+@failures.concat(Facts.failures + Assurance.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

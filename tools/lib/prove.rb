@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
 # What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks of
 # test/proof/breaks.txt that they must notice. Prints a line for each.
-require_relative 'prove/breaks'
 require_relative 'prove/cbmc'
+require_relative 'prove/choice'
+require_relative 'prove/coverage'
+require_relative 'prove/equivalents'
+require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
 require_relative 'prove/proofs'
+require_relative 'prove/seeded'
 
 BUILD = 'build/prove'.freeze
 
@@ -39,11 +43,6 @@ rescue ThreadError
   nil # it is empty
 end
 
-# What answers a proof.
-def judge_of(proof)
-  proof.exhausted? ? Exhaustion : Cbmc
-end
-
 # Whether a proof holds, and its line.
 def prove(proof)
   answer = judge_of(proof).new(proof, BUILD).run
@@ -61,8 +60,55 @@ def refute(broken)
   [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
 end
 
+# Adds breaks for the functions that have too few.
+def choose(proofs)
+  choice = Choice.new(proofs, Seeded.all(proofs), BUILD)
+  all_good?(choice.lacking) do |file, function|
+    rows = choice.of(file, function)
+    File.open(Seeded::FILE, 'a') { |list| list.puts rows }
+    [true, "#{file}, #{function}: #{rows.size} breaks added"]
+  end
+  few = Seeded.uneven(Seeded.all(proofs))
+  puts few
+  few.empty?
+end
+
+# Whether what is said to change nothing is proved to, or argued.
+def equivalent?(proofs, words)
+  equivalents = Equivalents.new(proofs, BUILD)
+  chosen = equivalents.chosen(words)
+  complaints = equivalents.complaints
+  complaints << "#{Equivalents::FILE} has no line with #{words.join(' and ')}" if chosen.empty?
+  complaints.each { |complaint| puts "FAILED #{complaint}" }
+  all_good?(chosen) { |key| equivalents.judge(key) } && complaints.empty?
+end
+
+# Whether Eva has no alarm but those that are pinned, and those.
+def no_alarms?(words)
+  all = Eva.all
+  chosen = all.select { |eva| words.all? { |word| eva.name.split.include?(word) } }
+  good = all_good?(chosen, &:judge)
+  stale = chosen == all && good ? Eva.pinned - all.flat_map(&:alarms) : []
+  puts stale.map { |alarm| "FAILED #{Eva::ALARMS}: no longer true: #{alarm}" }
+  puts 'FAILED no driver has these words in its name' if chosen.empty?
+  good && stale.empty? && !chosen.empty?
+end
+
+# Whether the proofs come to all places, but those that are pinned.
+def covered?(proofs, words)
+  forms = Coverage.chosen(proofs, words)
+  puts "FAILED no form has these words in its name: #{words.join(' ')}" if forms.empty?
+  good = all_good?(forms) { |form| form.judge(BUILD) }
+  stale = good && words.empty? ? Coverage.pinned - forms.flat_map(&:unreached) : []
+  puts stale.map { |place| "FAILED #{Coverage::FILE}: no longer true: #{place}" }
+  good && stale.empty? && !forms.empty?
+end
+
 mode, *words = ARGV
 proofs = Proofs.all
+$stdout.sync = true
+exit(equivalent?(proofs, words) ? 0 : 1) if mode == 'equivalents'
+exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
 chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
 if chosen.empty?
   warn "prove: no proof has all of these in its name: #{words.join(' ')} (see --list)"
@@ -73,13 +119,15 @@ if mode == 'list'
   exit 0
 end
 
-$stdout.sync = true
-breaks = Breaks.all(proofs)
-breaks = breaks.select { |broken| chosen.include?(broken.proof) }
+exit(covered?(proofs, words) ? 0 : 1) if mode == 'coverage'
+exit(choose(proofs) ? 0 : 1) if mode == 'choose'
+seeded = Seeded.all(proofs)
+breaks = seeded.select { |broken| chosen.include?(broken.proof) }
 breaks = breaks.uniq { |broken| broken.proof.group } if mode == 'quick'
-complaints = Proofs.complaints(proofs) + Breaks.complaints(proofs, Breaks.all(proofs))
+complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
 noticed = all_good?(breaks) { |broken| refute(broken) }
+covered = mode == 'quick' || !words.empty? || covered?(proofs, words)
 puts "#{chosen.size} proofs, #{breaks.size} breaks"
-exit(proved && noticed && complaints.empty? ? 0 : 1)
+exit(proved && noticed && covered && complaints.empty? ? 0 : 1)

@@ -9,9 +9,11 @@
 # pic16/libsdcc.lib and pic16/crt0iz.o. Takes the caller's
 # SDCC, the `sdcc` of PATH if it has both ports and their libraries, or the
 # private one in the user's cache, which it builds when there is none. From
-# the project's folder, or with `root` set to it.
+# the project's folder, or with `root` set to it. What one tool has tried, those
+# that it starts need not: SDCC_TRIED.
 need_sdcc() {
     need gpasm:gputils
+    [ -z "${SDCC-}" ] || [ "${SDCC_TRIED-}" != "$SDCC" ] || return 0
     if [ -n "${SDCC-}" ]; then
         sdcc_works "$SDCC" || die "SDCC=$SDCC cannot compile for PIC:" \
             "it needs the ports pic14 and pic16 and their libraries"
@@ -51,7 +53,8 @@ sdcc_works() {
             [ -f "$sdcc_folder/pic16/crt0iz.o" ]; then
             SDCC=$(command -v "$1")
             SDCC_LIB=$(CDPATH='' cd -- "$sdcc_folder" && pwd)
-            export SDCC SDCC_LIB
+            SDCC_TRIED=$SDCC
+            export SDCC SDCC_LIB SDCC_TRIED
             return 0
         fi
     done <<END

@@ -27,15 +27,15 @@ module Limits
 
   # Controller, chip, build, variant: the figures and their limits.
   STEPS = {
-    ['an937', 'pic18f4520', 'object', nil] => { most: 290, step_flash: 900 },
-    ['an937', 'pic18f4520', 'object', 'C'] => { most: 410 },
-    ['an937', 'pic18f4520', 'object', 'access-RAM'] => { most: 252, needed: 1120, ram: 37 },
-    ['an937', 'pic18f4520', 'pointer', nil] => { most: 578 },
+    ['an937', 'pic18f4520', 'object', nil] => { most: 292, step_flash: 900 },
+    ['an937', 'pic18f4520', 'object', 'C'] => { most: 411 },
+    ['an937', 'pic18f4520', 'object', 'access-RAM'] => { most: 252, needed: 1125, ram: 37 },
+    ['an937', 'pic18f4520', 'pointer', nil] => { most: 579 },
     ['an964', 'pic16f684', 'object', nil] => { most: 525, step_flash: 365 },
     ['an964', 'pic16f684', 'object', 'C'] => { most: 545, step_variables: 17 },
     ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
     ['an964_8bit', 'pic16f684', 'object', nil] => { most: 340, step_flash: 360 },
-    ['an964_8bit', 'pic16f684', 'object', 'C'] => { most: 375 },
+    ['an964_8bit', 'pic16f684', 'object', 'C'] => { most: 378 },
     ['an964_8bit', 'pic16f684', 'pointer', nil] => { most: 1250 },
     ['an964', 'pic16f887', 'object', nil] => { most: 690 },
     ['an964', 'pic16f887', 'object', 'C'] => { most: 960 },
@@ -58,10 +58,10 @@ module Limits
     ['an964_8bit', 'atmega328p', '-O2', nil] => { most: 152 },
     ['an964_8bit', 'atmega328p', '-Os', nil] => { most: 191 },
     ['pid_plain', 'pic18f4520', 'object', 'access-RAM'] => { most: 800 },
-    ['pid_plain', 'atmega328p', '-O2', nil] => { most: 347 },
+    ['pid_plain', 'atmega328p', '-O2', nil] => { most: 353 },
     ['pid_plain', 'cortex-m0', '-O2', nil] => { most: 108 },
     ['pid_plain', 'cortex-m4', '-O2', nil] => { most: 75 },
-    ['pid', 'pic18f4520', 'object', nil] => { most: 1305, linked: 5160 },
+    ['pid', 'pic18f4520', 'object', nil] => { most: 1305, linked: 5180 },
     ['pid', 'atmega328p', '-O2', nil] => { most: 512 },
     ['pid', 'atmega328p', '-Os', nil] => { needed: 1800 },
     ['pid', 'cortex-m0', '-O2', nil] => { most: 157, needed: 950 },
@@ -79,7 +79,7 @@ module Limits
     ['an937', 'rv32ec', '-Os', nil] => { most: 210, needed: 400 },
     ['an964', 'rv32ec', '-Os', nil] => { most: 232, needed: 910 },
     ['an964_8bit', 'rv32ec', '-Os', nil] => { most: 186, needed: 750 },
-    ['pid', 'rv32ec', '-Os', nil] => { most: 480, needed: 1040 },
+    ['pid', 'rv32ec', '-Os', nil] => { most: 480, needed: 1045 },
     ['an937', 'attiny85', '-Os', nil] => { most: 675 },
     ['an964', 'attiny85', '-Os', nil] => { most: 305 },
     ['an964_8bit', 'attiny85', '-Os', nil] => { most: 230 },
@@ -110,7 +110,7 @@ module Limits
     ['fixpid_pid_track', 'atmega328p', '-Os'] => { most: 193 },
     ['fixpid_pid_track', 'cortex-m0', '-O2'] => { most: 70 },
     ['fixpid_pid_track', 'pic18f4520', 'pointer'] => { most: 565 },
-    ['autotune_ordinary_step', 'atmega328p', '-Os'] => { most: 523, flash: 7700, instance: 66 },
+    ['autotune_ordinary_step', 'atmega328p', '-Os'] => { most: 523, flash: 7900, instance: 66 },
     ['autotune_cycle_step', 'atmega328p', '-Os'] => { most: 1655 }
   }.freeze
 

@@ -72,7 +72,7 @@ module Tables
                rules.fallen ? "fallen, and off within #{rules.fallen} s" : "off within #{rules.back} s",
                format('%.1f ms: %d ms and two ticks', 1e3 * (rules.watchdog_s + 2.0 * rules.tick_s),
                       1e3 * rules.watchdog_s),
-               rules.blind ? format('%.1f ms', 1e3 * rules.blind) : 'it is not looked at',
+               format('%.1f ms', 1e3 * rules.blind),
                rules.lasting.zero? ? 'none' : "#{rules.lasting} %"]
             end)
     end
@@ -165,7 +165,7 @@ module Tables
       row = Report.numbers["faults #{name}"]['kinds'].find { |one| one['kind'] == kind }
       parts = [["#{row['back']} back", row['back'], row['back_s']],
                ["#{row['fallen']} fallen", row['fallen'], row['off_s']],
-               ["#{row['off']} off", row['off'], nil], ["#{row['out']} out", row['out'], nil]]
+               ["#{row['off']} off", row['off'], row['off_s']], ["#{row['out']} out", row['out'], nil]]
       parts.select { |_, count, _| count.positive? }
            .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
     end

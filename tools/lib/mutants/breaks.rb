@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# Every small break of a file: an operator, a number, a name, a bound moved by
-# one, a statement left out. `source` is the whole text with the break in it.
-Mutant = Struct.new(:file, :line, :place, :from, :to, :source) do
-  def to_s
-    "#{file}:#{line}: `#{from}` -> `#{to}`"
-  end
-end
+require_relative 'mutant'
 
+# Every small break of a file: an operator, a number, a name, a bound moved by
+# one, a statement left out.
 module Breaks
   OPERATORS = { '<' => %w[<= >], '<=' => %w[< >], '>' => %w[>= <], '>=' => %w[> <], '==' => %w[!=],
                 '!=' => %w[==], '+' => %w[-], '-' => %w[+], '*' => %w[+], '/' => %w[*], '<<' => %w[>>], '>>' => %w[<<],

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
+require_relative '../c_functions'
 
 # The mutants that nobody need notice. Each line of the file names one:
 #   FILE, FUNCTION: TEXT OF THE LINE: `from` -> `to` (2 of 3)
 # A macro has no function, and what is alike otherwise is counted from above.
 class Excuses
+  attr_reader :known
+
   def initialize(path)
     @path = path
     lines = File.readlines(path, chomp: true)
@@ -32,7 +35,7 @@ class Excuses
   # What each of a file's mutants is called here.
   def self.keys(mutants, text)
     lines = text.lines
-    functions = functions_of(lines)
+    functions = CFunctions.of_lines(lines)
     names = mutants.to_h { |mutant| [mutant, name(mutant, lines, functions)] }
     names.to_a.group_by(&:last).values.flat_map do |alike|
       alike.sort_by { |mutant, _| mutant.place }.each_with_index.map do |(mutant, name), index|
@@ -48,17 +51,6 @@ class Excuses
       text = lines[mutant.line - 1].sub(%r{//.*}, '').gsub(/(?:\\[nt])+/, ' ').delete('\\').strip.gsub(/\s+/, ' ')
       function = functions[mutant.line - 1]
       "#{mutant.file}#{", #{function}" if function}: #{text}: `#{mutant.from}` -> `#{mutant.to}`"
-    end
-
-    # The function in which each line is, or nil.
-    def functions_of(lines)
-      function = nil
-      lines.map do |line|
-        function = line[/(\w+)\(/, 1] || function if line.match?(/\A\w/) && !line.match?(/;$/)
-        now = line.start_with?('#') ? nil : function
-        function = nil if line.match?(/\A(?:}|.*;$)/) && !line.start_with?(' ')
-        now
-      end
     end
   end
 end

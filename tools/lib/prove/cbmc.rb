@@ -16,17 +16,45 @@ class Cbmc
               --undefined-shift-check --unwind 200 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
   TICKS = 100.0 # a second; the kernel's for /proc
 
-  def initialize(proof, build, tree = '.')
+  def initialize(proof, build, tree = '.', seconds = nil)
     @proof = proof
     @tree = tree
+    @seconds_most = seconds || (proof.what == 'composed' ? COMPOSED_MOST : SECONDS_MOST)
     @folder = "#{build}/#{proof.name.tr(' ', '_')}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"
   end
 
   def run
-    FileUtils.rm_rf(@folder)
-    FileUtils.mkdir_p(@folder)
     program = compile or return Answer.new(:none, "it does not compile\n#{@said}")
     ask(program)
+  end
+
+  # The functions that the proof comes to.
+  def functions
+    program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
+    tool('goto-instrument', '--reachable-call-graph', program) or abort "prove: #{@proof.name}: #{@said}"
+    @said.scan(/^\w+ -> (\w+)$/).flatten.uniq
+  end
+
+  # What it does, without the places of its lines and of its file.
+  def instructions
+    program = compile or return @said
+    tool('goto-instrument', '--drop-unused-functions', program, "#{program}-used") or abort "prove: #{@proof.name}: #{@said}"
+    tool('goto-instrument', '--show-goto-functions', "#{program}-used")
+    @said.lines.grep_v(%r{^\s*//|^Reading GOTO program}).join
+  end
+
+  # [file, line, function, block] of each place of src/ => whether some values
+  # come to it; nil without an answer.
+  def places
+    program = compile or return
+    output = "#{@folder}/places.txt"
+    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', 'location', '--unwind', '200', '--drop-unused-functions',
+           in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
+    said = File.read(output)
+    return unless said.match?(/^\*\* \d+ of \d+ covered/)
+
+    said.scan(%r{^\[\S+\] file (?:\./)?(src/\S+) line (\d+) function (\w+) (block \d+) .*: (SATISFIED|FAILED)$})
+        .to_h { |*place, found| [place, found == 'SATISFIED'] }
   end
 
   private
@@ -38,6 +66,8 @@ class Cbmc
 
   # Gives the program, or nil.
   def compile
+    FileUtils.rm_rf(@folder)
+    FileUtils.mkdir_p(@folder)
     program = "#{@folder}/program"
     tool('goto-cc', "--#{@proof.word}", "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}",
          "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness, '--function', @proof.function,
@@ -50,14 +80,10 @@ class Cbmc
     program
   end
 
-  def seconds_most
-    @proof.what == 'composed' ? COMPOSED_MOST : SECONDS_MOST
-  end
-
   def ask(program)
     output = "#{@folder}/output.txt"
     process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, in: File::NULL, %i[out err] => output,
-                            rlimit_cpu: [seconds_most, seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
+                            rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
     status = watch(process)
     judge(File.read(output), status)
   end
@@ -79,8 +105,8 @@ class Cbmc
   def judge(said, status)
     properties = said.scan(/: SUCCESS$/).size
     verdict, why =
-      if status.termsig || @seconds >= seconds_most
-        [:none, "no answer in #{seconds_most} s and #{MEGABYTES_MOST} MB"]
+      if status.termsig || @seconds >= @seconds_most
+        [:none, "no answer in #{@seconds_most} s and #{MEGABYTES_MOST} MB"]
       elsif said.match?(/^VERIFICATION SUCCESSFUL$/) && status.success?
         properties.zero? ? [:none, 'it has no properties'] : [:proved, nil]
       elsif said.match?(/^VERIFICATION FAILED$/)

@@ -5,9 +5,12 @@ require_relative 'cbmc'
 
 # Compiles it with the sources of a tree and runs it. Its properties are its cases.
 class Exhaustion
-  def initialize(proof, build, tree = '.')
+  SECONDS_MOST = 120 # of a processor
+
+  def initialize(proof, build, tree = '.', seconds = SECONDS_MOST)
     @proof = proof
     @tree = tree
+    @seconds_most = seconds
     @program = "#{build}/#{proof.name.tr(' ', '_')}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"
   end
 
@@ -17,10 +20,15 @@ class Exhaustion
     return Answer.new(:none, "it does not compile\n#{said}") unless status.success?
 
     began = Process.clock_gettime(Process::CLOCK_MONOTONIC)
-    said, status = Open3.capture2e(@program)
+    said, status = Open3.capture2e(@program, rlimit_cpu: [@seconds_most, @seconds_most + 1])
     judge(said, status, Process.clock_gettime(Process::CLOCK_MONOTONIC) - began)
   ensure
     File.delete(@program) if File.exist?(@program)
+  end
+
+  # What is tried, with the sources of the tree.
+  def instructions
+    Open3.capture2('cc', '-std=c99', '-E', '-P', *@proof.options, "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness).first
   end
 
   private
@@ -31,4 +39,9 @@ class Exhaustion
 
     Answer.new(status.exitstatus == 1 ? :refuted : :none, said, 0, seconds, 0)
   end
+end
+
+# What answers a proof.
+def judge_of(proof)
+  proof.exhausted? ? Exhaustion : Cbmc
 end

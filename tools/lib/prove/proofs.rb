@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 # The proofs, as test/proof/proofs.txt and the harnesses in test/proof/ have them.
+require 'open3'
 
 FOLDER = 'test/proof'.freeze
 WORDS = [16, 32, 64].freeze
@@ -49,6 +50,13 @@ module Proofs
   def text(file)
     @texts ||= {}
     @texts[file] ||= File.read(file)
+  end
+
+  # The files that a harness is compiled from, in a form.
+  def sources(proof)
+    @sources ||= {}
+    @sources[[proof.harness, proof.options]] ||=
+      Open3.capture2('cc', '-MM', *proof.options, "-I#{FOLDER}", '-Iinclude', '-Isrc', proof.harness).first.split
   end
 
   # Of each row `module form [option]... : what...`.

@@ -35,6 +35,8 @@ $defines
       - FIXPID_AN937_OBJECT=oven
     'test_thermostat':
       - FIXPID_PID_OBJECT=thermostat
+    'test_kept':
+      - FIXPID_PID_OBJECT=oven
     'test_autotune_example':
       - FIXPID_PID_OBJECT=oven
       - FIXPID_AUTOTUNE_OBJECT=tuner
@@ -261,4 +263,5 @@ part_proofs() {
 part_prove() {
     need ruby cc:gcc
     count 'tools/prove' '^ok ' '^FAILED ' tools/prove
+    count 'tools/prove --eva' '^ok ' '^FAILED ' tools/prove --eva
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "eva.h"
+
+#include "fixpid_pid.c"
+#include "fixpid_pid_more.c"
+#include "fixpid_pid_track.c"
+
+static struct fixpid_pid_gains any_gains(void)
+{
+    const struct fixpid_pid_gains gains = {
+        .kp_q8 = ANY_UINT16,
+        .ki_q24 = ANY_UINT32,
+        .kd_q8 = ANY_UINT16,
+        .derivative_filter = ANY_UINT8,
+    };
+
+    return gains;
+}
+
+static void set_any(struct fixpid_pid *c)
+{
+    const struct fixpid_pid_gains gains = any_gains();
+
+    switch (ANY_OF(4)) {
+    case 1:
+        (void)fixpid_pid_set_gains(c, &gains);
+        break;
+    case 2:
+        (void)fixpid_pid_set_limits(c, ANY_INT16, ANY_INT16);
+        break;
+    case 3:
+        (void)fixpid_pid_set_integral_limits(c, ANY_INT16, ANY_INT16);
+        break;
+    default:
+        fixpid_pid_set_feedforward(c, ANY_INT16);
+        break;
+    }
+}
+
+static void call_any(struct fixpid_pid *c)
+{
+    switch (ANY_OF(8)) {
+    case 1:
+        fixpid_pid_reset(c);
+        break;
+    case 2:
+        set_any(c);
+        break;
+    case 3:
+        fixpid_pid_set_manual(c, ANY_INT16);
+        break;
+    case 4:
+        fixpid_pid_set_auto(c);
+        break;
+    case 5:
+        fixpid_pid_seed(c, ANY_INT16);
+        break;
+    case 6:
+        fixpid_pid_track(c, ANY_INT16, ANY_UINT8);
+        break;
+    case 7:
+        (void)fixpid_pid_step(c, ANY_INT16, ANY_INT16);
+        break;
+    default:
+        (void)fixpid_pid_proportional(c);
+        (void)fixpid_pid_integral(c);
+        (void)fixpid_pid_derivative(c);
+        (void)fixpid_pid_output(c);
+        (void)fixpid_pid_flags(c);
+        break;
+    }
+}
+
+void eva(void)
+{
+    const struct fixpid_pid_config config = {
+        .gains = any_gains(),
+        .output_min = ANY_INT16,
+        .output_max = ANY_INT16,
+        .integral_min = ANY_INT16,
+        .integral_max = ANY_INT16,
+        .setpoint_weight_q8 = ANY_UINT16,
+        .options = ANY_UINT8,
+    };
+    struct fixpid_pid c;
+
+    (void)fixpid_pid_init(&c, &config);
+    while (GOES_ON) {
+        call_any(&c);
+    }
+}

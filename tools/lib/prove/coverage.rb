@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+# Whether the proofs come to every place of what they are proofs of.
+require_relative 'cbmc'
+require_relative 'proofs'
+
+# A proof that assumes too much says nothing of what its assumptions leave out.
+# So each place of src/ in a function that the proofs of a form come to must be
+# reached, for some values, by one of them. What cannot be stands in
+# unreached.txt, below the reason, as FILE, FUNCTION: LINE.
+class Coverage
+  FILE = "#{FOLDER}/unreached.txt".freeze
+  WORD = WORDS.first
+  # The first assume nothing or too much on purpose; the parts of the last have
+  # proofs of their own.
+  NOT_ASKED = %w[total total_rest refused composed].freeze
+
+  attr_reader :unreached
+
+  # Those forms with all these words in their names.
+  def self.chosen(proofs, words)
+    asked = proofs.reject { |proof| proof.exhausted? || proof.word != WORD || NOT_ASKED.include?(proof.what) }
+    forms = asked.group_by { |proof| [proof.group, proof.form] }
+    forms.select { |name, _| (words - name).empty? }.map { |name, of_form| new(name.join(' '), of_form) }
+  end
+
+  def self.pinned
+    @pinned ||= File.readlines(FILE, chomp: true).grep(/\Asrc/)
+  end
+
+  def initialize(name, proofs)
+    @name = name
+    @proofs = proofs
+    @unreached = []
+  end
+
+  # Whether all is reached but what is pinned, and what to print.
+  def judge(build)
+    places = Hash.new(false)
+    @proofs.each do |proof|
+      found = Cbmc.new(proof, build).places or return [false, "#{@name}: #{proof.name} has no answer"]
+      found.each { |place, reached| places[place] |= reached }
+    end
+    @unreached = places.reject { |_, reached| reached }.keys.map { |file, line, function| "#{file}, #{function}: #{text(file, line)}" }.uniq
+    verdict(places.size)
+  end
+
+  private
+
+  def text(file, line)
+    File.readlines(file)[line.to_i - 1].sub(%r{//.*}, '').strip
+  end
+
+  def verdict(count)
+    strange = @unreached - Coverage.pinned
+    return [true, "#{@name}: #{count} places, #{@unreached.size} of them not reached"] if strange.empty?
+
+    [false, "#{@name}: not reached, and not in #{FILE}:\n#{strange.join("\n")}"]
+  end
+end
