@@ -269,7 +269,7 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
     if (SELF.state >= PHASE_NOISE) {
         const uint8_t status = watch_ends(self, measurement);
 
-        if (status != FIXPID_AUTOTUNE_RUNNING) {
+        if (status != (uint8_t)FIXPID_AUTOTUNE_RUNNING) {
             fixpid_autotune_finish(self, status);
         } else {
             int16_t deviation = deviation_from(setpoint, measurement);

@@ -359,7 +359,9 @@ static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
 {
-    const int16_t output = (int16_t)shift_right_floor(SELF.integral, 16);
+    // A word: gcc for an RV32EC extends 16 bits again and again.
+    const int_fast16_t output =
+        (int_fast16_t)shift_right_floor(SELF.integral, 16);
 
     if (output > SELF.output_max) {
         return SELF.output_max;
@@ -367,7 +369,7 @@ static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
     if (output < SELF.output_min) {
         return SELF.output_min;
     }
-    return output;
+    return (int16_t)output;
 }
 #else
 #define held_output(self) ((int16_t)0)

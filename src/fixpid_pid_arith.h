@@ -98,12 +98,12 @@ FIXPID_INLINE int16_t complement(int16_t x)
     return (int16_t)(-1 - x);
 }
 
-#if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#if defined(__AVR_HAVE_MOVW__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "avr/fixpid_pid_avr.h" // Deviation 20.1: it builds on the above
 #else
-
 // a + derivative. pre: it fits, unless bits were flipped
 #define add32_with_derivative(a, derivative) fixpid_add32(a, derivative)
+#endif
 
 // (Older compilers for ARM say that they have the instructions and do not.)
 #if defined(__ARM_FEATURE_SAT) && !defined(FIXPID_NO_ASSEMBLY) &&              \
@@ -194,7 +194,9 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 // (An 8051 is faster with its library's product.) SDCC would compile it into
 // each of its callers, which takes a seventh more of a Z80's step, and of its
 // code.
-#if defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                  \
+#if defined(FIXPID_HAS_MUL16)
+// in the chip's own header
+#elif defined(_PIC18) || defined(_PIC14) || defined(_PIC14E) ||                \
     defined(__MSP430__) || (defined(__SDCC) && !defined(__SDCC_mcs51))
 #if defined(__SDCC)
 #define FIXPID_MUL16 static
@@ -233,8 +235,6 @@ FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     return (int32_t)gain * x;
 }
-#endif
-
 #endif
 
 #endif

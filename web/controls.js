@@ -114,11 +114,20 @@ function setpointControls(s) {
         : [['SETPOINT', 'Setpoint', s.unit, sensor]];
 }
 
+function tunerControls() {
+    return [
+        ['SWING', 'Swing', 'counts; 0: by the noise', (s) => straight(0, Math.round(2 ** s.SENSOR_BITS / 4), 8)],
+        ['CYCLES', 'Cycles', 'of each relay', () => straight(1, 4, 1)],
+        ['ROBUSTNESS', 'SIMC’s robustness', '/ 16; more is calmer', () => straight(8, 64, 1)],
+    ];
+}
+
 export function sectionsOf(s) {
     return [
         { title: 'Gains', open: true, controls: [...setpointControls(s), ...gainControls(s)] },
         { title: 'Plant', open: true, controls: plantControls(s) },
         { title: 'Sensor, actuator, rate', open: false, controls: sensorControls(s) },
+        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
     ];
 }
 

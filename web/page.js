@@ -92,7 +92,7 @@ function panesOf(s, found) {
         leastSpan: 8 * s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1),
         series: [
             { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
-            { name: 'kept', color: 'kept', data: compared ? kept.value : none, seconds: kept?.seconds },
+            { name: compared ? `kept, ${kept.text}` : 'kept', color: 'kept', data: compared ? kept.value : none, seconds: kept?.seconds },
             { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
             { name: 'double precision', color: 'twin', width: 1.25, dash: [2, 3], data: tuning ? none : series.VALUE_TWIN },
         ],
@@ -324,7 +324,8 @@ function keep() {
     } else {
         const s = currentState();
         const found = run(s);
-        kept = { preset: s.preset, seconds: 1 / s.RATE, value: found.series.VALUE_TRUE, output: each(found.series.OUTPUT, (c) => c) };
+        kept = { preset: s.preset, seconds: 1 / s.RATE, value: found.series.VALUE_TRUE, output: each(found.series.OUTPUT, (c) => c),
+            text: `kp ${digits(s.KP)}, ki ${digits(s.KI)}, kd ${digits(s.KD)}:` };
     }
     show();
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-// sub16_sat, add32_sat and mul16 of fixpid_pid_arith.h for an AVR with a
-// multiplier: the overflow flag and the 8 x 8 products, which C cannot name.
+// sub16_sat and add32_sat of fixpid_pid_arith.h for an AVR, and mul16 for one
+// with a multiplier: the overflow flag and the 8 x 8 products, which C cannot
+// name.
 //
 // Only the product needs upper registers, r16 to r23, of which a step has few.
 #ifndef FIXPID_PID_AVR_H
 #define FIXPID_PID_AVR_H
 #include <stdint.h>
+
+#define FIXPID_HAS_SUB16_SAT
+#define FIXPID_HAS_ADD32_SAT
 
 // It takes 4 cycles without an overflow. With one, N and C are the wrong sign:
 // each bit of the result is C but for the highest, which is not N.
@@ -57,6 +61,9 @@ FIXPID_INLINE int32_t add32_with_derivative(int32_t a, int32_t derivative)
     return add32_sat(a, derivative);
 }
 
+#if defined(__AVR_HAVE_MUL__)
+#define FIXPID_HAS_MUL16
+
 // Four products, those with the upper byte of x signed, 19 cycles. gcc keeps r1
 // at 0 and does not mind r0.
 FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
@@ -83,5 +90,7 @@ FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
             : "a"(gain), "a"(x));
     return product;
 }
+
+#endif
 
 #endif

@@ -10,6 +10,7 @@
 #pragma GCC system_header // to undefine __has_builtin without a warning
 #undef __GNUC__
 #undef __has_builtin
+#undef __AVR_HAVE_MOVW__
 #undef __AVR_HAVE_MUL__
 #undef INT_MAX
 #define INT_MAX 32767

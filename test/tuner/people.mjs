@@ -96,6 +96,39 @@ const text = (here, selector) => here.locator(selector).first().textContent();
     await here.close();
 }
 
+// --- With a mouse --------------------------------------------------------------
+{
+    const here = await open('p=flow');
+    const flag = here.locator('#flags button').first();
+    const from = await flag.boundingBox();
+    await here.mouse.move(from.x + 8, from.y + 8);
+    await here.mouse.down();
+    await here.mouse.move(from.x + 208, from.y + 8, { steps: 5 });
+    await here.mouse.up();
+    await frame(here);
+    const at = Number(await here.locator('#events .at input').first().inputValue());
+    const box = await here.locator('#plots').boundingBox();
+    const wanted = 90 * (from.x + 208 - box.x - 56) / (box.width - 70);
+    check(`mouse: a flag is dragged to ${at} s`, Math.abs(at - wanted) < 2, `not to ${wanted.toFixed(1)} s`);
+    checkNone('mouse: nothing is stale', await stale(here));
+    const slider = await here.locator('#panel input[aria-label="kp, slider"]').boundingBox();
+    const before = await here.inputValue('#c-kp');
+    await here.mouse.click(slider.x + slider.width * 0.8, slider.y + slider.height / 2);
+    await frame(here);
+    check('mouse: a slider is set', Number(await here.inputValue('#c-kp')) > Number(before));
+    const values = await text(here, 'figcaption');
+    await here.hover('#plots canvas', { position: { x: 200, y: 60 } });
+    check('mouse: the legend has the values at the cursor', (await text(here, 'figcaption')) !== values);
+    await here.click('#keep');
+    await here.fill('#c-kp', '0.3');
+    await frame(here);
+    check('mouse: what is kept is beside it', (await text(here, 'figcaption')).includes('kept, kp'), await text(here, 'figcaption'));
+    await here.click('#presets button[value=oven]');
+    await frame(here);
+    check('mouse: with another plant nothing is kept', !(await text(here, 'figcaption')).includes('kept'));
+    await here.close();
+}
+
 // --- Nothing stale ----------------------------------------------------------------
 {
     const here = await open('p=flow');

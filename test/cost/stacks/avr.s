@@ -91,20 +91,67 @@ pushes_sometimes:               ; refused: not the same on all ways
         sbrc r20, 0
         push r20
         ret
-frame:                          ; refused: the stack pointer is set
+frame:                          ; 26 bytes
         push r28
+        push r29
         in r28, 0x3d
         in r29, 0x3e
         sbiw r28, 20
+        in r0, 0x3f
+        cli
+        out 0x3e, r29
+        out 0x3f, r0
+        out 0x3d, r28
+        call first
+        adiw r28, 20
+        out 0x3e, r29
+        out 0x3d, r28
+        pop r29
+        pop r28
+        ret
+large_frame:                    ; 402 bytes
+        in r28, 0x3d
+        in r29, 0x3e
+        subi r28, lo8(400)
+        sbci r29, hi8(400)
+        out 0x3e, r29
+        out 0x3d, r28
+        subi r28, lo8(-400)
+        sbci r29, hi8(-400)
         out 0x3e, r29
         out 0x3d, r28
         ret
-frame_of_leaf:                  ; refused: changes by what is not known
+frame_left:                     ; refused: not all returns leave the same
         in r28, 0x3d
         in r29, 0x3e
         sbiw r28, 20
+        sbrc r20, 0
+        ret
         out 0x3e, r29
         out 0x3d, r28
+        ret
+frame_sometimes:                ; refused: the stack pointer is set
+        push r20
+        in r28, 0x3d
+        in r29, 0x3e
+        sbrc r20, 0
+        adiw r28, 1
+        out 0x3e, r29
+        out 0x3d, r28
+        pop r20
+        ret
+frame_of_another:               ; refused: the stack pointer is set
+        push r20
+        in r28, 0x3d
+        in r29, 0x3e
+        mov r28, r20
+        out 0x3e, r29
+        out 0x3d, r28
+        pop r20
+        ret
+set_from_argument:              ; refused: changes by what is not known
+        out 0x3e, r25
+        out 0x3d, r24
         ret
 itself:                         ; refused: calls itself
         call itself
@@ -121,5 +168,6 @@ through_pointer:                ; refused: no path through icall
         .endm
         sized __vector_14, main, forever, first, second, waits, third
         sized makes_room, tail, makes_nothing, for_ever, sleeps, pushes_in_loop
-        sized pushes_sometimes, frame, frame_of_leaf, itself, through_pointer
+        sized pushes_sometimes, frame, large_frame, frame_left, frame_sometimes
+        sized frame_of_another, set_from_argument, itself, through_pointer
         .lcomm done, 1

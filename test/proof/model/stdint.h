@@ -23,6 +23,7 @@ typedef unsigned int uint32_t;
 #define UINT32_C(value) value##U
 #define UINT16_MAX 0xFFFF
 #endif
+typedef int int_fast16_t;
 typedef unsigned int uint_fast16_t;
 typedef unsigned char uint_fast8_t;
 

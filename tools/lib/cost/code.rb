@@ -51,14 +51,19 @@ class Code
 
   # For the stack: how many bytes an instruction pushes, or the register that says
   # how many it pops; the registers from which it sets the pointer, or nil if it does
-  # not; where an opaque one leads, nowhere if it returns and nil if nobody knows;
-  # whether it lets interrupts in; and where a reset leads, and, by priority,
-  # interrupts.
+  # not; how many bytes are between the frame pointer and the function's return
+  # address behind it, nil if nobody knows; where an opaque one leads, nowhere if it
+  # returns and nil if nobody knows; whether it lets interrupts in; and where a reset
+  # leads, and, by priority, interrupts.
   def pushed(_address)
     0
   end
 
   def sets_stack(_address)
+    nil
+  end
+
+  def frame(_address, _height, _frame)
     nil
   end
 

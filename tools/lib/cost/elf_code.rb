@@ -116,6 +116,21 @@ class AvrCode < ElfCode
     [operands[/r\d+/]] if %w[out sts].include?(mnemonic) && operands.match?(POINTER)
   end
 
+  def frame?(registers)
+    registers.all? { |register| %w[r28 r29].include?(register) }
+  end
+
+  # Y, which a function finds again behind each call.
+  def frame(at, height, frame)
+    bytes, mnemonic, operands = line(at)
+    case "#{mnemonic} #{operands}"
+    when /\Ain r28, 0x3d/ then height
+    when /\Ain r29, 0x3e/, /\Asbci r29,/ then frame
+    when /\A(adiw|sbiw|subi) r28, (0x\h+)/ then frame && frame + room(at + bytes, $1, $2.hex)
+    else frame unless targets(mnemonic, operands).any? { |register| POINTERS['Y'].include?(register) }
+    end
+  end
+
   def enables_interrupts?(at)
     line(at)[1] == 'sei'
   end
@@ -149,6 +164,17 @@ class AvrCode < ElfCode
   end
 
   # The numbers of the registers that it writes.
+  # What Y is moved by, downwards; `subi` and `sbci` do it together.
+  def room(following, mnemonic, low)
+    return { 'adiw' => -low, 'sbiw' => low }.fetch(mnemonic) unless mnemonic == 'subi'
+
+    _, second, operands = line(following)
+    raise Code::Failure, format('half of a frame at %05x', following) unless second == 'sbci' && operands.start_with?('r29,')
+
+    high = operands[/0x\h+/].hex
+    ((high << 8 | low) ^ 0x8000) - 0x8000
+  end
+
   def targets(mnemonic, operands)
     moved = POINTERS.fetch(operands[MOVED].to_s[/[XYZ]/], [])
     return moved + [0, 1] if mnemonic.include?('mul')

@@ -55,17 +55,19 @@ class Stack
   def analyse(entry)
     calls = {}
     flow = explore(entry, calls)
-    heights = { entry => 0 }
+    places = { entry => [0, nil] } # the height before each instruction, and the frame pointer's
     depths = [Depth.new(0, 0)]
     ends = {}
     todo = [entry]
     while (at = todo.pop)
-      after = heights[at] + moved(flow, at, heights[at])
+      height, frame = places[at]
+      after = height + moved(flow, at, height, frame)
       depths << Depth.new(0, after)
-      depths << above(heights[at], called(calls[at])) if calls.key?(at)
+      depths << above(height, called(calls[at])) if calls.key?(at)
       after += calls[at].left if calls.key?(at)
       ends[at] = after if ends?(at)
-      flow.edges[at].each { |to, _| todo << to if reach(heights, to, after) }
+      framed = @code.frame(at, height, frame)
+      flow.edges[at].each { |to, _| todo << to if reach(places, to, after, framed) }
     end
     found = deepest(depths)
     Depth.new(found.levels, found.bytes, left(entry, ends))
@@ -90,10 +92,14 @@ class Stack
     height || 0
   end
 
-  # Whether an instruction is reached for the first time.
-  def reach(heights, at, height)
-    refuse('the stack is not the same on all ways', at) if heights.fetch(at, height) != height
-    !heights.key?(at) && heights[at] = height
+  # Whether an instruction is reached for the first time, or by a way on which the
+  # frame pointer is another one.
+  def reach(places, at, height, frame)
+    before, framed = places.fetch(at, [height, frame])
+    refuse('the stack is not the same on all ways', at) if before != height
+    return if places.key?(at) && (framed.nil? || framed == frame)
+
+    places[at] = [height, places.key?(at) ? nil : frame]
   end
 
   def explore(entry, calls)
@@ -119,10 +125,12 @@ class Stack
     found.map { |to| [to, 0] }
   end
 
-  # How many bytes an instruction pushes. The pointer may be set only where nothing
-  # is on the stack.
-  def moved(flow, at, height)
+  # How many bytes an instruction pushes. The pointer may be set from the frame
+  # pointer, else only where nothing is on the stack.
+  def moved(flow, at, height, frame)
     set = @code.sets_stack(at)
+    return frame - height if set && frame && @code.frame?(set)
+
     refuse('the stack pointer is set', at) if set && !height.zero?
     set&.each { |register| constant(flow, at, register) }
     bytes = @code.pushed(at)

@@ -12,8 +12,8 @@ module Forms
     'PIC18, SDCC' => %w[__SDCC __SDCC_pic16],
     'PIC16, XC8' => %w[__XC8 _PIC14],
     'PIC18, XC8' => %w[__XC8 _PIC18],
-    'AVR with a multiplier' => [GCC, '__AVR__', '__AVR_HAVE_MUL__'],
-    'AVR without a multiplier' => [GCC, '__AVR__'],
+    'AVR with a multiplier' => [GCC, '__AVR__', '__AVR_HAVE_MOVW__', '__AVR_HAVE_MUL__'],
+    'AVR without a multiplier' => [GCC, '__AVR__', '__AVR_HAVE_MOVW__'],
     'MSP430' => [GCC, '__MSP430__'],
     '8051' => %w[__SDCC __SDCC_mcs51],
     'STM8' => %w[__SDCC __SDCC_stm8],
@@ -51,6 +51,7 @@ module Forms
 
       # The file that it takes; other products of fixpid_pid are in its own.
       case output
+      when %r{^# \d+ "src/avr/.*return \(int32_t\)gain \* x;}m then 'wide, sums in assembly'
       when %r{^# \d+ "src/(?:pic14|pic18|avr)/#{controller}_} then 'assembly'
       when /^# \d+ "[^"]*_bytes\.h"/ then 'bytes'
       when /return fixpid_product_in_turns\(gain/ then 'turns'
