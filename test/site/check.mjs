@@ -11,7 +11,9 @@ import { pathToFileURL } from 'node:url';
 import { browser, check, checkNone, finish, violations } from '../browser/browser.mjs';
 
 const [site, ...named] = process.argv.slice(2);
-const PHONE = 390; // pixels
+const PHONE = { width: 390, height: 844 }; // pixels
+const DESK = { width: 1300, height: 900 };
+const PATIENCE = 120000; // ms, on a machine that does other things, too
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
     '.png': 'image/png', '.svg': 'image/svg+xml' };
 
@@ -42,11 +44,12 @@ const PLACES = ['scrollable-region-focusable', 'aria-hidden-focus', 'target-size
 // Pages that show a source file are alike: one of them is enough for what takes long.
 const sources = pages.filter((name) => /^(examples|port|sim|test|tools)\//.test(name));
 
-const context = await browser.newContext({ viewport: { width: PHONE, height: 844 }, reducedMotion: 'reduce' });
+const context = await browser.newContext({ reducedMotion: 'reduce' });
+context.setDefaultTimeout(PATIENCE);
 const away = [];
 const errors = [];
 context.on('request', (request) => {
-    if (!request.url().startsWith(host) && !/^(data|blob):/.test(request.url())) {
+    if (!request.url().startsWith(host) && !/^(data|blob|file):/.test(request.url())) {
         away.push(request.url());
     }
 });
@@ -55,6 +58,12 @@ context.on('response', (response) => {
         errors.push(`${response.status()} ${response.url()}`);
     }
 });
+
+async function tab(viewport = DESK) {
+    const page = await context.newPage();
+    await page.setViewportSize(viewport);
+    return page;
+}
 
 // Word, and the page that one of its first five results must be of.
 const WORDS = [
@@ -71,7 +80,7 @@ const WORDS = [
 ];
 
 async function searches(base) {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const page = await tab();
     const lost = [];
     await page.goto(`${base}/index.html`);
     for (const [word, wanted] of WORDS) {
@@ -80,7 +89,7 @@ async function searches(base) {
         const found = await page.waitForFunction((wanted) => {
             const results = [...document.querySelectorAll('.md-search-result__item')].slice(0, 5);
             return results.some((item) => item.querySelector('a').href.includes(wanted));
-        }, wanted, { timeout: 8000 }).catch(() => undefined);
+        }, wanted, { timeout: PATIENCE / 4 }).catch(() => undefined);
         if (!found) {
             const first = await page.$$eval('.md-search-result__item > a', (all) => all.map((a) => a.href));
             lost.push(`${word}: ${first.slice(0, 5)}`);
@@ -91,7 +100,7 @@ async function searches(base) {
 }
 
 async function sorting() {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const page = await tab();
     const problems = [];
     await page.goto(`${host}/docs/cost.html`);
     const table = page.locator('table', { has: page.getByRole('button', { name: 'worst', exact: true }) }).first();
@@ -114,7 +123,7 @@ async function sorting() {
 
 // On a dark page a picture is dark, and what is drawn on it is light.
 async function pictures() {
-    const page = await browser.newPage({ viewport: { width: 1300, height: 900 } });
+    const page = await tab();
     const problems = [];
     await page.goto(`${host}/docs/behaviour.html`);
     await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
@@ -140,7 +149,7 @@ async function pictures() {
 
 // The header's words are on its page, in their order, and each function has a heading.
 async function headers() {
-    const page = await browser.newPage();
+    const page = await tab();
     const problems = [];
     for (const file of readdirSync('include')) {
         await page.goto(`${host}/include/${file}.html`);
@@ -181,7 +190,7 @@ const light = [];
 const dark = [];
 
 for (const name of pages) {
-    const page = await context.newPage();
+    const page = await tab(PHONE);
     page.on('pageerror', (error) => errors.push(`${name}: ${error.message}`));
     page.on('console', (message) => message.type() === 'error' && errors.push(`${name}: ${message.text()}`));
     await page.goto(`${host}/${name}`);
@@ -190,15 +199,15 @@ for (const name of pages) {
     }
     anchors.set(name, new Set(await page.evaluate(() => [...document.querySelectorAll('[id]')].map((e) => e.id))));
     const width = await page.evaluate(() => document.documentElement.scrollWidth);
-    if (width > PHONE) {
+    if (width > PHONE.width) {
         wide.push(`${name}: ${width} pixels`);
     }
     if (!sources.includes(name) || name === sources[0]) {
-        await page.setViewportSize({ width: 1300, height: 900 });
+        await page.setViewportSize(DESK);
         light.push(...(await violations(page)).map((text) => `${name}: ${text}`));
         await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
         dark.push(...(await violations(page, COLOURS)).map((text) => `${name}: ${text}`));
-        await page.setViewportSize({ width: PHONE, height: 844 });
+        await page.setViewportSize(PHONE);
         await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
         light.push(...(await violations(page, PLACES)).map((text) => `${name} on a phone: ${text}`));
     }
@@ -221,7 +230,7 @@ function deadLinks() {
 checkNone('no link is dead', deadLinks());
 checkNone('no request leaves the host', away);
 checkNone('no error', errors);
-checkNone(`nothing moves sideways at ${PHONE} pixels`, wide);
+checkNone(`nothing moves sideways at ${PHONE.width} pixels`, wide);
 checkNone('axe-core in light', light);
 checkNone('axe-core in dark', dark);
 server.close();
