@@ -8,6 +8,9 @@ const { chromium } = require('playwright-core');
 
 export const AXE = require.resolve('axe-core/axe.min.js');
 
+// Milliseconds for a page to do something, on a machine that does other things, too.
+export const PATIENCE = 120000;
+
 let failures = 0;
 
 export function check(name, good, why = '') {

@@ -8,12 +8,11 @@ import { createServer } from 'node:http';
 import { readFileSync, readdirSync, existsSync, statSync } from 'node:fs';
 import { extname, join, relative } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { browser, check, checkNone, finish, violations } from '../browser/browser.mjs';
+import { browser, check, checkNone, finish, PATIENCE, violations } from '../browser/browser.mjs';
 
 const [site, ...named] = process.argv.slice(2);
 const PHONE = { width: 390, height: 844 }; // pixels
 const DESK = { width: 1300, height: 900 };
-const PATIENCE = 120000; // ms, on a machine that does other things, too
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
     '.png': 'image/png', '.svg': 'image/svg+xml' };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the tests of the page share, beside what all pages' tests do.
-import { browser } from '../browser/browser.mjs';
+import { browser, PATIENCE } from '../browser/browser.mjs';
 
 export { AXE, check, checkNone, finish } from '../browser/browser.mjs';
 
@@ -10,6 +10,7 @@ export const PAGE = `file://${process.cwd()}/${WORK}/index.html`;
 // A page that notes its errors and requests in `page.noted`.
 export async function open(fragment = '', options = {}) {
     const page = await browser.newPage({ viewport: { width: 1360, height: 1000 }, ...options });
+    page.setDefaultTimeout(PATIENCE);
     page.noted = { errors: [], requests: [] };
     page.on('pageerror', (error) => page.noted.errors.push(error.message));
     page.on('console', (message) => message.type() === 'error' && page.noted.errors.push(message.text()));
