@@ -46,7 +46,7 @@ static const struct fixpid_pid_config config = {
 };
 
 static uint8_t position = SELECTOR_OFF;
-static uint8_t periods = 0; // since the controller began anew
+static uint8_t age_periods = 0; // of the controller
 
 // From off the controller starts anew, at full power if the oven is cold. From
 // manual it takes over where the heater is. Limits may change at any time.
@@ -87,7 +87,7 @@ static void follow_selector(void)
 // temperatures that it has not seen, and whatever its RAM had become.
 static void go_on_from(int16_t duty)
 {
-    periods = 0;
+    age_periods = 0;
     (void)fixpid_pid_init(&thermostat, &config);
     fixpid_pid_seed(&thermostat, duty);
     enter(position);
@@ -130,10 +130,10 @@ static void control(void)
         port_drive(0);
         return;
     }
-    periods++;
+    age_periods++;
     if (lost) {
         go_on_from(duty);
-    } else if (periods >= RENEWED_PERIODS) {
+    } else if (age_periods >= RENEWED_PERIODS) {
         go_on_from(steady_duty(duty));
     }
     lost = false;
