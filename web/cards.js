@@ -2,7 +2,7 @@
 // The cards below the plots: figures, margins, rules, chips.
 import { CONTROLLER, COSTS, FEATURES, PLANT } from './built.js';
 import { make, table } from './dom.js';
-import { digits, percent, short, whole } from './format.js';
+import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
 import { unitsPerCount } from './metrics.js';
 import { color } from './plot.js';
@@ -32,7 +32,7 @@ export function fillFigures(place, pairs) {
 }
 
 function seconds(value, none) {
-    return value === null ? none : `${digits(value)} s`;
+    return value === null ? none : time(value);
 }
 
 export function figuresOf(s, found) {
@@ -63,7 +63,7 @@ export function marginFigures(margins) {
         ['Loop', stable ? 'stable' : 'unstable'],
         ['Ms', stable ? ms.toFixed(2) : '–'],
         ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
-        ['Dead time margin', !stable || delayMargin === null ? '–' : `${digits(delayMargin)} s`],
+        ['Dead time margin', !stable || delayMargin === null ? '–' : time(delayMargin)],
         ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${decibels(gainMargin)})`],
         ...(stable && lowerGainMargin !== null
             ? [['and down to', `${digits(lowerGainMargin)} (${decibels(lowerGainMargin)})`]] : []),
@@ -124,13 +124,13 @@ export function fillRules(place, rows, chosen, onUse) {
         const use = make('button', { type: 'button', textContent: 'Use', 'aria-label': `Use ${RULES[row.rule]}` });
         use.addEventListener('click', () => onUse(row.rule));
         const { gains, found, margins } = row;
-        return [RULES[row.rule], digits(gains.KP), digits(gains.KI), digits(gains.KD),
+        return [RULES[row.rule], use, digits(gains.KP), digits(gains.KI), digits(gains.KD),
             margins.stable ? margins.ms.toFixed(2) : 'unstable',
             margins.stable && margins.phaseMargin !== null ? `${margins.phaseMargin.toFixed(0)}°` : '–',
-            percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError), use];
+            percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError)];
     };
     place.replaceChildren(table('Gains and what they do in this scene',
-        ['Rule', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error', 'Take it'],
+        ['Rule', 'Take it', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error'],
         rows.map((row) => ({ cells: cellsOf(row), chosen: row.rule === chosen }))));
 }
 

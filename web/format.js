@@ -24,6 +24,10 @@ export function digits(value, figures = 3) {
     return value.toFixed(Math.min(places, 6)).replace('-', '−');
 }
 
+export function time(seconds) {
+    return seconds < 0.1 ? `${digits(1000 * seconds)} ms` : `${digits(seconds)} s`;
+}
+
 export function percent(part, places = 1) {
     return `${(100 * part).toFixed(places)} %`.replace('-', '−');
 }

@@ -103,7 +103,7 @@ export const NOUN = { [CONTROLLER.PID]: 'fixpid_pid', [CONTROLLER.AN937]: 'fixpi
 export function headerOf(s, results) {
     const noun = NOUN[s.CONTROLLER];
     const lines = { fixpid_pid: pidLines, fixpid_an937: an937Lines, fixpid_an964: an964Lines }[noun];
-    const unit = s.unit.replace(/[^\x20-\x7E]/g, '').replace(/[\\/*?]/g, '') || 'units';
+    const unit = s.unit.replace(/[^\x20-\x7E]/g, '').replace(/[\\*?]/g, '') || 'units';
     return [
         `// Gains of a loop, by the tuner page of fixpid ${VERSION}`,
         `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,

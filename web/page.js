@@ -285,7 +285,7 @@ function show() {
     showHead(s);
     showModes(s);
     showAdvice(s, adviceOf(s, found, margins), mode === 'tune');
-    panel(s, notesOf(s, found.results));
+    panel(s, good ? notesOf(s, found.results) : {});
     events(s);
     flags(s);
     if (good) {

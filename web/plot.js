@@ -18,8 +18,12 @@ export function niceStep(span, count) {
     return power * ([1, 2, 5, 10].find((one) => one * power >= rough) ?? 10);
 }
 
+// At least two of them.
 function ticks(low, high, count) {
-    const step = niceStep(high - low, count);
+    let step = niceStep(high - low, count);
+    for (let i = 0; i < 3 && Math.floor(high / step) <= Math.ceil(low / step); i++) {
+        step = niceStep(step, 2.5);
+    }
     const found = [];
     for (let at = Math.ceil(low / step) * step; at <= high + step * 1e-6; at += step) {
         found.push(Math.abs(at) < step * 1e-6 ? 0 : at);
