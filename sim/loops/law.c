@@ -28,6 +28,7 @@ void law_init(struct law *self, enum law_without without,
 // What lowered limits make wind-up is dropped.
 void law_set_limits(struct law *self, double output_min, double output_max)
 {
+    const double fed = self->feedforward;
     const double others = self->proportional + self->derivative;
 
     self->output_min = output_min;
@@ -35,8 +36,10 @@ void law_set_limits(struct law *self, double output_min, double output_max)
     if (self->manual || self->seeded) {
         self->held = limited(self, self->held);
     } else if (self->without != LAW_NO_ANTI_WINDUP) {
-        self->integral = fmin(self->integral, output_max - fmin(others, 0.0));
-        self->integral = fmax(self->integral, output_min - fmax(others, 0.0));
+        self->integral =
+            fmin(self->integral, output_max - fed - fmin(others, 0.0));
+        self->integral =
+            fmax(self->integral, output_min - fed - fmax(others, 0.0));
     }
 }
 
@@ -63,6 +66,14 @@ static double derivative(struct law *self, double error, double measurement)
     self->first = false;
     self->previous = input;
     return self->derivative * (1.0 - share) + self->gains.kd * share * fall;
+}
+
+static double within_range(const struct law *self, double integral)
+{
+    if (self->integral_min == self->integral_max) {
+        return integral;
+    }
+    return fmin(fmax(integral, self->integral_min), self->integral_max);
 }
 
 // The integral that is kept, of a candidate that leads to this output.
@@ -93,13 +104,16 @@ double law_step(struct law *self, double setpoint, double measurement)
     if (self->manual) {
         return self->held;
     }
-    const double others = self->proportional + self->derivative;
+    const double others =
+        self->proportional + self->derivative + self->feedforward;
     if (self->seeded) {
         self->seeded = false;
-        self->integral = self->held - others;
-        return self->held;
+        const double wanted = self->held - others;
+        self->integral = within_range(self, wanted);
+        return limited(self, self->held + (self->integral - wanted));
     }
-    const double candidate = self->integral + self->gains.ki * error;
+    const double candidate =
+        within_range(self, self->integral + self->gains.ki * error);
     self->integral = kept(self, candidate, others + candidate, error);
     if (self->without == LAW_INTEGRAL_CLAMPED) {
         return limited(self, others + self->integral);

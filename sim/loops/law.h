@@ -2,9 +2,9 @@
 // The law of fixpid_pid in double precision, to compare with: whole, or with
 // one feature taken away, as other controllers lack it.
 //
-// Units and signs are those of fixpid_pid.h; gains are per step. Left out, as
-// no comparison needs them: feed-forward, reverse action, the integral's own
-// range, and the limits of int16_t.
+// Units and signs are those of fixpid_pid.h; gains are per step. Left out are
+// reverse action, which is the same law with both signals negated, and the
+// limits of int16_t.
 #ifndef LAW_H
 #define LAW_H
 #include <stdbool.h>
@@ -33,6 +33,9 @@ struct law {
     double setpoint_weight;
     double output_min;
     double output_max;
+    double integral_min; // none of its own if both are 0
+    double integral_max;
+    double feedforward; // output counts, added to the terms
 
     double proportional;
     double integral;

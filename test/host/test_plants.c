@@ -8,17 +8,20 @@
 #include "plant_motor.h"
 #include "plant_oven.h"
 #include "plant_pendulum.h"
+#include "plant_process.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("sim/plant/plant.c")
 TEST_SOURCE_FILE("sim/plant/plant_motor.c")
 TEST_SOURCE_FILE("sim/plant/plant_oven.c")
 TEST_SOURCE_FILE("sim/plant/plant_pendulum.c")
+TEST_SOURCE_FILE("sim/plant/plant_process.c")
 TEST_INCLUDE_PATH("sim/plant")
 
 static struct pendulum pendulum;
 static struct motor motor;
 static struct oven oven;
+static struct process process;
 
 static void assert_near(double expected, double actual, double tolerance)
 {
@@ -182,4 +185,75 @@ void test_integrator_is_of_fourth_order(void)
     plant_integrate(decay, NULL, &coarse, 1, 1.0, 0.1);
     plant_integrate(decay, NULL, &fine, 1, 1.0, 0.05);
     assert_near(16.0, (coarse - exp(-1.0)) / (fine - exp(-1.0)), 1.0);
+}
+
+static void process_moves(int steps, double drive)
+{
+    for (int i = 0; i < steps; i++) {
+        process_move(&process, drive);
+    }
+}
+
+void test_process_lag_steps_as_an_exponential_after_its_dead_time(void)
+{
+    process.a2 = 0.0;
+    process.a1 = 2.0;
+    process.a0 = 1.0;
+    process.gain = 50.0;
+    process.dead_time_s = 0.35;
+    process_start(&process, 0.1, 2.0);
+    assert_near(0.35, process_dead_s(&process), 0.05);
+    process.dead_time_s = 0.3;
+    process_start(&process, 0.1, 2.0);
+    assert_near(0.3, process_dead_s(&process), 1e-12);
+
+    process_moves(3, 1.0);
+    assert_near(0.0, process.state[PROCESS_VALUE], 0.0);
+    process_moves(20, 1.0);
+    assert_near(50.0 * (1.0 - exp(-1.0)), process.state[PROCESS_VALUE], 1e-5);
+}
+
+void test_process_oscillates_with_its_damping(void)
+{
+    process.a2 = 0.25; // 2 rad/s
+    process.a1 = 0.2;  // 2 * 0.2 * 0.5
+    process.a0 = 1.0;
+    process.gain = 10.0;
+    process.dead_time_s = 0.0;
+    process_start(&process, 0.01, 0.5);
+    process_moves(300, 1.0);
+
+    const double fast = 2.0 * sqrt(1.0 - 0.04);
+    const double envelope = exp(-0.2 * 2.0 * 3.0);
+    const double wave =
+        cos(fast * 3.0) + ((0.2 / sqrt(1.0 - 0.04)) * sin(fast * 3.0));
+    assert_near(10.0 * (1.0 - (envelope * wave)), process.state[PROCESS_VALUE],
+                1e-6);
+}
+
+void test_process_integrates_behind_its_lag(void)
+{
+    process.a2 = 0.5;
+    process.a1 = 1.0;
+    process.a0 = 0.0;
+    process.gain = 4.0;
+    process.dead_time_s = 0.0;
+    process_start(&process, 0.05, 0.5);
+    process_moves(100, 0.5);
+    assert_near(4.0 * 0.5 * (5.0 - (0.5 * (1.0 - exp(-10.0)))),
+                process.state[PROCESS_VALUE], 1e-5);
+}
+
+void test_process_start_forgets_what_was_on_its_way(void)
+{
+    process.a2 = 0.0;
+    process.a1 = 1.0;
+    process.a0 = 1.0;
+    process.gain = 1.0;
+    process.dead_time_s = 1.0;
+    process_start(&process, 0.1, 1.0);
+    process_moves(5, 1.0);
+    process_start(&process, 0.1, 1.0);
+    process_moves(20, 0.0);
+    assert_near(0.0, process.state[PROCESS_VALUE], 0.0);
 }

@@ -66,6 +66,19 @@ has_package() {
     python3-kconfiglib) has_module kconfiglib ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;
     sdcc-libraries) builds '#include <stdint.h>' sdcc -mmcs51 ;;
+    mkdocs-material)
+        has_module 'mkdocs.utils; assert "material" in mkdocs.utils.get_theme_names()'
+        ;;
+    python3-cffi) has_module cffi ;;
+    python3-dev) builds '#include <Python.h>' cc \
+        "-I$("${PYTHON:-/usr/bin/python3}" -c 'import sysconfig
+print(sysconfig.get_path("include"))')" ;;
+    python3-matplotlib) has_module matplotlib ;;
+    python3-numpy) has_module numpy ;;
+    python3-scipy) has_module scipy ;;
+    python3-setuptools) has_module setuptools ;;
+    python3-venv) has_module venv && has_module ensurepip ;;
+    python3-wheel) has_module wheel ;;
     *) die "setup.sh does not know how to tell whether $1 is there" ;;
     esac
 }

@@ -195,6 +195,18 @@ part_target() {
     count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
 }
 
+part_python() {
+    need cc:gcc :libc6-dev :python3-dev :python3-venv :python3-cffi \
+        :python3-setuptools :python3-wheel :python3-numpy :python3-scipy \
+        :python3-matplotlib
+    count 'test/python/run' '^ok ' '^FAILED ' test/python/run
+}
+
+part_site() {
+    need ruby mkdocs :mkdocs-material clang wasm-ld:lld
+    count 'test/site/run' '^ok ' '^FAILED ' test/site/run
+}
+
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
     count 'test/families/run' '^ok ' '^FAILED ' test/families/run
@@ -221,6 +233,10 @@ part_demo() {
     count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
+}
+
+part_tuner() {
+    count 'test/tuner/run' '^ok ' '^FAILED ' test/tuner/run
 }
 
 part_docs() {

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: MIT
+"""fixpid in Python: the C library itself, each step bit for bit.
+
+Each noun is a class with its header's verbs: Pid, An937, An964, An964_8bit, Autotune,
+Relay, Slew and Tpo. What `init` takes in C makes an object here; fields that are left
+out are 0:
+
+    pid = fixpid.Pid(gains=fixpid.pid_gains(kp=2, ki=0.5, rate=10), output_max=255)
+    output = pid.step(setpoint, measurement)
+    outputs = pid.steps(setpoints, measurements)  # of numpy arrays
+
+Numbers are the library's integers, and what does not fit is an OverflowError. What C
+refuses by returning false is a ValueError. The headers' constants stand here without
+FIXPID_: fixpid.PID_REVERSE. Structures come back as dictionaries, and are given as
+keywords. What each of them means is in the header.
+"""
+import operator
+
+import numpy
+
+from ._library import ffi, lib
+
+__version__ = f"{lib.FIXPID_VERSION_MAJOR}.{lib.FIXPID_VERSION_MINOR}.{lib.FIXPID_VERSION_PATCH}"
+
+globals().update({name[len("FIXPID_"):]: getattr(lib, name) for name in dir(lib)
+                  if name.startswith("FIXPID_")})
+
+
+def _fields(struct):
+    """A structure as a dictionary."""
+    fields = ((name, getattr(struct, name)) for name, _ in ffi.typeof(struct).fields)
+    return {name: _fields(value) if isinstance(value, ffi.CData) else value
+            for name, value in fields}
+
+
+def _new(struct, fields):
+    return ffi.new(f"struct fixpid_{struct} *", fields)
+
+
+def _accept(accepted, what):
+    if not accepted:
+        raise ValueError(f"{what} is refused: a value is out of its range")
+
+
+def _counts(numbers):
+    """What of a whole array goes into the library: whole numbers only."""
+    numbers = numpy.asarray(numbers)
+    if numbers.dtype.kind not in "iub":
+        raise TypeError(f"integers are wanted, not {numbers.dtype}: round to counts first")
+    return numbers
+
+
+def _verb(function, name):
+    """A method that calls a C function whose arguments after self are integers."""
+    result = ffi.typeof(function).result.cname
+    judges = result == "_Bool" and not name.endswith("_step")
+
+    def method(self, *arguments):
+        value = function(self.c, *map(operator.index, arguments))
+        return _accept(value, name) if judges else value
+
+    method.__doc__ = f"{name}, of {ffi.typeof(function).cname}"
+    return method
+
+
+class _Noun:
+    """An object of C, and a method for each function that has its name."""
+
+    c = None  # the structure, for calls of `fixpid.lib` by hand
+
+    def __init_subclass__(cls, noun, config):
+        cls._noun, cls._config = noun, config
+        own = f"fixpid_{noun}_"
+        for name in dir(lib):
+            verb = name[len(own):]
+            if name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
+                setattr(cls, verb, _verb(getattr(lib, name), name))
+
+    def __init__(self, **config):
+        self.c = _new(self._noun, {})
+        self.init(**config)
+
+    def init(self, **config):
+        """Starts anew, as init does in C."""
+        function = getattr(lib, f"fixpid_{self._noun}_init")
+        _accept(function(self.c, _new(self._config, config)), function.__name__)
+
+    def steps(self, *arguments):
+        """A step for each element of arrays, which numpy broadcasts: an array of results."""
+        arrays = numpy.broadcast_arrays(*map(_counts, arguments))
+        result = ffi.typeof(getattr(lib, f"fixpid_{self._noun}_step")).result.cname
+        kind = bool if result == "_Bool" else result[:-len("_t")]
+        flat = numpy.fromiter(map(self.step, *(array.ravel().tolist() for array in arrays)),
+                              kind, arrays[0].size)
+        return flat.reshape(arrays[0].shape)
+
+
+class Pid(_Noun, noun="pid", config="pid_config"):
+    """The general-purpose controller: fixpid_pid.h. Its fields are those of the config."""
+
+    def set_gains(self, **gains):
+        """New gains for the next step, as pid_gains makes them."""
+        _accept(lib.fixpid_pid_set_gains(self.c, _new("pid_gains", gains)), "set_gains")
+
+
+class An937(_Noun, noun="an937", config="an937_config"):
+    """Microchip's AN937: fixpid_an937.h."""
+
+
+class An964(_Noun, noun="an964", config="an964_gains"):
+    """Microchip's AN964: fixpid_an964.h. Its fields are the gains."""
+
+
+class An964_8bit(_Noun, noun="an964_8bit", config="an964_8bit_gains"):
+    """Microchip's AN964 with 8 bits: fixpid_an964_8bit.h. Its fields are the gains."""
+
+
+class Autotune(_Noun, noun="autotune", config="autotune_config"):
+    """Finds gains for Pid on the plant itself: fixpid_autotune.h."""
+
+    def model(self):
+        """The process that was found, as a dictionary, or None."""
+        model = _new("autotune_model", {})
+        return _fields(model[0]) if lib.fixpid_autotune_model(self.c, model) else None
+
+    def result(self, rule, robustness_q4=16, **config):
+        """What Pid takes, by a rule: the fields of `config`, as the output's range, with the
+        gains that were found. None if there are none."""
+        config = _new("pid_config", config)
+        found = lib.fixpid_autotune_result(self.c, rule, robustness_q4, config)
+        return _fields(config[0]) if found else None
+
+
+class Relay(_Noun, noun="relay", config="relay_config"):
+    """The same by a shorter experiment: fixpid_relay.h."""
+
+    def result(self, rule):
+        """Gains for Pid, or None."""
+        gains = _new("pid_gains", {})
+        return _fields(gains[0]) if lib.fixpid_relay_result(self.c, rule, gains) else None
+
+
+class Tpo(_Noun, noun="tpo", config="tpo_config"):
+    """Time-proportioned output: fixpid_tpo.h."""
+
+
+class Slew(_Noun, noun="slew", config=None):
+    """A value that follows a target at limited speed: fixpid_slew.h."""
+
+    def init(self, rise_q16=0, fall_q16=0):
+        """The rates upward and downward, in counts per step x 65536."""
+        lib.fixpid_slew_init(self.c, rise_q16, fall_q16)
+
+
+def slew_rate(counts_per_second, steps_per_second):
+    """What the macro FIXPID_SLEW_RATE makes of it."""
+    _accept(steps_per_second > 0, "steps_per_second")
+    rate = counts_per_second * 65536.0 / steps_per_second
+    _accept(counts_per_second == 0 or 0.5 <= rate < 4294967295.5, "counts_per_second")
+    return int(rate + 0.5)
+
+
+def pid_gains(kp, ki=0.0, kd=0.0, rate=1.0, filter=0):
+    """What the macro FIXPID_PID_GAINS makes of gains in real units: the field `gains`."""
+    _accept(rate > 0 and 0 <= filter <= lib.FIXPID_PID_FILTER_MAX, "the rate or the filter")
+    kp_q8 = kp * 256.0
+    ki_q24 = ki * 16777216.0 / rate
+    kd_q8 = kd * 256.0 * rate / (1 << filter)
+    _accept(kp == 0 or 0.5 <= kp_q8 < lib.FIXPID_PID_KP_MAX + 0.5, "kp")
+    _accept(ki == 0 or 8.0 <= ki_q24 < lib.FIXPID_PID_KI_MAX + 0.5, "ki")
+    _accept(kd == 0 or 0.5 <= kd_q8 < lib.FIXPID_PID_KD_MAX + 0.5, "kd")
+    return {"kp_q8": int(kp_q8 + 0.5), "ki_q24": int(ki_q24 + 0.5), "kd_q8": int(kd_q8 + 0.5),
+            "derivative_filter": filter}
+
+
+def gains_from_milli(kp, ki, kd, rate_milli, filter=0):
+    """Gains from thousandths, as fixpid_gains.h has them."""
+    gains, milli = _new("pid_gains", {}), _new("gains_milli", {"kp": kp, "ki": ki, "kd": kd})
+    _accept(lib.fixpid_gains_from_milli(gains, milli, rate_milli, filter), "a gain or the rate")
+    return _fields(gains[0])
+
+
+def gains_to_milli(gains, rate_milli):
+    """The way back."""
+    milli = _new("gains_milli", {})
+    _accept(lib.fixpid_gains_to_milli(milli, _new("pid_gains", gains), rate_milli), "a gain")
+    return _fields(milli[0])
+
+
+def record_pack(**config):
+    """A configuration of Pid as bytes: fixpid_record.h."""
+    record = _new("record", {})
+    lib.fixpid_record_pack(record, _new("pid_config", config))
+    return bytes(record.bytes)
+
+
+def record_unpack(record):
+    """The configuration of a record; ValueError for another version or a wrong check."""
+    config = _new("pid_config", {})
+    if len(record) != lib.FIXPID_RECORD_SIZE:
+        raise ValueError(f"a record has {lib.FIXPID_RECORD_SIZE} bytes, not {len(record)}")
+    _accept(lib.fixpid_record_unpack(_new("record", {"bytes": list(record)}), config), "the record")
+    return _fields(config[0])

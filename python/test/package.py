@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""What the package adds to the library: arrays, gains in real units, refusals.
+
+    package.py INCLUDE README     the headers, whose macros a C compiler folds, and the
+                                  page whose code must run
+
+Prints `ok NAME` or `FAILED NAME` and why.
+"""
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+import fixpid
+
+INCLUDE, README = sys.argv[1:]
+CONFIG = {"gains": fixpid.pid_gains(kp=2, ki=0.5, kd=1.5, rate=10, filter=2), "output_max": 255}
+
+
+def refuses(error, call, *arguments, **fields):
+    try:
+        call(*arguments, **fields)
+    except error:
+        return True
+    return False
+
+
+def compiled(lines, body):
+    """What a program in C prints; None if it does not compile."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = os.path.join(folder, "program")
+        text = "\n".join(["#include <stdio.h>", '#include "fixpid_pid.h"',
+                          '#include "fixpid_slew.h"', *lines,
+                          "int main(void)\n{", *body, "    return 0;\n}\n"])
+        command = ["cc", "-std=c99", "-I", INCLUDE, "-x", "c", "-", "-o", program]
+        done = subprocess.run(command, input=text, universal_newlines=True,
+                              stderr=subprocess.DEVNULL)
+        return subprocess.check_output([program], text=True) if done.returncode == 0 else None
+
+
+def every_function_has_a_method():
+    nouns = {noun._noun: noun for noun in fixpid._Noun.__subclasses__()}
+    modules = "record", "gains"
+    lost = []
+    for name in (name for name in dir(fixpid.lib) if name.startswith("fixpid_")):
+        verbs = [name[len(f"fixpid_{noun}_"):] for noun in nouns
+                 if name.startswith(f"fixpid_{noun}_") and
+                 hasattr(nouns[noun], name[len(f"fixpid_{noun}_"):])]
+        if not verbs and not (name.split("_")[1] in modules and hasattr(fixpid, name[7:])):
+            lost.append(name)
+    assert len(dir(fixpid.lib)) > 100 and not lost, lost
+
+
+def steps_are_those_of_step():
+    one, many = fixpid.Pid(**CONFIG), fixpid.Pid(**CONFIG)
+    measurements = numpy.random.default_rng(1).integers(-32768, 32768, (40, 50))
+    outputs = many.steps(numpy.int16(300), measurements)
+    assert outputs.dtype == numpy.int16 and outputs.shape == (40, 50)
+    assert outputs.ravel().tolist() == [one.step(300, int(y)) for y in measurements.ravel()]
+    assert fixpid.Tpo(full=10, window=4).steps(numpy.full(8, 5)).dtype == bool
+    assert fixpid.An937(accumulated_error_limit=1, derivative_period_ticks=1).steps(
+        [1, 2]).dtype == numpy.int32
+
+
+def what_does_not_fit_is_refused():
+    pid = fixpid.Pid(**CONFIG)
+    assert refuses(TypeError, pid.step, 1.0, 0)
+    assert refuses(TypeError, pid.step, numpy.float32(1), 0)
+    assert refuses(TypeError, pid.steps, numpy.zeros(3), 0)
+    assert refuses(OverflowError, pid.step, 32768, 0)
+    assert refuses(OverflowError, pid.steps, 0, numpy.array([-32769]))
+    assert refuses(KeyError, fixpid.Pid, output_maximum=1)
+    assert refuses(ValueError, fixpid.Pid)
+    assert refuses(ValueError, pid.set_limits, 5, 5)
+    assert refuses(ValueError, pid.set_gains, kp_q8=fixpid.PID_KP_MAX + 1)
+
+
+def records_come_back():
+    record = fixpid.record_pack(**CONFIG)
+    config = fixpid.record_unpack(record)
+    assert config["gains"] == CONFIG["gains"] and config["output_max"] == 255
+    assert refuses(ValueError, fixpid.record_unpack, bytes([record[0] ^ 1]) + record[1:])
+    assert refuses(ValueError, fixpid.record_unpack, record[:-1])
+
+
+def relay_finds_gains():
+    """On an integrator with a dead time of 5 steps."""
+    relay = fixpid.Relay(output_low=-100, output_high=100, measurement_min=-32768,
+                         measurement_max=32767, hysteresis=10, timeout_steps=500, cycles=2)
+    level, line = 0, [0] * 5
+    for _ in range(1000):
+        line.append(relay.step(0, level // 8))
+        level += line.pop(0)
+    assert relay.status() == fixpid.RELAY_DONE
+    assert fixpid.Pid(gains=relay.result(fixpid.RELAY_TYREUS_LUYBEN_PI), output_max=1)
+
+
+def gains_are_those_of_the_macro():
+    draw = random.Random(1)
+    wanted = [(round(2 ** draw.uniform(-8, 6.9), 4), round(2 ** draw.uniform(-8, 5), 5),
+               round(2 ** draw.uniform(0, 2.5), 4), draw.choice((0.5, 1, 3, 10, 20)),
+               draw.randrange(8)) for _ in range(500)]
+    table = "".join(f"    FIXPID_PID_GAINS({', '.join(map(str, gains))}),\n" for gains in wanted)
+    table = "static const struct fixpid_pid_gains table[] = {\n" + table + "};"
+    body = [f"for (int i = 0; i < {len(wanted)}; i++) {{",
+            'printf("%u %lu %u %u\\n", table[i].kp_q8, (unsigned long)table[i].ki_q24,',
+            "table[i].kd_q8, table[i].derivative_filter); }"]
+    folded = compiled([table], body).splitlines()
+    ours = [" ".join(map(str, fixpid.pid_gains(*gains).values())) for gains in wanted]
+    different = [row for row in zip(wanted, folded, ours) if row[1] != row[2]]
+    assert len(folded) == len(wanted) and not different, different[:5]
+
+
+def gains_are_refused_as_by_the_macro():
+    """At both ends of each range, on both sides."""
+    for gains in ((0.0019, 0, 0, 1, 0), (0.00196, 0, 0, 1, 0), (127.998, 0, 0, 1, 0),
+                  (127.9979, 0, 0, 1, 0), (1, 4.7e-7, 0, 1, 0), (1, 4.8e-7, 0, 1, 0),
+                  (1, 127.997, 0, 1, 0), (1, 127.996, 0, 1, 0), (1, 0, 0.0019, 1, 0),
+                  (1, 0, 0.002, 1, 0), (1, 0, 126, 1, 0), (1, 0, 125.99, 1, 0),
+                  (1, 0, 1, 1, 8), (-1, 0, 0, 1, 0), (1, 0, 0, 0, 0)):
+        text = ", ".join(map(str, gains))
+        legal = compiled([f"struct fixpid_pid_gains g = FIXPID_PID_GAINS({text});"], []) is not None
+        assert refuses(ValueError, fixpid.pid_gains, *gains) != legal, gains
+
+
+def rates_are_those_of_the_macro():
+    for rate in ((20, 10), (0.001, 1), (0, 3), (65535, 1), (1e-5, 1), (65536, 1), (1, 0), (-1, 1)):
+        text = ", ".join(map(str, rate))
+        folded = compiled([f"uint32_t rate = FIXPID_SLEW_RATE({text});"],
+                          ['printf("%lu", (unsigned long)rate);'])
+        if folded is None:
+            assert refuses(ValueError, fixpid.slew_rate, *rate), rate
+        else:
+            assert fixpid.slew_rate(*rate) == int(folded), rate
+
+
+def code_of_the_page_runs():
+    with open(README, encoding="ascii") as page:
+        code = re.search("```python\n(.*?)```", page.read(), re.DOTALL).group(1)
+    names = {}
+    exec(code, names)
+    assert names["output"] == 255 and names["outputs"].dtype == numpy.int16
+
+
+TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
+         what_does_not_fit_is_refused, records_come_back, relay_finds_gains,
+         gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
+failed = 0
+for test in TESTS:
+    try:
+        test()
+        print(f"ok {test.__name__}")
+    except Exception as why:  # pylint: disable=broad-except
+        failed = 1
+        print(f"FAILED {test.__name__}: {why!r}")
+sys.exit(failed)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The few functions of math.h that the plants use, for the tuner: WebAssembly
+// has no libm, and a page whose numbers equal the native program's needs the
+// same bits from both. They are made of + - * / and of what both have exactly;
+// without contraction (-ffp-contract=off) each operation is IEEE 754's.
+//
+// They are within 1e-14 of the system's for the arguments that plants have,
+// which test/tuner checks. NaN and signed zeros get no care.
+#ifndef MATH_H
+#define MATH_H
+#include <stdint.h>
+#include <string.h>
+
+static inline double math_fabs(double x)
+{
+    return __builtin_fabs(x);
+}
+
+static inline double math_floor(double x)
+{
+    return __builtin_floor(x);
+}
+
+static inline double math_ceil(double x)
+{
+    return __builtin_ceil(x);
+}
+
+static inline double math_fmin(double a, double b)
+{
+    return (a < b) ? a : b;
+}
+
+static inline double math_fmax(double a, double b)
+{
+    return (a > b) ? a : b;
+}
+
+// sin r and cos r, for |r| <= pi / 4, by Taylor's series: what is left out is
+// below 1e-17.
+static inline double math_sine_part(double r)
+{
+    const double z = r * r;
+    double sum = 1.0;
+    for (int n = 16; n > 0; n -= 2) {
+        sum = 1.0 - (sum * z / (double)(n * (n + 1)));
+    }
+    return r * sum;
+}
+
+static inline double math_cosine_part(double r)
+{
+    const double z = r * r;
+    double sum = 1.0;
+    for (int n = 17; n > 0; n -= 2) {
+        sum = 1.0 - (sum * z / (double)(n * (n + 1)));
+    }
+    return sum;
+}
+
+// sin(x + quarter pi / 2), for |x| below some thousands.
+static inline double math_wave(double x, int quarter)
+{
+    const double turns = math_floor((x * 0.63661977236758134308) + 0.5);
+    const double r =
+        (x - (turns * 1.57079632679489655800)) - (turns * 6.1232339957367e-17);
+    const int at = ((int)turns + quarter) & 3;
+    const double value =
+        ((at & 1) != 0) ? math_cosine_part(r) : math_sine_part(r);
+    return ((at & 2) != 0) ? -value : value;
+}
+
+static inline double math_sine(double x)
+{
+    return math_wave(x, 0);
+}
+
+static inline double math_cosine(double x)
+{
+    return math_wave(x, 1);
+}
+
+// For |x| < 700.
+static inline double math_exp(double x)
+{
+    const double twos = math_floor((x * 1.44269504088896340736) + 0.5);
+    const double r = (x - (twos * 6.93147180369123816490e-01)) -
+                     (twos * 1.90821492927058770002e-10);
+    double sum = 1.0;
+    for (int n = 14; n > 0; n--) {
+        sum = 1.0 + (sum * r / (double)n);
+    }
+    const uint64_t bits = (uint64_t)((int64_t)twos + 1023) << 52;
+    double power;
+    (void)memcpy(&power, &bits, sizeof(power));
+    return sum * power;
+}
+
+static inline double math_tanh(double x)
+{
+    if (math_fabs(x) > 20.0) {
+        return (x > 0.0) ? 1.0 : -1.0;
+    }
+    const double square = math_exp(2.0 * x);
+    return (square - 1.0) / (square + 1.0);
+}
+
+// They have names of their own, as a compiler may call the system's for a
+// builtin.
+#define fabs math_fabs
+#define floor math_floor
+#define ceil math_ceil
+#define fmin math_fmin
+#define fmax math_fmax
+#define sin math_sine
+#define cos math_cosine
+#define exp math_exp
+#define tanh math_tanh
+
+#endif

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: MIT
+#include "tuner.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "fixpid_an937.h"
+#include "fixpid_an964.h"
+#include "fixpid_autotune.h"
+#include "fixpid_pid.h"
+#include "plant.h"
+#include "scene.h"
+#include "twin.h"
+
+#define UPRIGHT_COUNTS 512
+#define ANGLE_LIMIT_COUNTS 341 // where the note's program gives up
+#define DRIFT_LIMIT 55         // eighths of a count, the note's value
+#define ERROR_PER_COUNT 4      // of AN937's motor: 1023 counts are its 4000
+#define TIMEOUT_STEPS 32767
+
+static double params[TUNER_PARAMS];
+static double events[TUNER_EVENTS * TUNER_EVENT_SIZE];
+static double results[TUNER_RESULTS];
+static int32_t counts[TUNER_COUNTS][TUNER_STEPS];
+static double values[TUNER_VALUES][TUNER_STEPS];
+
+static struct fixpid_pid pid;
+static struct fixpid_an937 an937;
+static struct fixpid_an964 an964;
+static struct fixpid_autotune autotune;
+
+// A loop that runs: the library's, or its twin's, which has no drift offset.
+static struct scene scene;
+static struct scene twin_scene;
+static struct twin twin;
+static int drift;
+static int twin_drift;
+
+double *tuner_params(void)
+{
+    return params;
+}
+
+double *tuner_events(void)
+{
+    return events;
+}
+
+double *tuner_results(void)
+{
+    return results;
+}
+
+int32_t *tuner_counts(int series)
+{
+    return counts[series];
+}
+
+double *tuner_values(int series)
+{
+    return values[series];
+}
+
+static int steps(void)
+{
+    const double wanted =
+        floor((params[PARAM_DURATION] * params[PARAM_RATE]) + 0.5);
+    return (int)fmin(fmax(wanted, 2.0), (double)TUNER_STEPS);
+}
+
+static bool within(double value, double low, double high)
+{
+    return (value >= low) && (value <= high);
+}
+
+static bool integer_16(int which)
+{
+    return within(params[which], -32768.0, 32767.0);
+}
+
+// What FIXPID_PID_GAINS takes, of gains that are scaled and not yet rounded.
+static bool legal(double kp, double ki, double kd)
+{
+    const bool kp_legal =
+        (kp >= 0.0) && (kp < 32767.5) && FIXPID_PID_COUNTS(kp, kp);
+    const bool kd_legal =
+        (kd >= 0.0) && (kd < 32255.5) && FIXPID_PID_COUNTS(kd, kd);
+    const bool ki_legal =
+        ((ki == 0.0) || (ki >= 8.0)) && ((ki - FIXPID_PID_KI_MAX) < 0.5);
+    return kp_legal && ki_legal && kd_legal;
+}
+
+// The gains of fixpid_pid as FIXPID_PID_GAINS folds and refuses them.
+static bool folded(struct fixpid_pid_gains *gains)
+{
+    const double kp = params[PARAM_KP] * 256.0;
+    const double ki = FIXPID_PID_KI_Q24(params[PARAM_KI], params[PARAM_RATE]);
+    const unsigned filter = (unsigned)params[PARAM_FILTER];
+    const double kd =
+        FIXPID_PID_KD_Q8(params[PARAM_KD], params[PARAM_RATE], filter);
+
+    results[RESULT_KP] = floor(plant_limit(kp, 0.0, 65535.0) + 0.5);
+    results[RESULT_KI] = floor(plant_limit(ki, 0.0, 4294967294.0) + 0.5);
+    results[RESULT_KD] = floor(plant_limit(kd, 0.0, 65535.0) + 0.5);
+    results[RESULT_FILTER] = (double)filter;
+    if (!legal(kp, ki, kd) || (filter > FIXPID_PID_FILTER_MAX)) {
+        return false;
+    }
+    gains->kp_q8 = (uint16_t)FIXPID_PID_FOLDED(kp);
+    gains->ki_q24 = FIXPID_PID_FOLDED(ki);
+    gains->kd_q8 = (uint16_t)FIXPID_PID_FOLDED(kd);
+    gains->derivative_filter = (uint8_t)filter;
+    return true;
+}
+
+static bool begin_pid(void)
+{
+    struct fixpid_pid_config config = {.options =
+                                           (uint8_t)params[PARAM_OPTIONS]};
+    const double weight = floor((params[PARAM_WEIGHT] * 256.0) + 0.5);
+    const bool on_measurement =
+        (config.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
+    const bool fits =
+        integer_16(PARAM_OUTPUT_MIN) && integer_16(PARAM_OUTPUT_MAX) &&
+        integer_16(PARAM_INTEGRAL_MIN) && integer_16(PARAM_INTEGRAL_MAX);
+
+    results[RESULT_OPTIONS] = params[PARAM_OPTIONS];
+    // A weight of 0 is the option, and 0 in the configuration means 256.
+    results[RESULT_WEIGHT] = on_measurement ? 0.0 : weight;
+    if (!folded(&config.gains) || !fits ||
+        !(on_measurement || within(weight, 1.0, 256.0))) {
+        return false;
+    }
+    config.output_min = (int16_t)params[PARAM_OUTPUT_MIN];
+    config.output_max = (int16_t)params[PARAM_OUTPUT_MAX];
+    config.integral_min = (int16_t)params[PARAM_INTEGRAL_MIN];
+    config.integral_max = (int16_t)params[PARAM_INTEGRAL_MAX];
+    config.setpoint_weight_q8 = (uint16_t)results[RESULT_WEIGHT];
+    return fixpid_pid_init(&pid, &config);
+}
+
+static bool notes_gains(double most)
+{
+    for (int i = 0; i < 3; i++) {
+        results[RESULT_KP + i] = floor(params[PARAM_KP + i] + 0.5);
+        if (!within(results[RESULT_KP + i], 0.0, most)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool begin_an937(void)
+{
+    results[RESULT_FILTER] = params[PARAM_FILTER];
+    if (!notes_gains(255.0) || !within(params[PARAM_FILTER], 1.0, 255.0) ||
+        !within(params[PARAM_INTEGRAL_MAX], 1.0, 65535.0)) {
+        return false;
+    }
+    const struct fixpid_an937_config config = {
+        (uint8_t)results[RESULT_KP], (uint8_t)results[RESULT_KI],
+        (uint8_t)results[RESULT_KD], (uint16_t)params[PARAM_INTEGRAL_MAX],
+        (uint8_t)params[PARAM_FILTER]};
+    return fixpid_an937_init(&an937, &config);
+}
+
+static bool begin_an964(void)
+{
+    if (!notes_gains(1023.0)) {
+        return false;
+    }
+    const struct fixpid_an964_gains gains = {(uint16_t)results[RESULT_KP],
+                                             (uint16_t)results[RESULT_KI],
+                                             (uint16_t)results[RESULT_KD]};
+    return fixpid_an964_init(&an964, &gains);
+}
+
+static bool begin(void)
+{
+    scene_begin(&scene);
+    scene_begin(&twin_scene);
+    twin_begin(&twin);
+    drift = 0;
+    twin_drift = 0;
+    results[RESULT_DEAD_S] = scene_dead_s(&scene);
+    switch ((int)params[PARAM_CONTROLLER]) {
+    case TUNER_AN937:
+        return begin_an937();
+    case TUNER_AN964:
+        return begin_an964();
+    default:
+        return begin_pid();
+    }
+}
+
+static int16_t limited(int32_t output)
+{
+    return (int16_t)fmin(fmax(output, params[PARAM_OUTPUT_MIN]),
+                         params[PARAM_OUTPUT_MAX]);
+}
+
+// The note's drift offset, which brings a base that runs away back.
+static int followed(int offset, double output)
+{
+    if (output < 0.0) {
+        return (offset > -DRIFT_LIMIT) ? (offset - 1) : offset;
+    }
+    if (output > 0.0) {
+        return (offset < DRIFT_LIMIT) ? (offset + 1) : offset;
+    }
+    return offset;
+}
+
+static bool fallen(int16_t measurement)
+{
+    return !within(measurement, UPRIGHT_COUNTS - ANGLE_LIMIT_COUNTS,
+                   UPRIGHT_COUNTS + ANGLE_LIMIT_COUNTS);
+}
+
+static int16_t step_an964(int16_t measurement)
+{
+    if (fallen(measurement)) {
+        fixpid_an964_reset(&an964);
+        drift = 0;
+        return 0;
+    }
+    const int16_t output = fixpid_an964_step(
+        &an964, (int16_t)(measurement + (drift / 8) - UPRIGHT_COUNTS));
+    drift = followed(drift, output);
+    return output;
+}
+
+static void keep(int i, int32_t p, int32_t integral, int32_t d, int32_t flags)
+{
+    counts[COUNT_P][i] = p;
+    counts[COUNT_I][i] = integral;
+    counts[COUNT_D][i] = d;
+    counts[COUNT_FLAGS][i] = flags;
+}
+
+static int16_t step(int i, int16_t setpoint, int16_t measurement)
+{
+    int16_t output;
+
+    switch ((int)params[PARAM_CONTROLLER]) {
+    case TUNER_AN937:
+        fixpid_an937_tick(&an937);
+        output = limited(fixpid_an937_step(
+            &an937, (int16_t)((setpoint - measurement) * ERROR_PER_COUNT)));
+        keep(i, fixpid_an937_proportional(&an937),
+             fixpid_an937_integral(&an937), fixpid_an937_derivative(&an937),
+             fixpid_an937_flags(&an937));
+        break;
+    case TUNER_AN964:
+        output = step_an964(measurement);
+        keep(i, fixpid_an964_proportional(&an964),
+             fixpid_an964_integral(&an964), fixpid_an964_derivative(&an964),
+             fixpid_an964_flags(&an964));
+        break;
+    default:
+        output = fixpid_pid_step(&pid, setpoint, measurement);
+        keep(i, fixpid_pid_proportional(&pid), fixpid_pid_integral(&pid),
+             fixpid_pid_derivative(&pid), fixpid_pid_flags(&pid));
+        break;
+    }
+    return output;
+}
+
+static double step_twin(int16_t setpoint, int16_t measurement)
+{
+    const bool notes_pendulum = params[PARAM_CONTROLLER] == TUNER_AN964;
+    double error = (setpoint - measurement) * ERROR_PER_COUNT;
+
+    if (notes_pendulum && fallen(measurement)) {
+        twin_begin(&twin);
+        twin_drift = 0;
+        return 0.0;
+    }
+    if (notes_pendulum) {
+        error = measurement + (twin_drift / 8.0) - UPRIGHT_COUNTS;
+    }
+    const double output = twin_step(&twin, setpoint, measurement, error);
+    twin_drift = followed(twin_drift, output);
+    return output;
+}
+
+static void manual_or_limits(int what, double a, double b)
+{
+    const int16_t first = (int16_t)plant_limit(a, -32768.0, 32767.0);
+    const int16_t second = (int16_t)plant_limit(b, -32768.0, 32767.0);
+
+    switch (what) {
+    case EVENT_MANUAL:
+        fixpid_pid_set_manual(&pid, first);
+        break;
+    case EVENT_AUTO:
+        fixpid_pid_set_auto(&pid);
+        break;
+    case EVENT_LIMITS:
+        if (!fixpid_pid_set_limits(&pid, first, second)) {
+            return; // the twin keeps its own, too
+        }
+        break;
+    case EVENT_FEEDFORWARD:
+        fixpid_pid_set_feedforward(&pid, first);
+        break;
+    default:
+        break;
+    }
+    twin_event(&twin, what, first, second);
+}
+
+// Those that are due at step i, in their order.
+static void happen(int i, double *setpoint)
+{
+    for (int e = 0; e < TUNER_EVENTS; e++) {
+        const double *const event = &events[e * TUNER_EVENT_SIZE];
+        const int what = (int)event[1];
+        const double due = floor((event[0] * params[PARAM_RATE]) + 0.5);
+        if ((what == EVENT_NONE) || ((int)due != i)) {
+            continue;
+        }
+        if (what == EVENT_SETPOINT) {
+            *setpoint = event[2];
+        } else if (what == EVENT_LOAD) {
+            scene_load(&scene, event[2]);
+            scene_load(&twin_scene, event[2]);
+        } else if (params[PARAM_CONTROLLER] == TUNER_PID) {
+            manual_or_limits(what, event[2], event[3]);
+        } else {
+            // the notes' controllers have none of these
+        }
+    }
+}
+
+static void forget_results(void)
+{
+    for (int i = 0; i < TUNER_RESULTS; i++) {
+        results[i] = 0.0;
+    }
+}
+
+static void see(int i)
+{
+    values[VALUE_TRUE][i] = scene_value(&scene);
+    values[VALUE_TWIN][i] = scene_value(&twin_scene);
+    values[VALUE_BASE][i] = 0.0;
+    if (scene.kind == TUNER_PENDULUM) {
+        values[VALUE_BASE][i] = scene.pendulum.state[PENDULUM_POSITION];
+    }
+}
+
+int tuner_run(void)
+{
+    const int n = steps();
+    double setpoint = params[PARAM_SETPOINT];
+
+    forget_results();
+    if (!begin()) {
+        return -1;
+    }
+    for (int i = 0; i < n; i++) {
+        happen(i, &setpoint);
+        const int16_t r = scene_counts(setpoint);
+        const int16_t y = scene_read(&scene);
+        const int16_t u = step(i, r, y);
+        const double twin_u = step_twin(r, scene_read(&twin_scene));
+        counts[COUNT_SETPOINT][i] = r;
+        counts[COUNT_MEASUREMENT][i] = y;
+        counts[COUNT_OUTPUT][i] = u;
+        values[VALUE_TWIN_OUTPUT][i] = twin_u;
+        see(i);
+        scene_move(&scene, u);
+        scene_move(&twin_scene, twin_u);
+    }
+    return n;
+}
+
+static bool begin_experiment(void)
+{
+    const unsigned options = (unsigned)params[PARAM_OPTIONS];
+    struct fixpid_autotune_config config = {
+        .output_min = (int16_t)params[PARAM_OUTPUT_MIN],
+        .output_max = (int16_t)params[PARAM_OUTPUT_MAX],
+        .measurement_min = -1, // the plant may rest at the converter's end
+        .measurement_max = (int16_t)((1 << (int)params[PARAM_SENSOR_BITS]) - 1),
+        .swing = (uint16_t)params[PARAM_SWING],
+        .timeout_steps = TIMEOUT_STEPS,
+        .cycles = (uint8_t)params[PARAM_CYCLES],
+        .options = (uint8_t)(options & FIXPID_AUTOTUNE_REVERSE),
+    };
+    config.output_rest = limited(0);
+    return fixpid_autotune_init(&autotune, &config);
+}
+
+static void tell_experiment(void)
+{
+    struct fixpid_autotune_model model;
+
+    results[RESULT_STATUS] = fixpid_autotune_status(&autotune);
+    if (fixpid_autotune_model(&autotune, &model)) {
+        results[RESULT_GAIN] = model.gain_q8;
+        results[RESULT_LAG] = model.lag_q4;
+        results[RESULT_DEAD] = model.dead_q4;
+        results[RESULT_ULTIMATE] = model.ultimate_q8;
+        results[RESULT_PERIOD] = model.period_q4;
+        results[RESULT_HOLDING] = model.holding;
+        results[RESULT_NOISE] = model.noise_q4;
+        results[RESULT_HYSTERESIS] = model.hysteresis;
+    }
+}
+
+int tuner_experiment(void)
+{
+    int n = 0;
+
+    forget_results();
+    if (!begin_experiment()) {
+        return -1;
+    }
+    scene_begin(&scene);
+    const int16_t r = scene_counts(params[PARAM_SETPOINT]);
+    while ((n < TUNER_STEPS) &&
+           (fixpid_autotune_status(&autotune) == FIXPID_AUTOTUNE_RUNNING)) {
+        const int16_t y = scene_read(&scene);
+        const int16_t u = fixpid_autotune_step(&autotune, r, y);
+        counts[COUNT_SETPOINT][n] = r;
+        counts[COUNT_MEASUREMENT][n] = y;
+        counts[COUNT_OUTPUT][n] = u;
+        keep(n, 0, 0, 0, 0);
+        values[VALUE_TRUE][n] = scene_value(&scene);
+        values[VALUE_TWIN][n] = 0.0;
+        values[VALUE_TWIN_OUTPUT][n] = 0.0;
+        values[VALUE_BASE][n] = 0.0;
+        scene_move(&scene, u);
+        n++;
+    }
+    tell_experiment();
+    return n;
+}
+
+int tuner_rule(int rule)
+{
+    struct fixpid_pid_config config = {.options = 0};
+    const bool has = fixpid_autotune_result(
+        &autotune, (uint8_t)rule, (uint8_t)params[PARAM_ROBUSTNESS], &config);
+
+    // A rule without gains leaves zeros.
+    results[RESULT_KP] = config.gains.kp_q8;
+    results[RESULT_KI] = config.gains.ki_q24;
+    results[RESULT_KD] = config.gains.kd_q8;
+    results[RESULT_FILTER] = config.gains.derivative_filter;
+    results[RESULT_WEIGHT] = config.setpoint_weight_q8;
+    results[RESULT_OPTIONS] = config.options;
+    return has ? 1 : 0;
+}

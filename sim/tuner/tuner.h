@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// What the tuner page computes: the library's controllers and its autotuner in
+// closed loop with the plants of sim/plant, and beside them the same law in
+// double precision. Compiled to WebAssembly for the page and natively for its
+// test, it gives the same bits: see libm/math.h.
+//
+// The caller fills tuner_params and tuner_events and calls tuner_run or
+// tuner_experiment; what comes of it is in tuner_counts, tuner_values and
+// tuner_results. tools/lib/tuner.rb reads the lists of names for the page.
+#ifndef TUNER_H
+#define TUNER_H
+#include <stdint.h>
+
+#define TUNER_STEPS 20000 // at most
+#define TUNER_EVENTS 16
+#define TUNER_EVENT_SIZE 4 // seconds, enum tuner_event, and two values
+
+enum tuner_controller { TUNER_PID, TUNER_AN937, TUNER_AN964 };
+
+enum tuner_plant {
+    TUNER_LAGS,       // two lags and dead time
+    TUNER_OSCILLATOR, // second order with little damping
+    TUNER_INTEGRATOR, // with a lag and dead time
+    TUNER_OVEN,       // plant_oven.h
+    TUNER_MOTOR,      // plant_motor.h
+    TUNER_PENDULUM    // plant_pendulum.h
+};
+
+enum tuner_param {
+    PARAM_CONTROLLER,
+    PARAM_PLANT,
+
+    // The plant, in units of the measurement and seconds. Of a motor the gain
+    // is the supply in V, t1 the inertia in 1e-6 kg m^2 and t2 the friction in
+    // mN m; of a pendulum the gain is the base's full speed in m/s, t1 the
+    // motor's time constant and t2 the rod in m.
+    PARAM_GAIN,
+    PARAM_T1,
+    PARAM_T2,
+    PARAM_DAMPING,
+    PARAM_DEAD,
+    PARAM_START, // the measurement at rest; of a pendulum degrees of release
+
+    PARAM_SENSOR_BITS,
+    PARAM_SENSOR_LOW, // units at count 0
+    PARAM_SENSOR_RANGE,
+    PARAM_NOISE, // counts, each side, evenly
+
+    PARAM_OUTPUT_MIN,
+    PARAM_OUTPUT_MAX,
+    PARAM_RATE, // steps per second
+    PARAM_DURATION,
+    PARAM_SETPOINT,
+
+    // Of fixpid_pid in real units; of the notes' controllers the integers.
+    PARAM_KP,
+    PARAM_KI,
+    PARAM_KD,
+    PARAM_FILTER, // AN937: ticks per derivative sample
+    PARAM_WEIGHT, // 0..1
+    PARAM_OPTIONS,
+    PARAM_INTEGRAL_MIN,
+    PARAM_INTEGRAL_MAX, // AN937: the accumulated error's limit
+
+    // Of the experiment.
+    PARAM_SWING,
+    PARAM_CYCLES,
+    PARAM_ROBUSTNESS,
+
+    TUNER_PARAMS
+};
+
+enum tuner_event {
+    EVENT_NONE,
+    EVENT_SETPOINT,
+    EVENT_LOAD, // of full drive; a motor's in N m; a pendulum's shove in rad/s2
+    EVENT_MANUAL, // counts
+    EVENT_AUTO,
+    EVENT_LIMITS,     // lowest and highest output
+    EVENT_FEEDFORWARD // counts
+};
+
+// Series of whole numbers.
+enum tuner_count {
+    COUNT_SETPOINT,
+    COUNT_MEASUREMENT,
+    COUNT_OUTPUT,
+    COUNT_P, // as the controller's function gives it
+    COUNT_I,
+    COUNT_D,
+    COUNT_FLAGS,
+    TUNER_COUNTS
+};
+
+// Series in double precision.
+enum tuner_value {
+    VALUE_TRUE,        // units, before the sensor
+    VALUE_TWIN,        // the same beside the law in double precision
+    VALUE_TWIN_OUTPUT, // counts
+    VALUE_BASE,        // of a pendulum, m
+    TUNER_VALUES
+};
+
+enum tuner_result {
+    RESULT_KP, // the integers that the controller has
+    RESULT_KI,
+    RESULT_KD,
+    RESULT_FILTER,
+    RESULT_WEIGHT, // x 256, as in the configuration
+    RESULT_OPTIONS,
+    RESULT_DEAD_S, // the dead time as it is simulated
+    RESULT_STATUS, // of the experiment, as all below
+    RESULT_GAIN,
+    RESULT_LAG,
+    RESULT_DEAD,
+    RESULT_ULTIMATE,
+    RESULT_PERIOD,
+    RESULT_HOLDING,
+    RESULT_NOISE,
+    RESULT_HYSTERESIS,
+    TUNER_RESULTS
+};
+
+double *tuner_params(void);
+double *tuner_events(void);
+double *tuner_results(void);
+int32_t *tuner_counts(int series);
+double *tuner_values(int series);
+
+// The scene from its start. Returns its steps, or -1 where the controller
+// refuses a value; the integers are in tuner_results.
+int tuner_run(void);
+
+// fixpid_autotune in the controller's place, at the setpoint, without events.
+// Returns its steps, or -1 where it is refused; its status and its model are in
+// tuner_results.
+int tuner_experiment(void);
+
+// The gains of one rule after an experiment, in tuner_results. Returns 1, or 0
+// where the rule has none, which are zeros then.
+int tuner_rule(int rule);
+
+#endif

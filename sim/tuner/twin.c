@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "twin.h"
+
+#include <math.h>
+
+#include "fixpid_pid.h"
+#include "plant.h"
+#include "tuner.h"
+
+#define SUM_MAX 30000.0 // FIXPID_AN964_SUM_LIMIT
+#define TERM_MAX 120.0  // FIXPID_AN964_TERM_LIMIT
+
+static double param(int which)
+{
+    return tuner_params()[which];
+}
+
+static double limited(double value)
+{
+    return plant_limit(value, param(PARAM_OUTPUT_MIN), param(PARAM_OUTPUT_MAX));
+}
+
+void twin_begin(struct twin *self)
+{
+    const unsigned options = (unsigned)param(PARAM_OPTIONS);
+    const int on_measurement =
+        (options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
+    const int on_error = (options & FIXPID_PID_DERIVATIVE_ON_ERROR) != 0u;
+    const double rate = param(PARAM_RATE);
+    const struct law_gains gains = {param(PARAM_KP), param(PARAM_KI) / rate,
+                                    param(PARAM_KD) * rate,
+                                    (int)param(PARAM_FILTER) & 7};
+
+    *self = (struct twin){.kind = (int)param(PARAM_CONTROLLER), .sign = 1.0};
+    if ((options & FIXPID_PID_REVERSE) != 0u) {
+        self->sign = -1.0;
+    }
+    law_init(&self->law, on_error ? LAW_DERIVATIVE_ON_ERROR : LAW_WHOLE, &gains,
+             on_measurement ? 0.0 : param(PARAM_WEIGHT),
+             param(PARAM_OUTPUT_MIN), param(PARAM_OUTPUT_MAX));
+    self->law.integral_min = param(PARAM_INTEGRAL_MIN);
+    self->law.integral_max = param(PARAM_INTEGRAL_MAX);
+}
+
+void twin_event(struct twin *self, int what, double a, double b)
+{
+    switch (what) {
+    case EVENT_MANUAL:
+        law_set_manual(&self->law, a);
+        break;
+    case EVENT_AUTO:
+        law_set_auto(&self->law);
+        break;
+    case EVENT_LIMITS:
+        law_set_limits(&self->law, a, b);
+        break;
+    case EVENT_FEEDFORWARD:
+        self->law.feedforward = a;
+        break;
+    default:
+        break;
+    }
+}
+
+static double an937(struct twin *self, double error)
+{
+    const double limit = param(PARAM_INTEGRAL_MAX);
+
+    self->sum = plant_limit(self->sum + error, -limit, limit);
+    if (self->ticks == 0) {
+        self->ticks = (int)param(PARAM_FILTER);
+        self->delta = error - self->errors[0];
+        self->errors[0] = error;
+    }
+    self->ticks--;
+    return limited(((param(PARAM_KP) * error) + (param(PARAM_KI) * self->sum) +
+                    (param(PARAM_KD) * self->delta)) /
+                   16.0);
+}
+
+static double an964(struct twin *self, double error)
+{
+    self->sum = plant_limit(self->sum + error, 1.0 - SUM_MAX, SUM_MAX);
+    const double rise =
+        plant_limit(error - self->errors[2], -TERM_MAX, TERM_MAX);
+    const double derivative =
+        plant_limit(rise * param(PARAM_KD) / 32.0, -TERM_MAX, TERM_MAX);
+    const double integral = self->sum / 256.0 * param(PARAM_KI) / 16.0;
+
+    self->errors[2] = self->errors[1];
+    self->errors[1] = self->errors[0];
+    self->errors[0] = error;
+    return limited((error + integral + derivative) * param(PARAM_KP) / 1024.0);
+}
+
+double twin_step(struct twin *self, double setpoint, double measurement,
+                 double error)
+{
+    switch (self->kind) {
+    case TUNER_AN937:
+        return an937(self, error);
+    case TUNER_AN964:
+        return an964(self, error);
+    default:
+        return law_step(&self->law, self->sign * setpoint,
+                        self->sign * measurement);
+    }
+}

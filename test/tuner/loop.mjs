@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// What follows from a run: the header under four compilers, margins against the
+// loop in time, and fits of recordings that are known.
+import { spawnSync } from 'node:child_process';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { check, checkNone, finish, open, random, WORK } from './harness.mjs';
+
+const COMPILERS = [
+    ['gcc', '-std=c99', '-x', 'c'], ['clang', '-std=c99', '-x', 'c'],
+    ['g++', '-std=c++98', '-x', 'c++'], ['g++', '-std=c++17', '-x', 'c++'],
+    ['avr-g++', '-mmcu=atmega328p', '-Os', '-x', 'c++'],
+];
+
+function run(command, ...more) {
+    const ran = spawnSync(command, more, { encoding: 'utf8' });
+    return ran.status === 0 ? ran.stdout : `${command}: ${ran.stderr || ran.error || ran.status}`;
+}
+
+// The configuration's bytes as a list of numbers, read back from the object file
+// of each compiler: an array of the members.
+const MEMBERS = {
+    fixpid_pid: ['config.gains.kp_q8', 'config.gains.ki_q24', 'config.gains.kd_q8', 'config.gains.derivative_filter',
+        'config.output_min', 'config.output_max', 'config.integral_min', 'config.integral_max',
+        'config.setpoint_weight_q8', 'config.options'],
+    fixpid_an937: ['config.kp_q4', 'config.ki_q4', 'config.kd_q4', 'config.accumulated_error_limit',
+        'config.derivative_period_ticks'],
+    fixpid_an964: ['config.kp', 'config.ki', 'config.kd'],
+};
+const TYPES = { fixpid_pid: 'fixpid_pid_config', fixpid_an937: 'fixpid_an937_config', fixpid_an964: 'fixpid_an964_gains' };
+
+function program(noun, wanted, macro) {
+    const agree = MEMBERS[noun].map((member, i) => `    good &= (${member} == ${wanted[i]});`);
+    const gains = macro === null ? []
+        : [`static const struct fixpid_pid_gains folded = ${macro};`];
+    const same = macro === null ? []
+        : ['kp_q8', 'ki_q24', 'kd_q8', 'derivative_filter'].map((name) => `    good &= (folded.${name} == config.gains.${name});`);
+    return ['#include "loop_gains.h"', `static const struct ${TYPES[noun]} config = LOOP_CONFIG;`, ...gains,
+        'int main(void) {', '    int good = 1;', ...agree, ...same, '    return good ? 0 : 1;', '}', ''].join('\n');
+}
+
+// A constant configuration folds: on the AVR the whole program is `return 0`,
+// which its code shows, as there is nothing to run it on here.
+function returnsZero(object) {
+    const code = run('avr-objdump', '-d', object);
+    return /<main>:\s+\S+:\s+80 e0\s+ldi\s+r24, 0x00[^\n]*\n\s+\S+:\s+90 e0\s+ldi\s+r25, 0x00[^\n]*\n\s+\S+:\s+08 95\s+ret/.test(code);
+}
+
+const folder = `${WORK}/header`;
+mkdirSync(folder, { recursive: true });
+
+function headerFaults(name, { header, noun, wanted }) {
+    const macro = header.match(/FIXPID_PID_GAINS\([^)]*\)/)?.[0] ?? null;
+    writeFileSync(`${folder}/loop_gains.h`, header);
+    return COMPILERS.flatMap(([compiler, ...options]) => {
+        const avr = compiler === 'avr-g++';
+        // Where double has 32 bits the macro may fold to a neighbour.
+        writeFileSync(`${folder}/use.txt`, program(noun, wanted, avr ? null : macro));
+        const output = `${folder}/use`;
+        const printed = run(compiler, ...options, '-O2', '-Wall', '-Wextra', '-Werror', '-Iinclude', `-I${folder}`,
+            ...(avr ? ['-c'] : []), `${folder}/use.txt`, '-o', output);
+        if (printed !== '') {
+            return [`${name}, ${compiler}: ${printed}`];
+        }
+        const good = avr ? returnsZero(output) : spawnSync(output).status === 0;
+        return good ? [] : [`${name}, ${compiler}: other integers`];
+    });
+}
+
+const page = await open();
+
+// In the page: the header of a state with what it has to compile to.
+function headerOf(state) {
+    const { tuner } = window;
+    const { n, results: r } = tuner.run(state);
+    if (n < 0) {
+        return null;
+    }
+    const noun = ['fixpid_pid', 'fixpid_an937', 'fixpid_an964'][state.CONTROLLER];
+    const wanted = {
+        fixpid_pid: [r.KP, r.KI, r.KD, r.FILTER, state.OUTPUT_MIN, state.OUTPUT_MAX, state.INTEGRAL_MIN,
+            state.INTEGRAL_MAX, r.WEIGHT, r.OPTIONS],
+        fixpid_an937: [r.KP, r.KI, r.KD, state.INTEGRAL_MAX, r.FILTER],
+        fixpid_an964: [r.KP, r.KI, r.KD],
+    }[noun];
+    return { header: tuner.headerOf(state, r), noun, wanted };
+}
+
+const presets = await page.evaluate(() => window.tuner.PRESETS);
+for (const preset of presets) {
+    const made = await page.evaluate(headerOf, preset);
+    checkNone(`header of ${preset.preset}: ${COMPILERS.length} compilers`, headerFaults(preset.preset, made));
+}
+const draw = random(7);
+const faults = [];
+for (let i = 0; i < 10; i++) {
+    const state = { ...presets[1], KP: 0.1 + 3 * draw(), KI: 0.1 + draw(), KD: 0.1 + draw(), WEIGHT: 0.1 + 0.9 * draw(), RATE: 7 + i,
+        OPTIONS: i % 3 === 0 ? 0x80 : 0, unit: ['°C', 'a*/b\\', '', '??/'][i % 4] };
+    faults.push(...headerFaults(`random ${i}`, await page.evaluate(headerOf, state)));
+}
+checkNone('headers of random settings', faults);
+
+// Each rule's gains fold to the very integers that the autotuner gave.
+for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset !== 'spring')) {
+    const found = await page.evaluate((state) => {
+        const { tuner } = window;
+        const experiment = tuner.experiment(state);
+        const differ = experiment.rules.filter((rule) => rule.has).filter(({ results }) => {
+            const again = tuner.run({ ...state, ...tuner.gainsOfRule(state, results) }).results;
+            return ['KP', 'KI', 'KD', 'FILTER'].some((name) => again[name] !== results[name]);
+        });
+        return { status: experiment.results.STATUS, has: experiment.rules.filter((rule) => rule.has).length, differ };
+    }, preset);
+    // A motor without dead time swings too fast for it, and it says so.
+    const [status, least] = preset.preset === 'motor' ? [6, 0] : [2, 5];
+    check(`autotune of ${preset.preset}: status ${status}, ${found.has} rules`,
+        found.status === status && found.has >= least, `status ${found.status}`);
+    checkNone(`rules of ${preset.preset} keep their integers`, found.differ.map((rule) => rule.rule));
+}
+
+// --- Margins ------------------------------------------------------------------
+// The gain margin is where the loop in time stops being stable, and so is the
+// dead time that the phase margin stands for; Ms is the largest of the Fourier
+// transform of what is left of a push.
+function timeSide(state) {
+    const { tuner } = window;
+    const { results } = tuner.run(state);
+    const margins = tuner.marginsOf(state, results);
+    const plant = tuner.sampledPlant(state, results.DEAD_S);
+    const law = tuner.lawOf(state, results);
+    const n = tuner.responseSteps(state, results);
+    const stable = (factor) => tuner.isStable(plant, law, factor, n);
+    const seen = tuner.linearResponse(plant, law, 1, n);
+    let ms = 0;
+    for (let k = 1; k <= 1500; k++) {
+        const w = 0.002 * (Math.PI / 0.002) ** (k / 1500);
+        let [re, im] = [0, 0];
+        for (let i = 0; i < n; i++) {
+            re += seen[i] * Math.cos(w * i);
+            im -= seen[i] * Math.sin(w * i);
+        }
+        ms = Math.max(ms, Math.hypot(re, im));
+    }
+    const { gainMargin, lowerGainMargin, delayMargin } = margins;
+    const later = (part) => tuner.isStable(tuner.sampledPlant(state, results.DEAD_S + part * delayMargin), law, 1, 2 * n);
+    return { margins: { ...margins, curve: 0 }, ms, early: later(0.97), late: later(1.03),
+        below: gainMargin === null || stable(0.97 * gainMargin), above: gainMargin !== null && stable(1.03 * gainMargin),
+        inside: lowerGainMargin === null || stable(1.03 * lowerGainMargin),
+        outside: lowerGainMargin !== null && stable(0.97 * lowerGainMargin) };
+}
+
+for (const preset of presets) {
+    const found = await page.evaluate(timeSide, preset);
+    const { margins } = found;
+    const periodic = preset.preset === 'an937'; // its derivative has a period: margins are those of the mean
+    check(`${preset.preset}: stable`, margins.stable);
+    check(`${preset.preset}: Ms ${margins.ms.toFixed(3)}, in time ${found.ms.toFixed(3)}`,
+        periodic || Math.abs(found.ms / margins.ms - 1) < 0.02, 'they differ');
+    check(`${preset.preset}: gain margin ${margins.gainMargin?.toFixed(2)}`,
+        periodic || (found.below && !found.above), 'the loop in time has another one');
+    check(`${preset.preset}: dead time margin ${margins.delayMargin.toPrecision(3)} s`,
+        periodic || (found.early && !found.late), 'the loop in time has another one');
+    const unstableAlone = preset.preset === 'an964';
+    check(`${preset.preset}: lower gain margin ${margins.lowerGainMargin?.toFixed(2) ?? 'none'}`,
+        found.inside && !found.outside && unstableAlone === (margins.lowerGainMargin !== null),
+        'the loop in time has another one');
+}
+const unstable = await page.evaluate((state) => {
+    const { results } = window.tuner.run(state);
+    return window.tuner.marginsOf(state, results).stable;
+}, { ...presets[1], KP: 6 });
+check('a loop with too much gain is unstable', !unstable);
+
+// --- Recordings -----------------------------------------------------------------
+const noise = random(11);
+for (const [gain, lag, dead, start, size] of [[80, 12, 2, 20, 0], [300, 90, 8, 25, 0.6], [40, 0.5, 0.05, 0, 0.05], [-30, 4, 1, 50, 0.05]]) {
+    const lines = ['time;value'];
+    for (let i = 0; i <= 200; i++) {
+        const t = i / 200 * (dead + 6 * lag);
+        const value = start + (t > dead ? gain * (1 - Math.exp(-(t - dead) / lag)) : 0) + size * (noise() - 0.5);
+        lines.push(`${t.toFixed(4)}; ${value.toFixed(3)}`);
+    }
+    const fit = await page.evaluate((text) => window.tuner.fitStep(window.tuner.readRecording(text)), lines.join('\n'));
+    const away = Math.max(Math.abs(fit.rise / gain - 1), Math.abs(fit.lag / lag - 1), Math.abs(fit.dead - dead) / lag);
+    check(`a recording of ${gain}, ${lag} s, ${dead} s is fitted within ${(100 * away).toFixed(2)} %`, away < 0.01);
+}
+checkNone('no error in the page', page.noted.errors);
+await finish();

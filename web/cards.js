@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The cards below the plots: figures, margins, rules, chips.
+import { CONTROLLER, COSTS, FEATURES, PLANT } from './built.js';
+import { make, table } from './dom.js';
+import { digits, percent, short, time, whole } from './format.js';
+import { NOUN, featuresOf, hex } from './header.js';
+import { unitsPerCount } from './metrics.js';
+import { color } from './plot.js';
+
+export const RULES = {
+    SIMC_PI: 'SIMC PI', AMIGO_PI: 'AMIGO PI', AMIGO_PID: 'AMIGO PID',
+    TYREUS_LUYBEN_PI: 'Tyreus-Luyben PI', TYREUS_LUYBEN_PID: 'Tyreus-Luyben PID',
+    ZIEGLER_NICHOLS_PI: 'Ziegler-Nichols PI', ZIEGLER_NICHOLS_PID: 'Ziegler-Nichols PID',
+};
+
+export const STATUSES = {
+    REFUSED: 'It refuses these limits.',
+    RUNNING: 'It needs more steps than the page has: sample more slowly.',
+    DONE: 'Done',
+    NO_OSCILLATION: 'No oscillation: the setpoint is out of the output’s reach, or the plant slower than the timeout.',
+    SATURATED: 'The measurement reached the end of the sensor: a setpoint further inside, or a larger range.',
+    IRREGULAR: 'No two cycles were alike: the output that holds this setpoint is next to an end of its range.',
+    TOO_FAST: 'The period is below 10 steps: sample faster, or measure with less noise.',
+    TOO_SMALL: 'The swing is below four times the hysteresis: less noise, or more sensor counts.',
+    TOO_SLOW: 'The cycles took too many steps: sample more slowly.',
+};
+
+// Pairs of a name and a figure.
+export function fillFigures(place, pairs) {
+    place.replaceChildren(...pairs.map(([name, value, title = '']) =>
+        make('div', { title }, make('dt', { textContent: name }), make('dd', { textContent: value }))));
+}
+
+function seconds(value, none) {
+    return value === null ? none : time(value);
+}
+
+export function figuresOf(s, found) {
+    const pendulum = s.PLANT === PLANT.PENDULUM;
+    const step = [
+        ['Overshoot', percent(found.overshoot)],
+        ['Rise to 90 %', seconds(found.rise, 'not reached')],
+        ['Settled to 2 %', seconds(found.settled, 'not yet')],
+    ];
+    return [
+        ...(pendulum ? [['Base’s way', `${digits(found.travel)} m`]] : step),
+        ...(found.load === null ? [] : [[pendulum ? 'Shove, at most' : 'Load, at most', `${digits(found.load)} ${s.unit}`]]),
+        ['Mean error', `${digits(found.meanError)} ${s.unit}`],
+        ['Output limited', percent(found.limited, 0)],
+        ['Output moves', `${digits(found.moved)} / step`, 'Mean change of the output from step to step, in counts'],
+        ['Integers cost', `${digits(found.twin.most)} counts`,
+            `Largest distance of the measurement from the same loop with a controller in double precision, of ${whole(s.SENSOR_RANGE / unitsPerCount(s))} counts; root mean square ${digits(found.twin.rms)}`],
+    ];
+}
+
+function decibels(factor) {
+    return `${(20 * Math.log10(factor)).toFixed(1)} dB`;
+}
+
+export function marginFigures(margins) {
+    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable } = margins;
+    return [
+        ['Loop', stable ? 'stable' : 'unstable'],
+        ['Ms', stable ? ms.toFixed(2) : '–'],
+        ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
+        ['Dead time margin', !stable || delayMargin === null ? '–' : time(delayMargin)],
+        ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${decibels(gainMargin)})`],
+        ...(stable && lowerGainMargin !== null
+            ? [['and down to', `${digits(lowerGainMargin)} (${decibels(lowerGainMargin)})`]] : []),
+    ];
+}
+
+// The loop's curve around -1; the circle is Ms 2.
+export function drawNyquist(canvas, margins) {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    const context = canvas.getContext('2d');
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const unit = height / 3.4;
+    const [x0, y0] = [width * 0.66, height * 0.42];
+    const at = ([re, im]) => [x0 + unit * re, y0 - unit * im];
+    const circle = (centre, radius, name) => {
+        context.beginPath();
+        context.strokeStyle = color(name);
+        context.arc(...at(centre), radius * unit, 0, 2 * Math.PI);
+        context.stroke();
+    };
+    context.lineWidth = 1;
+    context.strokeStyle = color('grid');
+    context.beginPath();
+    context.moveTo(0, y0);
+    context.lineTo(width, y0);
+    context.moveTo(x0, 0);
+    context.lineTo(x0, height);
+    context.stroke();
+    circle([0, 0], 1, 'line');
+    circle([-1, 0], 0.5, 'output');
+    context.fillStyle = color('output');
+    context.beginPath();
+    context.arc(...at([-1, 0]), 3, 0, 2 * Math.PI);
+    context.fill();
+    context.beginPath();
+    context.strokeStyle = color('measured');
+    context.lineWidth = 1.75;
+    margins.curve.forEach((point, i) => {
+        const far = Math.hypot(...point);
+        const inside = far > 40 ? point.map((one) => one * 40 / far) : point;
+        context[i === 0 ? 'moveTo' : 'lineTo'](...at(inside));
+    });
+    context.stroke();
+    canvas.setAttribute('aria-label', `The loop’s frequency response about −1, Ms ${margins.ms.toFixed(2)}`);
+}
+
+// --- Rules ------------------------------------------------------------------
+
+// `rows` are { rule, gains or null, run figures, margins }; onUse takes a rule.
+export function fillRules(place, rows, chosen, onUse) {
+    const cellsOf = (row) => {
+        if (row.gains === null) {
+            return [RULES[row.rule], ...new Array(9).fill('–')];
+        }
+        const use = make('button', { type: 'button', textContent: 'Use', 'aria-label': `Use ${RULES[row.rule]}` });
+        use.addEventListener('click', () => onUse(row.rule));
+        const { gains, found, margins } = row;
+        return [RULES[row.rule], use, digits(gains.KP), digits(gains.KI), digits(gains.KD),
+            margins.stable ? margins.ms.toFixed(2) : 'unstable',
+            margins.stable && margins.phaseMargin !== null ? `${margins.phaseMargin.toFixed(0)}°` : '–',
+            percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError)];
+    };
+    place.replaceChildren(table('Gains and what they do in this scene',
+        ['Rule', 'Take it', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error'],
+        rows.map((row) => ({ cells: cellsOf(row), chosen: row.rule === chosen }))));
+}
+
+// --- Chips --------------------------------------------------------------------
+
+const TITLES = { [CONTROLLER.AN937]: 'AN937', [CONTROLLER.AN964]: 'AN964' };
+
+// Rows { chip, worst, flash, unit, ram, exact }: of fixpid_pid with no features,
+// with those that are summed up here, or with all.
+export function costsOf(s, results) {
+    if (s.CONTROLLER !== CONTROLLER.PID) {
+        return COSTS.filter(([title]) => title === TITLES[s.CONTROLLER])
+            .map(([, chip, worst, , flash, unit, ram]) => ({ chip, worst, flash, unit, ram }));
+    }
+    const features = featuresOf(s, results);
+    const rows = (title) => COSTS.filter(([name]) => name === title);
+    if (features === 0) {
+        return rows('PID, typical').map(([, chip, , bound, flash, unit, ram]) =>
+            ({ chip, worst: bound, flash, unit, ram }));
+    }
+    return rows('PID').map(([, chip, , bound, flash, unit, ram]) => {
+        const known = FEATURES[chip];
+        if (!known) {
+            return { chip, worst: bound, flash, unit, ram, all: true };
+        }
+        const sum = (at) => known.reduce((total, one) => total + (one[0] === 0 || (features & one[0]) !== 0 ? one[at] : 0), 0);
+        return { chip, worst: Math.min(bound, sum(1)), flash: Math.min(flash, sum(2)), unit, ram };
+    });
+}
+
+const INSTRUCTIONS = /^(Cortex|RV32)/;
+
+export function fillChips(text, place, s, results) {
+    const costs = costsOf(s, results);
+    const rows = costs.map((row) => {
+        const unit = INSTRUCTIONS.test(row.chip) ? 'instr.' : 'cycles';
+        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.worst)} ${unit}`, `${whole(row.flash)} ${row.unit}`,
+            `${row.ram}`, whole(row.worst * s.RATE)] };
+    });
+    const features = s.CONTROLLER === CONTROLLER.PID
+        ? ` Built with -DFIXPID_PID_FEATURES=${hex(featuresOf(s, results))}, which is what these settings need.` : '';
+    const star = costs.some((row) => row.all) ? ' * with all features, as single ones were not measured there.' : '';
+    text.textContent = `A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init, RAM of one controller in bytes; ` +
+        `as docs/cost.md has measured them.${features}${star}`;
+    place.replaceChildren(table(`At ${short(s.RATE)} steps per second`,
+        ['Chip', 'Step, at most', 'Flash', 'RAM', 'A second'], rows));
+}

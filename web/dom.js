@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Elements.
+
+export function find(selector) {
+    return document.querySelector(selector);
+}
+
+// Attributes with a dash, `role` and `style` are set as such, others as properties.
+export function make(name, more = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(more)) {
+        if (key.includes('-') || key === 'role' || key === 'style' || key === 'scope') {
+            made.setAttribute(key, value);
+        } else {
+            made[key] = value;
+        }
+    }
+    made.append(...children);
+    return made;
+}
+
+// Puts children in place without touching those that are the same text.
+export function setText(place, text) {
+    if (place.textContent !== text) {
+        place.textContent = text;
+    }
+}
+
+// A table of texts or elements; the first column names its row. Numbers stand
+// right, under each other.
+export function table(caption, head, rows) {
+    const cell = (value, at) => {
+        const made = at === 0 ? make('th', { scope: 'row' }) : make('td');
+        made.append(value);
+        return made;
+    };
+    return make('table', {},
+        make('caption', { textContent: caption }),
+        make('thead', {}, make('tr', {}, ...head.map((text) => make('th', { scope: 'col', textContent: text })))),
+        make('tbody', {}, ...rows.map((row) => {
+            const made = make('tr', {}, ...row.cells.map(cell));
+            made.className = row.chosen ? 'chosen' : '';
+            return made;
+        })));
+}

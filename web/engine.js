@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The C of sim/tuner as WebAssembly: a scene in, its series and results out.
+import { COUNT, EVENT, LIMIT, PARAM, RESULT, RULE, VALUE, WASM } from './built.js';
+
+let wasm = null;
+
+export async function startEngine() {
+    const bytes = Uint8Array.from(atob(WASM), (c) => c.charCodeAt(0));
+    wasm = (await WebAssembly.instantiate(bytes, {})).instance.exports;
+}
+
+const VALUES_OF_EVENT = 4;
+
+// The numbers that the C gets: of the state's parameters and of its events, in
+// their order in time.
+export function sceneOf(state) {
+    const params = Object.keys(PARAM).map((name) => Number(state[name]) || 0);
+    const events = new Array(LIMIT.EVENTS * VALUES_OF_EVENT).fill(0);
+    const inTime = [...state.events].sort((a, b) => a.at - b.at);
+    inTime.slice(0, LIMIT.EVENTS).forEach((event, i) => {
+        events.splice(i * VALUES_OF_EVENT, VALUES_OF_EVENT, event.at,
+            EVENT[event.what], event.a, event.b ?? 0);
+    });
+    return { params, events };
+}
+
+function put(scene) {
+    const memory = wasm.memory.buffer;
+    new Float64Array(memory, wasm.tuner_params(), scene.params.length).set(scene.params);
+    new Float64Array(memory, wasm.tuner_events(), scene.events.length).set(scene.events);
+}
+
+function results() {
+    const size = Object.keys(RESULT).length;
+    const all = new Float64Array(wasm.memory.buffer, wasm.tuner_results(), size);
+    return Object.fromEntries(Object.entries(RESULT).map(([name, at]) => [name, all[at]]));
+}
+
+function series(n) {
+    const found = {};
+    for (const [name, at] of Object.entries(COUNT)) {
+        found[name] = new Int32Array(wasm.memory.buffer, wasm.tuner_counts(at), n).slice();
+    }
+    for (const [name, at] of Object.entries(VALUE)) {
+        found[`VALUE_${name}`] =
+            new Float64Array(wasm.memory.buffer, wasm.tuner_values(at), n).slice();
+    }
+    return found;
+}
+
+// { n, results, series }; n is -1 where the controller refuses a value.
+export function run(state) {
+    put(sceneOf(state));
+    const n = wasm.tuner_run();
+    return { n, results: results(), series: series(Math.max(n, 0)) };
+}
+
+// The same of the autotuner, with `rules`: { rule, has: whether it has gains,
+// results }.
+export function experiment(state) {
+    put(sceneOf(state));
+    const n = wasm.tuner_experiment();
+    const found = { n, results: results(), series: series(Math.max(n, 0)) };
+    found.rules = Object.entries(RULE).map(([rule, at]) => {
+        const has = wasm.tuner_rule(at) === 1;
+        return { rule, has, results: results() };
+    });
+    return found;
+}
+
+// Milliseconds of a run without what copies it: the shortest of some.
+export function timeRuns(state, often) {
+    put(sceneOf(state));
+    let least = Infinity;
+    for (let i = 0; i < often; i++) {
+        const from = performance.now();
+        wasm.tuner_run();
+        least = Math.min(least, performance.now() - from);
+    }
+    return least;
+}

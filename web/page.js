@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: MIT
+// The page: all that it shows follows from the one state, each time anew.
+import { COUNT, CONTROLLER, LIMIT, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
+import { adviceOf, notesOf } from './advice.js';
+import { RULES, STATUSES, drawNyquist, figuresOf, fillChips, fillFigures, fillRules, marginFigures } from './cards.js';
+import { createPanel } from './controls.js';
+import { find, make, setText } from './dom.js';
+import { experiment, run, sceneOf, startEngine, timeRuns } from './engine.js';
+import { createEventList, createFlags } from './events.js';
+import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
+import { digits, short, shortest, whole } from './format.js';
+import { OPTION, headerOf } from './header.js';
+import { isStable, lawOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
+import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
+import { createPendulum } from './pendulum.js';
+import { createPlots, color } from './plot.js';
+import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, presetState, stateOfFragment } from './state.js';
+
+let plots = null;
+let flags = null;
+let events = null;
+let panel = null;
+let pendulum = null;
+let kept = null; // a run to compare with: { preset, seconds, value, output, text }
+let mode = 'run'; // or 'tune': which of the two the plots show
+let cursor = null;
+
+// --- The autotuner, remembered while the plant is the same ------------------
+
+const OWN_OF_GAINS = ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'rule', 'name', 'story'];
+let tuned = { key: '', found: null };
+
+function hasTuner(s) {
+    return s.CONTROLLER === CONTROLLER.PID && s.PLANT !== PLANT.PENDULUM;
+}
+
+// The integers of a rule as the state's real units, which fold to them again.
+export function gainsOfRule(s, results) {
+    const kiFold = (ki) => Math.floor(ki * 16777216 / s.RATE + 0.5);
+    const kdFold = (kd) => Math.floor(kd * 256 * s.RATE / 2 ** results.FILTER + 0.5);
+    const kept20 = s.OPTIONS & ~OPTION.P_ON_MEASUREMENT;
+    return {
+        KP: results.KP / 256,
+        KI: shortest(results.KI * s.RATE / 16777216, kiFold),
+        KD: shortest(results.KD * 2 ** results.FILTER / 256 / s.RATE, kdFold),
+        FILTER: results.FILTER, WEIGHT: results.WEIGHT === 0 ? 1 : results.WEIGHT / 256,
+        OPTIONS: kept20 | results.OPTIONS,
+    };
+}
+
+function tunedFor(s) {
+    const key = JSON.stringify(Object.entries(s).filter(([name]) => !OWN_OF_GAINS.includes(name)));
+    if (tuned.key !== key) {
+        tuned = { key, found: experiment(s), rows: null };
+    }
+    return tuned.found;
+}
+
+function rowsFor(s) {
+    tuned.rows ??= tuned.found.rules.map(({ rule, has, results }) => {
+        if (!has) {
+            return { rule, gains: null };
+        }
+        const gains = gainsOfRule(s, results);
+        const one = run({ ...s, ...gains });
+        return one.n < 0 ? { rule, gains: null }
+            : { rule, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
+    });
+    return tuned.rows;
+}
+
+// --- Plots --------------------------------------------------------------------
+
+function each(counts, as) {
+    return Float64Array.from(counts, as);
+}
+
+const TERMS = {
+    [CONTROLLER.PID]: () => [256, 65536, 256],
+    [CONTROLLER.AN937]: () => [16, 16, 16],
+    [CONTROLLER.AN964]: (s, results) => new Array(3).fill(1024 / Math.max(results.KP, 1)),
+};
+
+function panesOf(s, found) {
+    const { series } = found;
+    const tuning = mode === 'tune';
+    const compared = kept !== null && !tuning;
+    const none = new Float64Array(0);
+    const [p, i, d] = TERMS[s.CONTROLLER](s, found.results);
+    const measurement = {
+        title: s.PLANT === PLANT.PENDULUM ? 'Angle' : 'Measurement', unit: s.unit,
+        leastSpan: 8 * s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1),
+        series: [
+            { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
+            { name: compared ? `kept, ${kept.text}` : 'kept', color: 'kept', data: compared ? kept.value : none, seconds: kept?.seconds },
+            { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
+            { name: 'double precision', color: 'twin', width: 1.25, dash: [2, 3], data: tuning ? none : series.VALUE_TWIN },
+        ],
+    };
+    const output = {
+        title: 'Output', unit: 'counts', limited: tuning ? null : limitedSteps(s, found),
+        series: [
+            { name: 'kept', color: 'kept', data: compared ? kept.output : none, seconds: kept?.seconds, held: true },
+            { name: 'output', color: 'output', held: true, data: each(series.OUTPUT, (c) => c) },
+        ],
+    };
+    const terms = {
+        title: 'Terms', unit: 'counts',
+        series: [
+            { name: 'P', color: 'p', width: 1.25, data: each(series.P, (c) => c / p) },
+            { name: 'I', color: 'i', width: 1.25, data: each(series.I, (c) => c / i) },
+            { name: 'D', color: 'd', width: 1.25, data: each(series.D, (c) => c / d) },
+        ],
+    };
+    const difference = {
+        title: 'Cost of the integers', unit: 'counts of the sensor', leastSpan: 2,
+        series: [{ name: 'beside double precision', color: 'twin', width: 1.25,
+            data: series.VALUE_TRUE.map((value, k) => (value - series.VALUE_TWIN[k]) / unitsPerCount(s)) }],
+    };
+    return tuning ? [measurement, output] : [measurement, output, terms, difference];
+}
+
+function showPlots(s, found) {
+    const seconds = 1 / s.RATE;
+    plots.show({
+        panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events,
+        duration: mode === 'tune' ? Math.max(1, found.n) * seconds : Math.min(s.DURATION, LIMIT.STEPS * seconds),
+    });
+}
+
+function setCursor(seconds) {
+    cursor = seconds;
+    plots.cursorAt(seconds);
+    pendulum.at(seconds);
+}
+
+function moveCursor(event) {
+    const way = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity }[event.key];
+    if (event.key === 'Escape') {
+        setCursor(null);
+    } else if (way !== undefined && event.target.id === 'plots') {
+        event.preventDefault();
+        const s = currentState();
+        const from = cursor ?? s.DURATION;
+        setCursor(Math.min(s.DURATION, Math.max(0, from + way * s.DURATION / 100)));
+    }
+}
+
+// --- What follows from the state ------------------------------------------------
+
+function showAdvice(s, advice, tuning) {
+    const entries = [
+        ...advice.refused.map((text) => make('li', { className: 'refused', textContent: text })),
+        ...(tuning ? [] : advice.warnings.map((text) => make('li', { textContent: text }))),
+    ];
+    const place = find('#advice');
+    if (place.textContent !== entries.map((one) => one.textContent).join('')) {
+        place.replaceChildren(...entries);
+    }
+}
+
+function experimentText(s, found) {
+    const name = Object.keys(STATUS).find((one) => STATUS[one] === found.results.STATUS) ?? 'REFUSED';
+    if (name !== 'DONE') {
+        return STATUSES[name];
+    }
+    const { GAIN, LAG, DEAD, HOLDING, HYSTERESIS, NOISE } = found.results;
+    const integrating = GAIN === 2 ** 32 - 1;
+    const model = integrating ? 'it integrates' : `gain ${digits(GAIN / 256)}, lag ${digits(LAG / 16 / s.RATE)} s`;
+    const served = s.PLANT === PLANT.OSCILLATOR
+        ? ' The rules are for plants that do not ring by themselves, as this one does: look at Ms.' : '';
+    return `Done after ${digits(found.n / s.RATE)} s, ${whole(found.n)} steps: ${model}, dead time ` +
+        `${digits(DEAD / 16 / s.RATE)} s; output ${HOLDING} holds the setpoint; noise ${digits(NOISE / 16, 2)} counts, ` +
+        `hysteresis ${HYSTERESIS}.${served}`;
+}
+
+function showTuning(s) {
+    find('#tuning').hidden = mode !== 'tune';
+    if (mode !== 'tune') {
+        find('#found').textContent = '';
+        find('#rules').replaceChildren();
+        return null;
+    }
+    const found = tunedFor(s);
+    setText(find('#found'), experimentText(s, found));
+    const done = found.results.STATUS === STATUS.DONE;
+    find('#rules').hidden = !done;
+    fillRules(find('#rules'), done ? rowsFor(s) : [], s.rule, useRule);
+    return found;
+}
+
+function showMargins(margins) {
+    fillFigures(find('#margins'), marginFigures(margins));
+    drawNyquist(find('#nyquist'), margins);
+}
+
+function showModes(s) {
+    const names = hasTuner(s) ? { run: 'Control', tune: 'Autotune' } : { run: 'Control' };
+    const place = find('#modes');
+    if (place.children.length !== Object.keys(names).length) {
+        place.replaceChildren(...Object.entries(names).map(([key, text]) => {
+            const button = make('button', { type: 'button', textContent: text, value: key });
+            button.addEventListener('click', () => setMode(key));
+            return button;
+        }));
+    }
+    for (const button of place.children) {
+        button.setAttribute('aria-pressed', String(button.value === mode));
+    }
+    find('#keep').hidden = mode === 'tune';
+    find('#flags').hidden = mode === 'tune';
+    setText(find('#keep'), kept === null ? 'Keep to compare' : 'Drop what was kept');
+}
+
+function showPicture(s, found) {
+    const seen = s.PLANT === PLANT.PENDULUM && found.n > 0;
+    pendulum.update(seen ? { n: found.n, seconds: 1 / s.RATE, angle: found.series.VALUE_TRUE,
+        base: found.series.VALUE_BASE, twin: found.series.VALUE_TWIN } : null);
+}
+
+function showHead(s) {
+    for (const button of find('#presets').children) {
+        button.setAttribute('aria-pressed', String(button.value === s.preset));
+    }
+    if (find('#story').textContent !== s.story) {
+        find('#presets [aria-pressed=true]').scrollIntoView({ block: 'nearest', inline: 'nearest' });
+        setText(find('#story'), s.story);
+    }
+    history.replaceState(null, '', `#${fragmentOf(s)}`);
+    for (const box of find('#options').querySelectorAll('input')) {
+        box.checked = (s.OPTIONS & Number(box.value)) !== 0;
+    }
+    find('#options').hidden = s.CONTROLLER !== CONTROLLER.PID;
+}
+
+// Nothing of an earlier state is left where these settings are refused.
+function showRefused(s) {
+    fillFigures(find('#metrics'), []);
+    fillFigures(find('#margins'), []);
+    find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
+    find('#header').textContent = '';
+    find('#chips').replaceChildren();
+    find('#chips-text').textContent = '';
+    find('#copy').disabled = true;
+    find('#save').disabled = true;
+    find('#keep').disabled = true;
+    pendulum.update(null);
+    plots.show({ panes: panesOf(s, { n: 0, results: { KP: 0 }, series: emptySeries() }), seconds: 1 / s.RATE,
+        events: [], duration: s.DURATION });
+}
+
+function emptySeries() {
+    const names = [...Object.keys(COUNT), 'VALUE_TRUE', 'VALUE_TWIN', 'VALUE_TWIN_OUTPUT', 'VALUE_BASE'];
+    return Object.fromEntries(names.map((name) => [name, new Float64Array(0)]));
+}
+
+function showRun(s, found, margins) {
+    const experimenting = showTuning(s);
+    if (experimenting !== null) {
+        fillFigures(find('#metrics'), []);
+    } else {
+        fillFigures(find('#metrics'), figuresOf(s, metricsOf(s, found)));
+    }
+    showPlots(s, experimenting ?? found);
+    showPicture(s, found);
+    showMargins(margins);
+    fillChips(find('#chips-text'), find('#chips'), s, found.results);
+    setText(find('#header'), headerOf(s, found.results));
+    find('#copy').disabled = false;
+    find('#save').disabled = false;
+    find('#keep').disabled = false;
+}
+
+function show() {
+    const s = currentState();
+    if (!hasTuner(s)) {
+        mode = 'run';
+    }
+    if (kept !== null && kept.preset !== s.preset) {
+        kept = null;
+    }
+    const found = run(s);
+    const good = found.n > 0;
+    const margins = good ? marginsOf(s, found.results) : null;
+    showHead(s);
+    showModes(s);
+    showAdvice(s, adviceOf(s, found, margins), mode === 'tune');
+    panel(s, good ? notesOf(s, found.results) : {});
+    events(s);
+    flags(s);
+    if (good) {
+        showRun(s, found, margins);
+    } else {
+        showTuning(s);
+        showRefused(s);
+    }
+    setText(find('#said'), '');
+}
+
+// --- What a person does -----------------------------------------------------------
+
+function say(text) {
+    setText(find('#said'), text);
+}
+
+function setMode(next) {
+    mode = next;
+    setCursor(null);
+    show();
+}
+
+function useRule(rule) {
+    const s = currentState();
+    const { gains } = rowsFor(s).find((row) => row.rule === rule);
+    mode = 'run';
+    changeNow({ ...s, ...gains, rule });
+    say(`${RULES[rule]} is in use.`);
+    find('#modes').firstChild.focus();
+}
+
+function keep() {
+    if (kept !== null) {
+        kept = null;
+    } else {
+        const s = currentState();
+        const found = run(s);
+        kept = { preset: s.preset, seconds: 1 / s.RATE, value: found.series.VALUE_TRUE, output: each(found.series.OUTPUT, (c) => c),
+            text: `kp ${digits(s.KP)}, ki ${digits(s.KI)}, kd ${digits(s.KD)}:` };
+    }
+    show();
+}
+
+async function toClipboard(text, done) {
+    try {
+        await navigator.clipboard.writeText(text);
+        say(done);
+    } catch {
+        say('The browser allows no copying here: mark the text instead.');
+    }
+}
+
+function download() {
+    const link = make('a', { href: URL.createObjectURL(new Blob([find('#header').textContent], { type: 'text/x-c' })), download: 'loop_gains.h' });
+    link.click();
+    URL.revokeObjectURL(link.href);
+}
+
+// --- A recording --------------------------------------------------------------------
+
+function fitOfPage() {
+    const recording = readRecording(find('#recording').value);
+    const fit = recording === null ? null : fitStep(recording);
+    const step = Number(find('#record-step').value) / 100;
+    return { recording, fit: Number.isFinite(step) && step !== 0 ? fit : null, step };
+}
+
+function showFit() {
+    const { recording, fit, step } = fitOfPage();
+    const unit = find('#record-unit').value;
+    const empty = find('#recording').value.trim() === '';
+    let text = empty ? '' : 'This is no step response yet: at least eight lines of time and value.';
+    if (fit !== null) {
+        text = `Gain ${digits(fit.rise / step)} ${unit} at full drive, lag ${digits(fit.lag)} s, dead time ${digits(fit.dead)} s; ` +
+            `the fit is ${digits(fit.error, 2)} ${unit} away on average.`;
+    }
+    setText(find('#fit'), text);
+    find('#use-fit').disabled = fit === null;
+    find('#fit-plot').hidden = fit === null;
+    if (fit !== null) {
+        drawFit(find('#fit-plot'), recording, fit);
+    }
+}
+
+function drawFit(canvas, { times, values }, fit) {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+    const context = canvas.getContext('2d');
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const [low, high] = [Math.min(...values, fit.start), Math.max(...values, fit.start + fit.rise)];
+    const x = (t) => 6 + (width - 12) * t / fit.seconds;
+    const y = (value) => height - 6 - (height - 12) * (value - low) / (high - low || 1);
+    context.fillStyle = color('kept');
+    times.forEach((t, i) => context.fillRect(x(t) - 1.5, y(values[i]) - 1.5, 3, 3));
+    context.strokeStyle = color('measured');
+    context.lineWidth = 1.75;
+    context.beginPath();
+    for (let i = 0; i <= 200; i++) {
+        const t = fit.seconds * i / 200;
+        context.lineTo(x(t), y(fittedAt(fit, t)));
+    }
+    context.stroke();
+}
+
+function useFit() {
+    const { fit, step } = fitOfPage();
+    if (fit !== null) {
+        mode = 'run';
+        kept = null;
+        changeNow({ ...presetState('flow'), ...stateOfFit(currentState(), fit, step, find('#record-unit').value) });
+        find('#view').scrollIntoView();
+        say('The plant is the one that was recorded.');
+    }
+}
+
+// --- From the start -----------------------------------------------------------------
+
+function buildHead() {
+    find('#presets').append(...PRESETS.map((one) => {
+        const button = make('button', { type: 'button', textContent: one.name, value: one.preset });
+        button.addEventListener('click', () => {
+            mode = 'run';
+            setCursor(null);
+            changeNow(presetState(one.preset));
+        });
+        return button;
+    }));
+    const options = { 'reverse acting': OPTION.REVERSE, 'derivative on the error': OPTION.DERIVATIVE_ON_ERROR,
+        'P on the measurement': OPTION.P_ON_MEASUREMENT };
+    find('#options').append(...Object.entries(options).map(([text, bit]) => {
+        const box = make('input', { type: 'checkbox', value: bit });
+        box.addEventListener('change', () => {
+            const s = currentState();
+            change({ OPTIONS: box.checked ? s.OPTIONS | bit : s.OPTIONS & ~bit });
+        });
+        return make('label', {}, box, ` ${text}`);
+    }));
+    setText(find('#version'), VERSION);
+}
+
+function listen() {
+    find('#plots').addEventListener('keydown', moveCursor);
+    find('#keep').addEventListener('click', keep);
+    find('#share').addEventListener('click', () => toClipboard(location.href, 'The link is copied: it has all settings.'));
+    find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
+    find('#save').addEventListener('click', download);
+    for (const id of ['#recording', '#record-step', '#record-unit']) {
+        find(id).addEventListener('input', showFit);
+    }
+    find('#use-fit').addEventListener('click', useFit);
+    window.addEventListener('hashchange', () => {
+        if (location.hash.slice(1) !== fragmentOf(currentState())) {
+            changeNow(stateOfFragment(location.hash.slice(1)));
+        }
+    });
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+        show();
+        showFit();
+    });
+}
+
+async function startPage() {
+    await startEngine();
+    buildHead();
+    plots = createPlots(find('#plots'), setCursor);
+    pendulum = createPendulum(find('#picture'), (seconds) => plots.cursorAt(seconds));
+    flags = createFlags(find('#flags'), plots, currentState, (next) => change({ events: next }));
+    events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
+    panel = createPanel(find('#panel'), (key, value) => change({ [key]: value }));
+    listen();
+    onChange(show);
+    changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
+    // What the tests take hold of.
+    window.tuner = { PRESETS, RESULT, RULE, change, changeNow, currentState, experiment, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
+        lawOf, marginsOf, presetState, readRecording, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
+    document.body.dataset.ready = 'yes';
+}
+
+startPage();

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Series over time on canvases that share their time axis: a pane for each, its
+// legend above it with the values where the cursor is, or at the end.
+import { digits } from './format.js';
+
+const GUTTER = 56;
+const RIGHT = 14;
+const AXIS = 22;
+
+export function color(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+// A step of 1, 2 or 5 times a power of ten that makes about `count` of them.
+export function niceStep(span, count) {
+    const rough = Math.max(span, 1e-12) / count;
+    const power = 10 ** Math.floor(Math.log10(rough));
+    return power * ([1, 2, 5, 10].find((one) => one * power >= rough) ?? 10);
+}
+
+// At least two of them.
+function ticks(low, high, count) {
+    let step = niceStep(high - low, count);
+    for (let i = 0; i < 3 && Math.floor(high / step) <= Math.ceil(low / step); i++) {
+        step = niceStep(step, 2.5);
+    }
+    const found = [];
+    for (let at = Math.ceil(low / step) * step; at <= high + step * 1e-6; at += step) {
+        found.push(Math.abs(at) < step * 1e-6 ? 0 : at);
+    }
+    return { found, places: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
+}
+
+function extremes(pane) {
+    let [low, high] = [Infinity, -Infinity];
+    for (const one of pane.series.filter((each) => each.data.length > 0)) {
+        for (const value of one.data) {
+            low = value < low ? value : low;
+            high = value > high ? value : high;
+        }
+    }
+    if (low > high) {
+        return [0, 1];
+    }
+    const least = Math.max(pane.leastSpan ?? 0, 1e-9);
+    if (high - low < least) {
+        [low, high] = [(low + high - least) / 2, (low + high + least) / 2];
+    }
+    const room = 0.06 * (high - low);
+    return [low - room, high + room];
+}
+
+// Builds the panes; returns { element, show(view), cursorAt(seconds or null) }.
+export function createPlots(element, onCursor) {
+    let parts = [];
+    let view = null;
+    let cursor = null;
+
+    function build(panes) {
+        element.replaceChildren();
+        parts = panes.map((pane, i) => {
+            const figure = document.createElement('figure');
+            figure.className = 'pane';
+            const legend = document.createElement('figcaption');
+            const canvas = document.createElement('canvas');
+            canvas.setAttribute('aria-hidden', 'true');
+            canvas.className = i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}`;
+            figure.append(legend, canvas);
+            element.append(figure);
+            canvas.addEventListener('pointermove', (event) => moved(event, canvas));
+            canvas.addEventListener('pointerdown', (event) => moved(event, canvas));
+            canvas.addEventListener('pointerleave', () => onCursor(null));
+            return { canvas, legend, key: keyOf(pane) };
+        });
+    }
+
+    function moved(event, canvas) {
+        const box = canvas.getBoundingClientRect();
+        const width = box.width - GUTTER - RIGHT;
+        const part = (event.clientX - box.left - GUTTER) / width;
+        onCursor(part < 0 || part > 1 ? null : part * view.duration);
+    }
+
+    function keyOf(pane) {
+        return pane.series.map((one) => one.name).join();
+    }
+
+    function show(next) {
+        view = next;
+        if (parts.map((part) => part.key).join('|') !== next.panes.map(keyOf).join('|')) {
+            build(next.panes);
+        }
+        draw();
+    }
+
+    function draw() {
+        if (view === null) {
+            return;
+        }
+        view.panes.forEach((pane, i) => {
+            drawPane(parts[i].canvas, pane, view, cursor, i === view.panes.length - 1);
+            drawLegend(parts[i].legend, pane, view, cursor);
+        });
+    }
+
+    function cursorAt(seconds) {
+        cursor = seconds;
+        draw();
+    }
+
+    new ResizeObserver(draw).observe(element);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
+    return { element, show, cursorAt, gutter: GUTTER, right: RIGHT };
+}
+
+function valueAt(one, view, cursor) {
+    const last = one.data.length - 1;
+    if (last < 0) {
+        return null;
+    }
+    const at = cursor === null ? last : Math.round(cursor / (one.seconds ?? view.seconds));
+    return at > last ? null : one.data[Math.max(0, at)];
+}
+
+function drawLegend(legend, pane, view, cursor) {
+    const title = document.createElement('b');
+    title.textContent = pane.title;
+    const entries = pane.series.filter((one) => one.data.length > 0).map((one) => {
+        const entry = document.createElement('span');
+        entry.className = 'entry';
+        const mark = document.createElement('i');
+        mark.style.borderTopColor = color(one.color);
+        mark.style.borderTopStyle = one.dash ? 'dashed' : 'solid';
+        const value = document.createElement('output');
+        value.textContent = digits(valueAt(one, view, cursor), 4);
+        entry.append(mark, `${one.name} `, value);
+        return entry;
+    });
+    const unit = document.createElement('small');
+    unit.textContent = pane.unit;
+    legend.replaceChildren(title, unit, ...entries);
+}
+
+function drawPane(canvas, pane, view, cursor, hasAxis) {
+    const ratio = window.devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+        canvas.width = Math.round(width * ratio);
+        canvas.height = Math.round(height * ratio);
+    }
+    const context = canvas.getContext('2d');
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    const [low, high] = extremes(pane);
+    const bottom = height - (hasAxis ? AXIS : 6);
+    const area = { left: GUTTER, right: width - RIGHT, top: 6, bottom };
+    const x = (seconds) => area.left + (area.right - area.left) * seconds / view.duration;
+    const y = (value) => area.bottom - (area.bottom - area.top) * (value - low) / (high - low);
+
+    drawBands(context, pane, view, area, x);
+    drawGrid(context, { low, high, area, x, y, hasAxis, duration: view.duration });
+    drawEvents(context, view, area, x);
+    context.save();
+    context.beginPath();
+    context.rect(area.left, area.top - 4, area.right - area.left, area.bottom - area.top + 8);
+    context.clip();
+    for (const one of pane.series) {
+        drawSeries(context, one, view, x, y, area);
+    }
+    context.restore();
+    if (cursor !== null) {
+        line(context, x(cursor), area.top, x(cursor), area.bottom, 'dim', []);
+    }
+}
+
+function line(context, x0, y0, x1, y1, name, dash) {
+    context.beginPath();
+    context.setLineDash(dash);
+    context.strokeStyle = color(name);
+    context.lineWidth = 1;
+    context.moveTo(x0, y0);
+    context.lineTo(x1, y1);
+    context.stroke();
+    context.setLineDash([]);
+}
+
+// Where the output was limited.
+function drawBands(context, pane, view, area, x) {
+    if (!pane.limited) {
+        return;
+    }
+    context.fillStyle = color('limited');
+    let from = -1;
+    for (let i = 0; i <= pane.limited.length; i++) {
+        const on = pane.limited[i] === 1;
+        if (on && from < 0) {
+            from = i;
+        } else if (!on && from >= 0) {
+            const [x0, x1] = [x(from * view.seconds), x(i * view.seconds)];
+            context.fillRect(x0, area.top, Math.max(1, x1 - x0), area.bottom - area.top);
+            from = -1;
+        }
+    }
+}
+
+function drawGrid(context, { low, high, area, x, y, hasAxis, duration }) {
+    context.font = '12px system-ui, sans-serif';
+    context.fillStyle = color('dim');
+    const tall = ticks(low, high, Math.max(2, (area.bottom - area.top) / 44));
+    context.textAlign = 'right';
+    context.textBaseline = 'middle';
+    for (const value of tall.found) {
+        line(context, area.left, y(value), area.right, y(value), 'grid', []);
+        context.fillText(value.toFixed(tall.places).replace('-', '−'), area.left - 8, y(value));
+    }
+    const wide = ticks(0, duration, Math.max(3, (area.right - area.left) / 90));
+    context.textAlign = 'center';
+    context.textBaseline = 'top';
+    wide.found.forEach((seconds, i) => {
+        line(context, x(seconds), area.top, x(seconds), area.bottom, 'grid', []);
+        if (hasAxis) {
+            const text = seconds.toFixed(wide.places);
+            const last = i === wide.found.length - 1;
+            context.fillText(last ? `${text} s` : text, Math.min(x(seconds), area.right - 10), area.bottom + 6);
+        }
+    });
+}
+
+function drawEvents(context, view, area, x) {
+    for (const event of view.events) {
+        if (event.at <= view.duration) {
+            line(context, x(event.at), area.top, x(event.at), area.bottom, 'event', [2, 4]);
+        }
+    }
+}
+
+// With more steps than pixels, each pixel's lowest and highest value.
+function drawSeries(context, one, view, x, y, area) {
+    const n = one.data.length;
+    if (n === 0) {
+        return;
+    }
+    const seconds = one.seconds ?? view.seconds;
+    const perPixel = Math.max(1, Math.floor(view.duration / seconds / (area.right - area.left) / 2));
+    context.beginPath();
+    context.strokeStyle = color(one.color);
+    context.lineWidth = one.width ?? 1.75;
+    context.setLineDash(one.dash ?? []);
+    context.lineJoin = 'round';
+    let last = null;
+    for (let i = 0; i < n; i += perPixel) {
+        let [least, most] = [one.data[i], one.data[i]];
+        for (let k = i; k < Math.min(n, i + perPixel); k++) {
+            least = Math.min(least, one.data[k]);
+            most = Math.max(most, one.data[k]);
+        }
+        const at = x(i * seconds);
+        if (one.held && last !== null) {
+            context.lineTo(at, last);
+        }
+        context.lineTo(at, y(least));
+        if (most !== least) {
+            context.lineTo(at, y(most));
+        }
+        last = y(perPixel > 1 ? one.data[Math.min(n, i + perPixel) - 1] : most);
+    }
+    context.stroke();
+    context.setLineDash([]);
+}
