@@ -14,6 +14,8 @@
 // gains or limits would else last until a reset.
 #define RENEWED_PERIODS 100u
 
+#define Q8_ONE 256
+
 // The gains are in duty counts per count of temperature, of which a degree has
 // 16.
 #define KP 1.3
@@ -44,6 +46,7 @@ static const struct fixpid_pid_config config = {
 };
 
 static uint8_t position = SELECTOR_OFF;
+static uint8_t age_periods = 0; // of the controller
 
 // From off the controller starts anew, at full power if the oven is cold. From
 // manual it takes over where the heater is. Limits may change at any time.
@@ -84,6 +87,7 @@ static void follow_selector(void)
 // temperatures that it has not seen, and whatever its RAM had become.
 static void go_on_from(int16_t duty)
 {
+    age_periods = 0;
     (void)fixpid_pid_init(&thermostat, &config);
     fixpid_pid_seed(&thermostat, duty);
     enter(position);
@@ -99,13 +103,27 @@ static int16_t heater_duty(int16_t output)
     return output;
 }
 
-// Without a sensor the heater is off. When there is one again, and now and
-// then, the controller goes on from the duty that it gave last.
+// The duty without the derivative, whose noise would else stay in the integral.
+static int16_t steady_duty(int16_t duty)
+{
+    int32_t steady = duty - (fixpid_pid_derivative(&thermostat) / Q8_ONE);
+
+    if (steady > PORT_DRIVE_FULL) {
+        steady = PORT_DRIVE_FULL;
+    }
+    if (steady < 0) {
+        steady = 0;
+    }
+    return (int16_t)steady;
+}
+
+// Without a sensor the heater is off. When there is one again, the controller
+// goes on from the duty that it gave last, and now and then from that without
+// the derivative.
 static void control(void)
 {
     static int16_t duty = 0;
     static bool lost = false;
-    static uint8_t periods = 0; // since the controller began anew
 
     follow_selector();
     const int16_t setpoint = set_temperature();
@@ -115,12 +133,15 @@ static void control(void)
         port_drive(0);
         return;
     }
-    periods++;
-    if (lost || (periods >= RENEWED_PERIODS)) {
-        lost = false;
-        periods = 0;
+    age_periods++;
+    if (lost) {
         go_on_from(duty);
+    } else if (age_periods >= RENEWED_PERIODS) {
+        go_on_from(steady_duty(duty));
+    } else {
+        // as it is
     }
+    lost = false;
     duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
     port_drive(duty);
 }

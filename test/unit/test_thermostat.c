@@ -196,6 +196,26 @@ void test_flipped_bits_in_gains_and_limits_last_100_periods_at_most(void)
     TEST_ASSERT_EQUAL_UINT8(good.options, thermostat.options);
 }
 
+// Only a flipped bit makes such a derivative of a calm oven.
+static int16_t renewed_with_derivative(int32_t derivative)
+{
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    thermostat.output_max = 0; // until the controller is renewed
+    for (int i = 0; (i < 100) && (thermostat.output_max == 0); i++) {
+        thermostat.derivative = derivative;
+        (void)period(SELECTOR_AUTOMATIC, SET);
+    }
+    return period(SELECTOR_AUTOMATIC, SET);
+}
+
+void test_renewed_controller_goes_on_from_a_drive_within_its_limits(void)
+{
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL,
+                            renewed_with_derivative(-0x3F000000));
+    TEST_ASSERT_EQUAL_INT16(0, renewed_with_derivative(0x3F000000));
+}
+
 void test_renewed_controller_of_a_calm_oven_goes_on_from_the_same_drive(void)
 {
     (void)turned_to(SELECTOR_MANUAL, SET);

@@ -68,6 +68,8 @@ def largest_step(run, column, from, to)
   run.values(column, from, to).each_cons(2).map { |a, b| (b - a).abs }.max
 end
 
+# Once the controller is set up anew in these ten seconds, with the integral that the
+# lower limit allows: it comes back without the overshoot of one that waits, and later.
 def check_low_power(run)
   limited = run.values('drive_counts', LOW_POWER.from + SEEN_S, LOW_POWER.to)
   Report.at_most('limit lowered: the drive, at once', limited.max,
@@ -78,7 +80,7 @@ def check_low_power(run)
   Report.at_most('limit raised: overshoot',
                  overshoot_percent(run, LOW_POWER.to, DOOR.from), 5.0, '%')
   Report.at_most('limit raised: settles within 2 % after',
-                 settled(run, LOW_POWER.to, DOOR.from), 7.0, 's')
+                 settled(run, LOW_POWER.to, DOOR.from), 8.0, 's')
 end
 
 def check_door(run)
