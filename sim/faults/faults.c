@@ -73,13 +73,9 @@ static uint32_t random_state;
 static size_t value_at;
 static size_t target_at;
 
-// Marsaglia's xorshift of 32 bits.
 uint32_t faults_random(void)
 {
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
+    return world_random(&random_state);
 }
 
 // From low to high.

@@ -23,13 +23,17 @@ static struct input {
     double last; // what it read
 } inputs[CHANNELS];
 
-// Marsaglia's xorshift of 32 bits. pre: noise_state != 0.
+uint32_t world_random(uint32_t *state)
+{
+    *state ^= (*state & 0x7FFFFu) << 13;
+    *state ^= *state >> 17;
+    *state ^= (*state & 0x7FFFFFFu) << 5;
+    return *state;
+}
+
 static double uniform(void)
 {
-    noise_state ^= (noise_state & 0x7FFFFu) << 13;
-    noise_state ^= noise_state >> 17;
-    noise_state ^= (noise_state & 0x7FFFFFFu) << 5;
-    return (double)noise_state / 4294967296.0;
+    return (double)world_random(&noise_state) / 4294967296.0;
 }
 
 // Standard deviation 1, nearly normal: a sum of twelve has variance 1.

@@ -33,6 +33,9 @@ enum world_result world_set(const char *name, double value);
 // Begins the scenario at time 0, with the drive off.
 void world_start(uint32_t seed);
 
+// Marsaglia's xorshift: the next of a row of random numbers. pre: *state != 0.
+uint32_t world_random(uint32_t *state);
+
 // Lets time pass. Events of the scenario happen on a grid of a millisecond.
 void world_advance(double seconds);
 

@@ -47,11 +47,9 @@ uint16_t fixpid_14x10_div1024_contract(uint16_t x, uint16_t k)
     return (uint16_t)floor_by(TIMES_TERMS(k, (number)x), 10);
 }
 
-static bool legal_gains(const struct fixpid_an964_gains *gains)
-{
-    return (gains->kp <= GAIN_MAX) && (gains->ki <= GAIN_MAX) &&
-           (gains->kd <= GAIN_MAX);
-}
+typedef struct fixpid_an964 controller;
+typedef struct fixpid_an964_gains controller_gains;
+#include "an964.h"
 
 // What init establishes from any bytes and every function keeps.
 static bool sound(const struct fixpid_an964 *x)
@@ -69,30 +67,6 @@ static bool sound(const struct fixpid_an964 *x)
             FIXPID_AN964_SUM_LIMITED) &&
            ((x->output_limited | FIXPID_AN964_OUTPUT_LIMITED) ==
             FIXPID_AN964_OUTPUT_LIMITED);
-}
-
-static bool same_gains(const struct fixpid_an964 *a,
-                       const struct fixpid_an964 *b)
-{
-    return (a->gains.kp == b->gains.kp) && (a->gains.ki == b->gains.ki) &&
-           (a->gains.kd == b->gains.kd) && (a->ready == b->ready);
-}
-
-static bool same_state(const struct fixpid_an964 *a,
-                       const struct fixpid_an964 *b)
-{
-    return (a->sum == b->sum) && (a->error[0] == b->error[0]) &&
-           (a->error[1] == b->error[1]) && (a->error[2] == b->error[2]) &&
-           (a->integral == b->integral) && (a->derivative == b->derivative) &&
-           (a->sum_limited == b->sum_limited) &&
-           (a->output_limited == b->output_limited);
-}
-
-static bool at_rest(const struct fixpid_an964 *x)
-{
-    return ((x->sum | x->error[0] | x->error[1] | x->error[2] | x->integral |
-             x->derivative) == 0u) &&
-           ((x->sum_limited | x->output_limited) == 0u);
 }
 
 // By contract: fixpid_10x7_div16, fixpid_10x8_div32, fixpid_14x10_div1024.

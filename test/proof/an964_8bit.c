@@ -48,11 +48,9 @@ uint16_t fixpid_7x7_div32_contract(uint8_t x, uint8_t k)
     return (uint16_t)floor_by(TIMES(x, (number)k), 5);
 }
 
-static bool legal_gains(const struct fixpid_an964_8bit_gains *gains)
-{
-    return (gains->kp <= GAIN_MAX) && (gains->ki <= GAIN_MAX) &&
-           (gains->kd <= GAIN_MAX);
-}
+typedef struct fixpid_an964_8bit controller;
+typedef struct fixpid_an964_8bit_gains controller_gains;
+#include "an964.h"
 
 // What init establishes from any bytes and every function keeps.
 static bool sound(const struct fixpid_an964_8bit *x)
@@ -67,30 +65,6 @@ static bool sound(const struct fixpid_an964_8bit *x)
             FIXPID_AN964_8BIT_SUM_LIMITED) &&
            ((x->output_limited | FIXPID_AN964_8BIT_OUTPUT_LIMITED) ==
             FIXPID_AN964_8BIT_OUTPUT_LIMITED);
-}
-
-static bool same_gains(const struct fixpid_an964_8bit *a,
-                       const struct fixpid_an964_8bit *b)
-{
-    return (a->gains.kp == b->gains.kp) && (a->gains.ki == b->gains.ki) &&
-           (a->gains.kd == b->gains.kd) && (a->ready == b->ready);
-}
-
-static bool same_state(const struct fixpid_an964_8bit *a,
-                       const struct fixpid_an964_8bit *b)
-{
-    return (a->sum == b->sum) && (a->error[0] == b->error[0]) &&
-           (a->error[1] == b->error[1]) && (a->error[2] == b->error[2]) &&
-           (a->integral == b->integral) && (a->derivative == b->derivative) &&
-           (a->sum_limited == b->sum_limited) &&
-           (a->output_limited == b->output_limited);
-}
-
-static bool at_rest(const struct fixpid_an964_8bit *x)
-{
-    return ((x->sum | x->error[0] | x->error[1] | x->error[2] | x->integral |
-             x->derivative) == 0u) &&
-           ((x->sum_limited | x->output_limited) == 0u);
 }
 
 // By contract: fixpid_7x7_div4, fixpid_7x7_div8, fixpid_7x7_div32.
