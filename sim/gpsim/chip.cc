@@ -12,6 +12,8 @@
 #include <sstream>
 #include <utility>
 
+#include <gpsim/14bit-processors.h>
+#include <gpsim/14bit-tmrs.h>
 #include <gpsim/eeprom.h>
 
 #include "parts.hh"
@@ -302,10 +304,26 @@ void mend(pic_processor &chip)
 
 } // namespace
 
+// What gpsim's reset leaves as it was. A PIC16 that was serving an interrupt
+// would take no other; Timer2, which it stops without a word, waits for a cycle
+// that is over when its firmware starts it again.
 void Chip::reset()
 {
-    mend(*self->processor);
-    self->processor->reset(POR_RESET);
+    pic_processor &chip = *self->processor;
+    mend(chip);
+    chip.reset(POR_RESET);
+    auto *const pic14 = dynamic_cast<_14bit_processor *>(&chip);
+    if (pic14 != nullptr) {
+        pic14->intcon->in_interrupt = false;
+    }
+    for (unsigned address = 0; address < chip.rma.get_size(); address++) {
+        auto *const timer =
+            dynamic_cast<TMR2 *>(chip.rma.get_register(address));
+        if (timer != nullptr) {
+            get_cycles().clear_break(timer);
+            timer->start();
+        }
+    }
 }
 
 void Chip::hang()
