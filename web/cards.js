@@ -167,14 +167,17 @@ export function fillChips(text, place, s, results) {
     const costs = costsOf(s, results);
     const rows = costs.map((row) => {
         const unit = INSTRUCTIONS.test(row.chip) ? 'instr.' : 'cycles';
-        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.worst)} ${unit}`, `${whole(row.flash)} ${row.unit}`,
+        const flash = row.unit === 'bytes' ? '' : ` ${row.unit}`;
+        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.worst)} ${unit}`, `${whole(row.flash)}${flash}`,
             `${row.ram}`, whole(row.worst * s.RATE)] };
     });
-    const features = s.CONTROLLER === CONTROLLER.PID
-        ? ` Built with -DFIXPID_PID_FEATURES=${hex(featuresOf(s, results))}, which is what these settings need.` : '';
-    const star = costs.some((row) => row.all) ? ' * with all features, as single ones were not measured there.' : '';
-    text.textContent = `A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init, RAM of one controller in bytes; ` +
-        `as docs/cost.md has measured them.${features}${star}`;
+    text.replaceChildren(`A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init and RAM of one controller in bytes; ` +
+        'as docs/cost.md has measured them.');
+    if (s.CONTROLLER === CONTROLLER.PID) {
+        text.append(' Built with ', make('code', { textContent: `-DFIXPID_PID_FEATURES=${hex(featuresOf(s, results))}` }),
+            ', which is what these settings need.');
+    }
+    text.append(costs.some((row) => row.all) ? ' * with all features, as single ones were not measured there.' : '');
     place.replaceChildren(table(`At ${short(s.RATE)} steps per second`,
-        ['Chip', 'Step, at most', 'Flash', 'RAM', 'A second'], rows));
+        ['Chip', 'A step', 'Flash', 'RAM', 'A second'], rows));
 }
