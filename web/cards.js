@@ -138,26 +138,25 @@ export function fillRules(place, rows, chosen, onUse) {
 
 const TITLES = { [CONTROLLER.AN937]: 'AN937', [CONTROLLER.AN964]: 'AN964' };
 
-// Rows { chip, worst, flash, unit, ram, exact }: of fixpid_pid with no features,
-// with those that are summed up here, or with all.
+// Rows { chip, most, flash, unit, ram, all }: of fixpid_pid with no features, with
+// those that are summed up here, or with all.
 export function costsOf(s, results) {
+    const rows = (title) => COSTS.filter(([name]) => name === title)
+        .map(([, chip, most, flash, unit, ram]) => ({ chip, most, flash, unit, ram, all: false }));
     if (s.CONTROLLER !== CONTROLLER.PID) {
-        return COSTS.filter(([title]) => title === TITLES[s.CONTROLLER])
-            .map(([, chip, worst, , flash, unit, ram]) => ({ chip, worst, flash, unit, ram }));
+        return rows(TITLES[s.CONTROLLER]);
     }
     const features = featuresOf(s, results);
-    const rows = (title) => COSTS.filter(([name]) => name === title);
     if (features === 0) {
-        return rows('PID, typical').map(([, chip, , bound, flash, unit, ram]) =>
-            ({ chip, worst: bound, flash, unit, ram }));
+        return rows('PID, typical');
     }
-    return rows('PID').map(([, chip, , bound, flash, unit, ram]) => {
-        const known = FEATURES[chip];
+    return rows('PID').map((row) => {
+        const known = FEATURES[row.chip];
         if (!known) {
-            return { chip, worst: bound, flash, unit, ram, all: true };
+            return { ...row, all: true };
         }
         const sum = (at) => known.reduce((total, one) => total + (one[0] === 0 || (features & one[0]) !== 0 ? one[at] : 0), 0);
-        return { chip, worst: Math.min(bound, sum(1)), flash: Math.min(flash, sum(2)), unit, ram };
+        return { ...row, most: Math.min(row.most, sum(1)), flash: Math.min(row.flash, sum(2)) };
     });
 }
 
@@ -168,8 +167,8 @@ export function fillChips(text, place, s, results) {
     const rows = costs.map((row) => {
         const unit = INSTRUCTIONS.test(row.chip) ? 'instr.' : 'cycles';
         const flash = row.unit === 'bytes' ? '' : ` ${row.unit}`;
-        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.worst)} ${unit}`, `${whole(row.flash)}${flash}`,
-            `${row.ram}`, whole(row.worst * s.RATE)] };
+        return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.most)} ${unit}`, `${whole(row.flash)}${flash}`,
+            `${row.ram}`, whole(row.most * s.RATE)] };
     });
     text.replaceChildren(`A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init and RAM of one controller in bytes; ` +
         'as docs/cost.md has measured them.');

@@ -2,7 +2,7 @@
 // What follows from a run: the header under four compilers, margins against the
 // loop in time, and fits of recordings that are known.
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { check, checkNone, finish, open, random, WORK } from './harness.mjs';
 
 const COMPILERS = [
@@ -169,6 +169,40 @@ const unstable = await page.evaluate((state) => {
     return window.tuner.marginsOf(state, results).stable;
 }, { ...presets[1], KP: 6 });
 check('a loop with too much gain is unstable', !unstable);
+
+// --- Costs ----------------------------------------------------------------------
+// The card's figures are those of the documents: of one noun on each chip, and with
+// a feature for each chip that docs/choosing.md has.
+function documented(path, name) {
+    const [, part] = readFileSync(path, 'utf8').split(new RegExp(`<!-- ${name}:(?:begin|end) -->`));
+    return part.trim().split('\n').map((line) => line.split('|').slice(1, -1).map((cell) => cell.trim()));
+}
+
+const [titles, , ...steps] = documented('docs/cost.md', 'steps');
+const features = documented('docs/choosing.md', 'features');
+
+function costOf(noun, chip) {
+    const row = steps.find((one) => one[0] === noun && one[1] === chip && ['object', '-O2'].includes(one[2]));
+    return ['bound', 'with init', 'RAM each'].map((title) => Number(row?.[titles.indexOf(title)]));
+}
+
+function withFilter(chip) {
+    const at = features[0].findIndex((title) => title.startsWith(chip));
+    const sum = (column) => Number(features[2][column]) + Number(features[3][column]);
+    return at < 0 ? costOf('PID', chip) : [sum(at), sum(at + 1), costOf('PID', chip)[2]];
+}
+
+for (const [fragment, rate, wanted] of [['p=an937', 1000, (chip) => costOf('AN937', chip)], ['p=an964', 256, (chip) => costOf('AN964', chip)],
+    ['p=flow&filter=0', 20, (chip) => costOf('PID, typical', chip)], ['p=flow&filter=3', 20, withFilter]]) {
+    const here = await open(fragment);
+    const rows = await here.locator('#chips tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+    const differ = rows.filter(([chip, ...cells]) => {
+        const [most, flash, ram] = wanted(chip.replace(' *', ''));
+        return cells.map((cell) => Number(cell.replace(/\D/g, ''))).join() !== [most, flash, ram, most * rate].join();
+    });
+    checkNone(`${fragment}: costs on ${rows.length} chips`, rows.length < 7 ? ['too few'] : differ);
+    await here.close();
+}
 
 // --- Recordings -----------------------------------------------------------------
 const noise = random(11);

@@ -7,7 +7,7 @@ module Costs
   BUILDS = %w[object -O2].freeze # what one would take; the others are variants of it
 
   class << self
-    # Rows [controller, chip, worst, bound, flash with init, its unit, RAM each].
+    # Rows [controller, chip, bound, flash with init, its unit, RAM each].
     def steps
       table('docs/cost.md', 'steps').filter_map do |row|
         next unless BUILDS.include?(row['built'])
@@ -15,7 +15,7 @@ module Costs
         number, unit = row['flash of the step'].split
         raise "no unit: #{number}" unless unit
 
-        [row[''], row['chip'], row['worst'].to_i, row['bound'].to_i, row['with init'].to_i, unit, row['RAM each'].to_i]
+        [row[''], row['chip'], row['bound'].to_i, row['with init'].to_i, unit, row['RAM each'].to_i]
       end
     end
 
