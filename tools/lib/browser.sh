@@ -14,7 +14,7 @@ need_browser() {
     mkdir -p "$browser"
     cp "$root/test/browser/package.json" "$root/test/browser/package-lock.json" \
         "$root/test/browser/.npmrc" "$browser/"
-    say "installing playwright-core and axe-core (npm packages)"
+    announce "installing playwright-core and axe-core (npm packages)"
     npm ci --prefix "$browser" --ignore-scripts >"$browser/log" 2>&1 </dev/null ||
         { tail -n 5 "$browser/log" >&2 && die "could not install npm packages"; }
     cp "$browser/package-lock.json" "$browser/installed"

@@ -6,6 +6,14 @@ say() {
     printf '%s: %s\n' "${0##*/}" "$*" >&2
 }
 
+# announce WORDS: what takes long is said also where tools/test keeps a program's
+# messages; its own are descriptor 8.
+announce() {
+    told=2
+    { : >&8; } 2>/dev/null && told=8
+    say "$@" 2>&"$told"
+}
+
 die() {
     say "$@"
     exit 1
@@ -56,7 +64,7 @@ has_package() {
         ;;
     libsimavr-dev) builds '#include <simavr/sim_avr.h>' cc -lsimavr ;;
     gpsim-dev)
-        # Not included: gpsim's headers want glib's, and port/gpsim does not.
+        # Not included: gpsim's headers want glib's, and sim/gpsim does not.
         builds '#if !__has_include(<gpsim/processor.h>)
 #error
 #endif' c++ -lgpsim
@@ -108,7 +116,7 @@ need() {
     elif [ "$(id -u)" -ne 0 ]; then
         die "missing:$missing; not root, so please run: $how"
     fi
-    say "installing$missing (Debian packages)"
+    announce "installing$missing (Debian packages)"
     install_log=$(mktemp)
     # shellcheck disable=SC2086 # a list of package names
     if ! { apt-get update -qq &&
@@ -131,7 +139,7 @@ need_ceedling() {
     where=
     [ "$(id -u)" -eq 0 ] || where=--user-install
     gem="gem install --no-document --conservative $where ceedling -v '>= 1.0.1, < 2'"
-    say "installing ceedling (Ruby gem)"
+    announce "installing ceedling (Ruby gem)"
     if ! printed=$(eval "$gem" 2>&1 </dev/null); then
         printf '%s\n' "$printed" | tail -n 5 >&2
         die "could not install ceedling; is there a network? By hand: $gem"
