@@ -134,7 +134,7 @@ TOYS = ['"andi %0, 1": `andi %0, 1` -> `nop`', '"andi %0, 1": `andi %0, 1` -> `a
         '"andi %0, 1": `andi %0, 1` -> `andi %0, 0`'].map { |break_| "src/avr/toy.h, f: #{break_}" }.freeze
 
 def assembly(excuses, right: '"add', source: TOY)
-  Planted.tree('src/avr/toy.h' => source, 'excuses' => excuses.map { |line| "#{line}\n" }.join) do
+  Planted.tree('include/toy.h' => '', 'src/avr/toy.h' => source, 'excuses' => excuses.map { |line| "#{line}\n" }.join) do
     Planted.run('ruby', '-e', CHIP, right)
   end
 end

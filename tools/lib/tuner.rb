@@ -9,6 +9,8 @@ require_relative 'tuner/modules'
 require_relative 'tuner/names'
 require_relative 'tuner/sources'
 
+Encoding.default_external = 'UTF-8'
+
 folder = ARGV.fetch(0)
 wasm = "#{folder}/tuner.wasm"
 exit 1 unless system(*Sources.wasm(wasm))

@@ -230,6 +230,7 @@ part_chip() {
 }
 
 part_demo() {
+    need cmake cc:gcc :libc6-dev make ruby gnuplot:gnuplot-nox
     count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
@@ -248,7 +249,7 @@ part_docs() {
 
 part_gates() {
     need ruby cc:gcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
-        avr-g++:gcc-avr :avr-libc
+        avr-g++:gcc-avr :avr-libc gpasm:gputils
     need_ceedling
     for gate in parts lint documents memory mutants; do
         count "test/gates/$gate.rb" '^ok ' '^FAILED ' ruby "test/gates/$gate.rb"
