@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The cards below the plots: figures, margins, rules, chips.
 import { CONTROLLER, COSTS, FEATURES, PLANT } from './built.js';
-import { make, table } from './dom.js';
+import { blank, make, table } from './dom.js';
 import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
 import { unitsPerCount } from './metrics.js';
@@ -72,12 +72,7 @@ export function marginFigures(margins) {
 
 // The loop's curve around -1; the circle is Ms 2.
 export function drawNyquist(canvas, margins) {
-    const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    const context = canvas.getContext('2d');
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { context, width, height } = blank(canvas);
     const unit = height / 3.4;
     const [x0, y0] = [width * 0.66, height * 0.42];
     const at = ([re, im]) => [x0 + unit * re, y0 - unit * im];

@@ -4,7 +4,7 @@ import { COUNT, CONTROLLER, LIMIT, PLANT, RESULT, RULE, STATUS, VERSION } from '
 import { adviceOf, notesOf } from './advice.js';
 import { RULES, STATUSES, drawNyquist, figuresOf, fillChips, fillFigures, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
-import { find, make, setText } from './dom.js';
+import { blank, find, make, setText } from './dom.js';
 import { experiment, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
@@ -372,12 +372,7 @@ function showFit() {
 }
 
 function drawFit(canvas, { times, values }, fit) {
-    const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
-    const context = canvas.getContext('2d');
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { context, width, height } = blank(canvas);
     const [low, high] = [Math.min(...values, fit.start), Math.max(...values, fit.start + fit.rise)];
     const x = (t) => 6 + (width - 12) * t / fit.seconds;
     const y = (value) => height - 6 - (height - 12) * (value - low) / (high - low || 1);

@@ -2,6 +2,7 @@
 // The pendulum as a moving picture: the base on its line, the rod, and the
 // twin's rod behind it. Who asked for less motion gets it standing until it is
 // started.
+import { blank } from './dom.js';
 import { color } from './plot.js';
 
 // update(view or null) shows a run, { n, seconds, angle, base, twin }; onTime
@@ -44,13 +45,7 @@ export function createPendulum(place, onTime) {
     }
 
     function draw() {
-        const ratio = window.devicePixelRatio || 1;
-        const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-        canvas.width = Math.round(width * ratio);
-        canvas.height = Math.round(height * ratio);
-        const context = canvas.getContext('2d');
-        context.setTransform(ratio, 0, 0, ratio, 0, 0);
-        context.clearRect(0, 0, width, height);
+        const { context, width, height } = blank(canvas);
         if (run === null) {
             return;
         }

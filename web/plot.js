@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Series over time on canvases that share their time axis: a pane for each, its
 // legend above it with the values where the cursor is, or at the end.
+import { blank } from './dom.js';
 import { digits } from './format.js';
 
 const GUTTER = 56;
@@ -142,15 +143,7 @@ function drawLegend(legend, pane, view, cursor) {
 }
 
 function drawPane(canvas, pane, view, cursor, hasAxis) {
-    const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-        canvas.width = Math.round(width * ratio);
-        canvas.height = Math.round(height * ratio);
-    }
-    const context = canvas.getContext('2d');
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
+    const { context, width, height } = blank(canvas);
     const [low, high] = extremes(pane);
     const bottom = height - (hasAxis ? AXIS : 6);
     const area = { left: GUTTER, right: width - RIGHT, top: 6, bottom };
