@@ -3,16 +3,11 @@
 
 #include <math.h>
 
+#include "params.h"
 #include "plant.h"
-#include "tuner.h"
 
 #define DEGREES_PER_RAD 57.29577951308232
 #define SHOVE_S 0.05
-
-static double param(int which)
-{
-    return tuner_params()[which];
-}
 
 static double step_s(void)
 {

@@ -8,6 +8,7 @@
 #include "fixpid_an964.h"
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
+#include "params.h"
 #include "plant.h"
 #include "scene.h"
 #include "twin.h"
@@ -18,7 +19,6 @@
 #define ERROR_PER_COUNT 4      // of AN937's motor: 1023 counts are its 4000
 #define TIMEOUT_STEPS 32767
 
-static double params[TUNER_PARAMS];
 static double events[TUNER_EVENTS * TUNER_EVENT_SIZE];
 static double results[TUNER_RESULTS];
 static int32_t counts[TUNER_COUNTS][TUNER_STEPS];
@@ -35,11 +35,6 @@ static struct scene twin_scene;
 static struct twin twin;
 static int drift;
 static int twin_drift;
-
-double *tuner_params(void)
-{
-    return params;
-}
 
 double *tuner_events(void)
 {
@@ -64,7 +59,7 @@ double *tuner_values(int series)
 static int steps(void)
 {
     const double wanted =
-        floor((params[PARAM_DURATION] * params[PARAM_RATE]) + 0.5);
+        floor((param(PARAM_DURATION) * param(PARAM_RATE)) + 0.5);
     return (int)fmin(fmax(wanted, 2.0), (double)TUNER_STEPS);
 }
 
@@ -75,7 +70,7 @@ static bool within(double value, double low, double high)
 
 static bool integer_16(int which)
 {
-    return within(params[which], -32768.0, 32767.0);
+    return within(param(which), -32768.0, 32767.0);
 }
 
 // What FIXPID_PID_GAINS takes, of gains that are scaled and not yet rounded.
@@ -93,11 +88,11 @@ static bool legal(double kp, double ki, double kd)
 // The gains of fixpid_pid as FIXPID_PID_GAINS folds and refuses them.
 static bool folded(struct fixpid_pid_gains *gains)
 {
-    const double kp = params[PARAM_KP] * 256.0;
-    const double ki = FIXPID_PID_KI_Q24(params[PARAM_KI], params[PARAM_RATE]);
-    const unsigned filter = (unsigned)params[PARAM_FILTER];
+    const double kp = param(PARAM_KP) * 256.0;
+    const double ki = FIXPID_PID_KI_Q24(param(PARAM_KI), param(PARAM_RATE));
+    const unsigned filter = (unsigned)param(PARAM_FILTER);
     const double kd =
-        FIXPID_PID_KD_Q8(params[PARAM_KD], params[PARAM_RATE], filter);
+        FIXPID_PID_KD_Q8(param(PARAM_KD), param(PARAM_RATE), filter);
 
     results[RESULT_KP] = floor(plant_limit(kp, 0.0, 65535.0) + 0.5);
     results[RESULT_KI] = floor(plant_limit(ki, 0.0, 4294967294.0) + 0.5);
@@ -116,25 +111,25 @@ static bool folded(struct fixpid_pid_gains *gains)
 static bool begin_pid(void)
 {
     struct fixpid_pid_config config = {.options =
-                                           (uint8_t)params[PARAM_OPTIONS]};
-    const double weight = floor((params[PARAM_WEIGHT] * 256.0) + 0.5);
+                                           (uint8_t)param(PARAM_OPTIONS)};
+    const double weight = floor((param(PARAM_WEIGHT) * 256.0) + 0.5);
     const bool on_measurement =
         (config.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
     const bool fits =
         integer_16(PARAM_OUTPUT_MIN) && integer_16(PARAM_OUTPUT_MAX) &&
         integer_16(PARAM_INTEGRAL_MIN) && integer_16(PARAM_INTEGRAL_MAX);
 
-    results[RESULT_OPTIONS] = params[PARAM_OPTIONS];
+    results[RESULT_OPTIONS] = param(PARAM_OPTIONS);
     // A weight of 0 is the option, and 0 in the configuration means 256.
     results[RESULT_WEIGHT] = on_measurement ? 0.0 : weight;
     if (!folded(&config.gains) || !fits ||
         !(on_measurement || within(weight, 1.0, 256.0))) {
         return false;
     }
-    config.output_min = (int16_t)params[PARAM_OUTPUT_MIN];
-    config.output_max = (int16_t)params[PARAM_OUTPUT_MAX];
-    config.integral_min = (int16_t)params[PARAM_INTEGRAL_MIN];
-    config.integral_max = (int16_t)params[PARAM_INTEGRAL_MAX];
+    config.output_min = (int16_t)param(PARAM_OUTPUT_MIN);
+    config.output_max = (int16_t)param(PARAM_OUTPUT_MAX);
+    config.integral_min = (int16_t)param(PARAM_INTEGRAL_MIN);
+    config.integral_max = (int16_t)param(PARAM_INTEGRAL_MAX);
     config.setpoint_weight_q8 = (uint16_t)results[RESULT_WEIGHT];
     return fixpid_pid_init(&pid, &config);
 }
@@ -142,7 +137,7 @@ static bool begin_pid(void)
 static bool notes_gains(double most)
 {
     for (int i = 0; i < 3; i++) {
-        results[RESULT_KP + i] = floor(params[PARAM_KP + i] + 0.5);
+        results[RESULT_KP + i] = floor(param(PARAM_KP + i) + 0.5);
         if (!within(results[RESULT_KP + i], 0.0, most)) {
             return false;
         }
@@ -152,15 +147,15 @@ static bool notes_gains(double most)
 
 static bool begin_an937(void)
 {
-    results[RESULT_FILTER] = params[PARAM_FILTER];
-    if (!notes_gains(255.0) || !within(params[PARAM_FILTER], 1.0, 255.0) ||
-        !within(params[PARAM_INTEGRAL_MAX], 1.0, 65535.0)) {
+    results[RESULT_FILTER] = param(PARAM_FILTER);
+    if (!notes_gains(255.0) || !within(param(PARAM_FILTER), 1.0, 255.0) ||
+        !within(param(PARAM_INTEGRAL_MAX), 1.0, 65535.0)) {
         return false;
     }
     const struct fixpid_an937_config config = {
         (uint8_t)results[RESULT_KP], (uint8_t)results[RESULT_KI],
-        (uint8_t)results[RESULT_KD], (uint16_t)params[PARAM_INTEGRAL_MAX],
-        (uint8_t)params[PARAM_FILTER]};
+        (uint8_t)results[RESULT_KD], (uint16_t)param(PARAM_INTEGRAL_MAX),
+        (uint8_t)param(PARAM_FILTER)};
     return fixpid_an937_init(&an937, &config);
 }
 
@@ -183,7 +178,7 @@ static bool begin(void)
     drift = 0;
     twin_drift = 0;
     results[RESULT_DEAD_S] = scene_dead_s(&scene);
-    switch ((int)params[PARAM_CONTROLLER]) {
+    switch ((int)param(PARAM_CONTROLLER)) {
     case TUNER_AN937:
         return begin_an937();
     case TUNER_AN964:
@@ -195,8 +190,8 @@ static bool begin(void)
 
 static int16_t limited(int32_t output)
 {
-    return (int16_t)fmin(fmax(output, params[PARAM_OUTPUT_MIN]),
-                         params[PARAM_OUTPUT_MAX]);
+    return (int16_t)fmin(fmax(output, param(PARAM_OUTPUT_MIN)),
+                         param(PARAM_OUTPUT_MAX));
 }
 
 // The note's drift offset, which brings a base that runs away back.
@@ -242,7 +237,7 @@ static int16_t step(int i, int16_t setpoint, int16_t measurement)
 {
     int16_t output;
 
-    switch ((int)params[PARAM_CONTROLLER]) {
+    switch ((int)param(PARAM_CONTROLLER)) {
     case TUNER_AN937:
         fixpid_an937_tick(&an937);
         output = limited(fixpid_an937_step(
@@ -268,7 +263,7 @@ static int16_t step(int i, int16_t setpoint, int16_t measurement)
 
 static double step_twin(int16_t setpoint, int16_t measurement)
 {
-    const bool notes_pendulum = params[PARAM_CONTROLLER] == TUNER_AN964;
+    const bool notes_pendulum = param(PARAM_CONTROLLER) == TUNER_AN964;
     double error = (setpoint - measurement) * ERROR_PER_COUNT;
 
     if (notes_pendulum && fallen(measurement)) {
@@ -316,7 +311,7 @@ static void happen(int i, double *setpoint)
     for (int e = 0; e < TUNER_EVENTS; e++) {
         const double *const event = &events[e * TUNER_EVENT_SIZE];
         const int what = (int)event[1];
-        const double due = floor((event[0] * params[PARAM_RATE]) + 0.5);
+        const double due = floor((event[0] * param(PARAM_RATE)) + 0.5);
         if ((what == EVENT_NONE) || ((int)due != i)) {
             continue;
         }
@@ -325,7 +320,7 @@ static void happen(int i, double *setpoint)
         } else if (what == EVENT_LOAD) {
             scene_load(&scene, event[2]);
             scene_load(&twin_scene, event[2]);
-        } else if (params[PARAM_CONTROLLER] == TUNER_PID) {
+        } else if (param(PARAM_CONTROLLER) == TUNER_PID) {
             manual_or_limits(what, event[2], event[3]);
         } else {
             // the notes' controllers have none of these
@@ -353,7 +348,7 @@ static void see(int i)
 int tuner_run(void)
 {
     const int n = steps();
-    double setpoint = params[PARAM_SETPOINT];
+    double setpoint = param(PARAM_SETPOINT);
 
     forget_results();
     if (!begin()) {
@@ -378,15 +373,15 @@ int tuner_run(void)
 
 static bool begin_experiment(void)
 {
-    const unsigned options = (unsigned)params[PARAM_OPTIONS];
+    const unsigned options = (unsigned)param(PARAM_OPTIONS);
     struct fixpid_autotune_config config = {
-        .output_min = (int16_t)params[PARAM_OUTPUT_MIN],
-        .output_max = (int16_t)params[PARAM_OUTPUT_MAX],
+        .output_min = (int16_t)param(PARAM_OUTPUT_MIN),
+        .output_max = (int16_t)param(PARAM_OUTPUT_MAX),
         .measurement_min = -1, // the plant may rest at the converter's end
-        .measurement_max = (int16_t)((1 << (int)params[PARAM_SENSOR_BITS]) - 1),
-        .swing = (uint16_t)params[PARAM_SWING],
+        .measurement_max = (int16_t)((1 << (int)param(PARAM_SENSOR_BITS)) - 1),
+        .swing = (uint16_t)param(PARAM_SWING),
         .timeout_steps = TIMEOUT_STEPS,
-        .cycles = (uint8_t)params[PARAM_CYCLES],
+        .cycles = (uint8_t)param(PARAM_CYCLES),
         .options = (uint8_t)(options & FIXPID_AUTOTUNE_REVERSE),
     };
     config.output_rest = limited(0);
@@ -419,7 +414,7 @@ int tuner_experiment(void)
         return -1;
     }
     scene_begin(&scene);
-    const int16_t r = scene_counts(params[PARAM_SETPOINT]);
+    const int16_t r = scene_counts(param(PARAM_SETPOINT));
     while ((n < TUNER_STEPS) &&
            (fixpid_autotune_status(&autotune) == FIXPID_AUTOTUNE_RUNNING)) {
         const int16_t y = scene_read(&scene);
@@ -443,7 +438,7 @@ int tuner_rule(int rule)
 {
     struct fixpid_pid_config config = {.options = 0};
     const bool has = fixpid_autotune_result(
-        &autotune, (uint8_t)rule, (uint8_t)params[PARAM_ROBUSTNESS], &config);
+        &autotune, (uint8_t)rule, (uint8_t)param(PARAM_ROBUSTNESS), &config);
 
     // A rule without gains leaves zeros.
     results[RESULT_KP] = config.gains.kp_q8;

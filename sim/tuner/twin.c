@@ -4,16 +4,11 @@
 #include <math.h>
 
 #include "fixpid_pid.h"
+#include "params.h"
 #include "plant.h"
-#include "tuner.h"
 
 #define SUM_MAX 30000.0 // FIXPID_AN964_SUM_LIMIT
 #define TERM_MAX 120.0  // FIXPID_AN964_TERM_LIMIT
-
-static double param(int which)
-{
-    return tuner_params()[which];
-}
 
 static double limited(double value)
 {
