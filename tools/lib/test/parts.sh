@@ -213,7 +213,8 @@ part_families() {
 }
 
 part_cost() {
-    need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :libsimavr-dev
+    need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :avr-libc \
+        :libsimavr-dev
     build_gpsim
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
     count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/cost/stacks.rb
