@@ -131,9 +131,10 @@ need() {
     [ -z "$missing" ] || die "installed, and still not usable:$missing"
 }
 
-# The Ceedling gem, in the system's or in the user's own gem folder.
+# The Ceedling gem, in the system's or in the user's own gem folder. It asks for
+# gcc, whatever compiles the tests.
 need_ceedling() {
-    need ruby
+    need ruby gcc :libc6-dev
     PATH=$PATH:$(ruby -e 'print Gem.bindir, ":", Gem.user_dir, "/bin"')
     command -v ceedling >/dev/null 2>&1 && return 0
     where=
