@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a person should know of these settings: what the controller refuses, and
 // where a gain is coarse, the loop has little margin or the sensor ends.
-import { CONTROLLER, LIMIT, PLANT } from './built.js';
+import { CONTROLLER, LIMIT, OPTION, PLANT } from './built.js';
 import { digits, percent, whole } from './format.js';
-import { OPTION } from './header.js';
 import { scaleSeconds } from './margins.js';
 
 const COARSE = 50; // below it a step of the integer is more than 2 %
@@ -23,14 +22,14 @@ function pidRefusals(s, r) {
     const found = [];
     const say = (yes, text) => yes && found.push(text);
     say(s.KP < 0 || s.KI < 0 || s.KD < 0, 'A gain is below 0: turn the sign with “reverse acting”.');
-    say(r.KP > 32767, `kp is above 127.996: scale the sensor or the actuator.`);
+    say(r.KP > LIMIT.KP, `kp is above 127.996: scale the sensor or the actuator.`);
     say(s.KP > 0 && r.KP === 0, 'kp rounds to 0: the smallest is 0.00195.');
-    say(r.KI > 0x7FFF0000, 'ki is above 127.996 per step.');
+    say(r.KI > LIMIT.KI, 'ki is above 127.996 per step.');
     say(s.KI > 0 && r.KI < KI_LEAST, `ki is below 8 / 2²⁴ per step: sample more slowly, or give the actuator more counts.`);
-    say(r.KD > 32255, 'kd times the rate is above 125.996: raise the derivative filter.');
+    say(r.KD > LIMIT.KD, 'kd times the rate is above 125.996: raise the derivative filter.');
     say(s.KD > 0 && r.KD === 0, 'kd rounds to 0 at this rate and filter.');
     say(!(s.FILTER >= 0 && s.FILTER <= 7), 'The derivative filter is 0 to 7.');
-    say(s.WEIGHT * 256 < 0.5 && (s.OPTIONS & OPTION.P_ON_MEASUREMENT) === 0,
+    say(s.WEIGHT * 256 < 0.5 && (s.OPTIONS & OPTION.PROPORTIONAL_ON_MEASUREMENT) === 0,
         'A setpoint weight of 0 is the option “P on the measurement”.');
     say(s.WEIGHT > 1.0019, 'The setpoint weight is at most 1.');
     say(s.OUTPUT_MIN >= s.OUTPUT_MAX, 'The lowest output must be below the highest.');

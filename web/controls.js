@@ -2,6 +2,7 @@
 // The sliders and numbers of the panel. Their ranges follow the plant, so that
 // the middle of each is a sensible value.
 import { CONTROLLER, PLANT } from './built.js';
+import { make } from './dom.js';
 import { digits, short } from './format.js';
 import { countsGain, scaleSeconds } from './margins.js';
 import { presetState } from './state.js';
@@ -160,19 +161,13 @@ function valueOf(range, position) {
     return Number(Math.min(range.high, Math.max(range.low, tidy)).toPrecision(6));
 }
 
-function element(name, more, ...children) {
-    const made = Object.assign(document.createElement(name), more);
-    made.append(...children);
-    return made;
-}
-
 // One control; returns { row, update(state) }. `note` is text beside its label.
 function createControl([key, label, unit, range], id, onInput) {
-    const number = element('input', { type: 'number', id, step: 'any', inputMode: 'decimal' });
-    const slider = element('input', { type: 'range', min: 0, max: POSITIONS, step: 1 });
+    const number = make('input', { type: 'number', id, step: 'any', inputMode: 'decimal' });
+    const slider = make('input', { type: 'range', min: 0, max: POSITIONS, step: 1 });
     slider.setAttribute('aria-label', `${label}, slider`);
-    const note = element('em', {});
-    const name = element('label', { htmlFor: id }, label, ' ', element('small', { textContent: unit }));
+    const note = make('em', {});
+    const name = make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit }));
     let now = null;
     slider.addEventListener('input', () => onInput(key, valueOf(range(now), Number(slider.value))));
     number.addEventListener('input', () => {
@@ -194,7 +189,7 @@ function createControl([key, label, unit, range], id, onInput) {
         slider.style.setProperty('--part', `${Math.min(100, Math.max(0, at / POSITIONS * 100))}%`);
         note.textContent = text;
     }
-    return { key, row: element('div', { className: 'control' }, name, note, slider, number), update };
+    return { key, row: make('div', { className: 'control' }, name, note, slider, number), update };
 }
 
 // Fills the panel; returns update(state, notes), which builds it again only when
@@ -210,8 +205,8 @@ export function createPanel(place, onInput) {
                 controls.push(control);
                 return control.row;
             });
-            const details = element('details', { open: open.get(section.title) ?? section.open },
-                element('summary', { textContent: section.title }), ...rows);
+            const details = make('details', { open: open.get(section.title) ?? section.open },
+                make('summary', { textContent: section.title }), ...rows);
             details.dataset.title = section.title;
             return details;
         }));

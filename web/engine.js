@@ -9,16 +9,14 @@ export async function startEngine() {
     wasm = (await WebAssembly.instantiate(bytes, {})).instance.exports;
 }
 
-const VALUES_OF_EVENT = 4;
-
 // The numbers that the C gets: of the state's parameters and of its events, in
 // their order in time.
 export function sceneOf(state) {
     const params = Object.keys(PARAM).map((name) => Number(state[name]) || 0);
-    const events = new Array(LIMIT.EVENTS * VALUES_OF_EVENT).fill(0);
+    const events = new Array(LIMIT.EVENTS * LIMIT.EVENT_SIZE).fill(0);
     const inTime = [...state.events].sort((a, b) => a.at - b.at);
     inTime.slice(0, LIMIT.EVENTS).forEach((event, i) => {
-        events.splice(i * VALUES_OF_EVENT, VALUES_OF_EVENT, event.at,
+        events.splice(i * LIMIT.EVENT_SIZE, LIMIT.EVENT_SIZE, event.at,
             EVENT[event.what], event.a, event.b ?? 0);
     });
     return { params, events };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A recorded step response as gain, lag and dead time: first by the times at
 // 28.3 and 63.2 %, then by the least sum of squares.
+import { OPTION } from './built.js';
 
 // Lines of two numbers, apart by commas, semicolons, tabs or spaces; others,
 // such as a head, are skipped. { times, values } or null.
@@ -103,7 +104,7 @@ export function stateOfFit(s, fit, step, unit) {
         GAIN: round(gain), T1: round(fit.lag), T2: 0, DEAD: round(fit.dead), START: round(fit.start),
         SENSOR_LOW: low, SENSOR_RANGE: tidy - low, RATE: Math.max(0.01, rate), NOISE: 0,
         DURATION: seconds, SETPOINT: round(fit.start + gain / 2),
-        OPTIONS: gain < 0 ? 0x80 : 0, unit,
+        OPTIONS: gain < 0 ? OPTION.REVERSE : 0, unit,
         KP: round(0.4 * fit.lag / (fit.lag / 10 + fit.dead) * (tidy - low) / 4.095 / Math.abs(gain)),
         KI: round(0.4 / (fit.lag / 10 + fit.dead) * (tidy - low) / 4.095 / Math.abs(gain)),
         KD: 0, FILTER: 0, WEIGHT: 1, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The header for the firmware: the integers that the page has run, as an
 // initialiser that every compiler takes, with their real units beside them.
-import { CONTROLLER, VERSION } from './built.js';
+import { CONTROLLER, FEATURE, LIMIT, OPTION, VERSION } from './built.js';
 import { short } from './format.js';
-
-const HAS = { FILTER: 0x01, WEIGHT: 0x02, REVERSE: 0x04, DERIVATIVE_ON_ERROR: 0x08,
-    FEEDFORWARD: 0x10, MANUAL: 0x20, COARSE_KI: 0x40 };
-export const OPTION = { REVERSE: 0x80, DERIVATIVE_ON_ERROR: 0x40, P_ON_MEASUREMENT: 0x20 };
-const KI_WITHOUT_COARSE = 0x7FFF7F;
 
 // FIXPID_PID_FEATURES of this configuration and of what its scene calls.
 export function featuresOf(s, results) {
@@ -19,9 +14,9 @@ export function featuresOf(s, results) {
         DERIVATIVE_ON_ERROR: (results.OPTIONS & OPTION.DERIVATIVE_ON_ERROR) !== 0,
         FEEDFORWARD: called.has('FEEDFORWARD'),
         MANUAL: called.has('MANUAL') || called.has('AUTO'),
-        COARSE_KI: results.KI > KI_WITHOUT_COARSE,
+        COARSE_KI: results.KI > LIMIT.KI_FINE,
     };
-    return Object.entries(needs).reduce((sum, [name, yes]) => sum + (yes ? HAS[name] : 0), 0);
+    return Object.entries(needs).reduce((sum, [name, yes]) => sum + (yes ? FEATURE[name] : 0), 0);
 }
 
 export function hex(value) {

@@ -2,7 +2,7 @@
 // The sampled loop near its setpoint, in double precision: the plant behind a
 // hold and its dead time, and the controller with the integers that it has.
 // From it the margins, and whether the loop is stable.
-import { CONTROLLER, PLANT } from './built.js';
+import { CONTROLLER, OPTION, PLANT } from './built.js';
 
 // --- Small matrices, as arrays of rows ------------------------------------
 
@@ -200,7 +200,7 @@ export function lawOf(s, results) {
     return {
         kp: results.KP / 256, ki: results.KI / 2 ** 24, kd: results.KD / 256,
         kind: 'filtered', keep: 1 - 2 ** -results.FILTER,
-        sign: (s.OPTIONS & 0x80) !== 0 ? -1 : 1,
+        sign: (s.OPTIONS & OPTION.REVERSE) !== 0 ? -1 : 1,
     };
 }
 
@@ -304,9 +304,8 @@ function peak(at, low, high) {
 }
 
 // { ms, gainMargin, lowerGainMargin, phaseMargin (degrees),
-// delayMargin (seconds of further dead time), stable, curve: the
-// loop's points, scale: the slowest time in steps }. A margin that there is
-// none of is null: no gain makes such a loop swing.
+// delayMargin (seconds of further dead time), stable, curve: the loop's points }.
+// A margin that there is none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
     const plant = sampledPlant(s, results.DEAD_S);
     const law = lawOf(s, results);

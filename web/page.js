@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page: all that it shows follows from the one state, each time anew.
-import { COUNT, CONTROLLER, LIMIT, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
+import { CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
 import { RULES, STATUSES, drawNyquist, figuresOf, fillChips, fillFigures, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
@@ -9,7 +9,7 @@ import { experiment, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
-import { OPTION, headerOf } from './header.js';
+import { headerOf } from './header.js';
 import { isStable, lawOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
@@ -38,7 +38,7 @@ function hasTuner(s) {
 export function gainsOfRule(s, results) {
     const kiFold = (ki) => Math.floor(ki * 16777216 / s.RATE + 0.5);
     const kdFold = (kd) => Math.floor(kd * 256 * s.RATE / 2 ** results.FILTER + 0.5);
-    const kept20 = s.OPTIONS & ~OPTION.P_ON_MEASUREMENT;
+    const kept20 = s.OPTIONS & ~OPTION.PROPORTIONAL_ON_MEASUREMENT;
     return {
         KP: results.KP / 256,
         KI: shortest(results.KI * s.RATE / 16777216, kiFold),
@@ -89,7 +89,7 @@ function panesOf(s, found) {
     const [p, i, d] = TERMS[s.CONTROLLER](s, found.results);
     const measurement = {
         title: s.PLANT === PLANT.PENDULUM ? 'Angle' : 'Measurement', unit: s.unit,
-        leastSpan: 8 * s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1),
+        leastSpan: 8 * unitsPerCount(s),
         series: [
             { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
             { name: compared ? `kept, ${kept.text}` : 'kept', color: 'kept', data: compared ? kept.value : none, seconds: kept?.seconds },
@@ -234,7 +234,7 @@ function showHead(s) {
 }
 
 // Nothing of an earlier state is left where these settings are refused.
-function showRefused(s) {
+function showRefused(s, found) {
     fillFigures(find('#metrics'), []);
     fillFigures(find('#margins'), []);
     find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
@@ -245,13 +245,8 @@ function showRefused(s) {
     find('#save').disabled = true;
     find('#keep').disabled = true;
     pendulum.update(null);
-    plots.show({ panes: panesOf(s, { n: 0, results: { KP: 0 }, series: emptySeries() }), seconds: 1 / s.RATE,
+    plots.show({ panes: panesOf(s, { ...found, n: 0 }), seconds: 1 / s.RATE,
         events: [], duration: s.DURATION });
-}
-
-function emptySeries() {
-    const names = [...Object.keys(COUNT), 'VALUE_TRUE', 'VALUE_TWIN', 'VALUE_TWIN_OUTPUT', 'VALUE_BASE'];
-    return Object.fromEntries(names.map((name) => [name, new Float64Array(0)]));
 }
 
 function showRun(s, found, margins) {
@@ -292,7 +287,7 @@ function show() {
         showRun(s, found, margins);
     } else {
         showTuning(s);
-        showRefused(s);
+        showRefused(s, found);
     }
     setText(find('#said'), '');
 }
@@ -412,7 +407,7 @@ function buildHead() {
         return button;
     }));
     const options = { 'reverse acting': OPTION.REVERSE, 'derivative on the error': OPTION.DERIVATIVE_ON_ERROR,
-        'P on the measurement': OPTION.P_ON_MEASUREMENT };
+        'P on the measurement': OPTION.PROPORTIONAL_ON_MEASUREMENT };
     find('#options').append(...Object.entries(options).map(([text, bit]) => {
         const box = make('input', { type: 'checkbox', value: bit });
         box.addEventListener('change', () => {

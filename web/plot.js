@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Series over time on canvases that share their time axis: a pane for each, its
 // legend above it with the values where the cursor is, or at the end.
-import { blank } from './dom.js';
+import { blank, make } from './dom.js';
 import { digits } from './format.js';
 
 const GUTTER = 56;
@@ -60,14 +60,9 @@ export function createPlots(element, onCursor) {
     function build(panes) {
         element.replaceChildren();
         parts = panes.map((pane, i) => {
-            const figure = document.createElement('figure');
-            figure.className = 'pane';
-            const legend = document.createElement('figcaption');
-            const canvas = document.createElement('canvas');
-            canvas.setAttribute('aria-hidden', 'true');
-            canvas.className = i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}`;
-            figure.append(legend, canvas);
-            element.append(figure);
+            const legend = make('figcaption');
+            const canvas = make('canvas', { 'aria-hidden': 'true', className: i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}` });
+            element.append(make('figure', { className: 'pane' }, legend, canvas));
             canvas.addEventListener('pointermove', (event) => moved(event, canvas));
             canvas.addEventListener('pointerdown', (event) => moved(event, canvas));
             canvas.addEventListener('pointerleave', () => onCursor(null));
@@ -110,7 +105,6 @@ export function createPlots(element, onCursor) {
     }
 
     new ResizeObserver(draw).observe(element);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
     return { element, show, cursorAt, gutter: GUTTER, right: RIGHT };
 }
 
@@ -124,22 +118,14 @@ function valueAt(one, view, cursor) {
 }
 
 function drawLegend(legend, pane, view, cursor) {
-    const title = document.createElement('b');
-    title.textContent = pane.title;
     const entries = pane.series.filter((one) => one.data.length > 0).map((one) => {
-        const entry = document.createElement('span');
-        entry.className = 'entry';
-        const mark = document.createElement('i');
+        const mark = make('i');
         mark.style.borderTopColor = color(one.color);
         mark.style.borderTopStyle = one.dash ? 'dashed' : 'solid';
-        const value = document.createElement('output');
-        value.textContent = digits(valueAt(one, view, cursor), 4);
-        entry.append(mark, `${one.name} `, value);
-        return entry;
+        const value = make('output', { textContent: digits(valueAt(one, view, cursor), 4) });
+        return make('span', { className: 'entry' }, mark, `${one.name} `, value);
     });
-    const unit = document.createElement('small');
-    unit.textContent = pane.unit;
-    legend.replaceChildren(title, unit, ...entries);
+    legend.replaceChildren(make('b', { textContent: pane.title }), make('small', { textContent: pane.unit }), ...entries);
 }
 
 function drawPane(canvas, pane, view, cursor, hasAxis) {

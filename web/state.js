@@ -2,7 +2,7 @@
 // The page's one state, from which everything else follows: the parameters of
 // the C by their names there, and a few of the page's own. A preset is a whole
 // state; a link has what differs from one.
-import { CONTROLLER, EVENT, PARAM, PLANT, RULE } from './built.js';
+import { CONTROLLER, EVENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
 
 const common = {
     CONTROLLER: CONTROLLER.PID, GAIN: 100, T1: 1, T2: 0, DAMPING: 0.3, DEAD: 0, START: 0,
@@ -74,11 +74,12 @@ export function presetState(id) {
 
 const REAL = [-1e6, 1e6];
 const COUNTS = [-32768, 32767];
+const EVERY_OPTION = Object.values(OPTION).reduce((all, bit) => all | bit);
 const BOUNDS = {
     GAIN: REAL, T1: [0, 1e5], T2: [0, 1e5], DAMPING: [0.001, 100], DEAD: [0, 1e5], START: REAL,
     SENSOR_BITS: [6, 15], SENSOR_LOW: REAL, SENSOR_RANGE: [0.001, 1e6], NOISE: [0, 1000],
     OUTPUT_MIN: COUNTS, OUTPUT_MAX: COUNTS, RATE: [0.01, 20000], DURATION: [1e-4, 1e6], SETPOINT: REAL,
-    KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, 0xE0],
+    KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, EVERY_OPTION],
     INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
 };
 const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
@@ -119,7 +120,7 @@ export function withinReason(s) {
     WHOLE.forEach((name) => {
         found[name] = Math.round(found[name]);
     });
-    found.OPTIONS &= 0xE0;
+    found.OPTIONS &= EVERY_OPTION;
     found.events = found.events.map((event) => ({ ...event, at: clamped(event.at, [0, 1e6]),
         a: clamped(event.a ?? 0, REAL), b: clamped(event.b ?? 0, REAL) }));
     return found;
@@ -218,7 +219,7 @@ export function stateOfFragment(fragment) {
         found.rule = pairs.get('rule');
     }
     if (pairs.has('events')) {
-        found.events = pairs.get('events').split('~').map(eventOf).filter(Boolean).slice(0, 16);
+        found.events = pairs.get('events').split('~').map(eventOf).filter(Boolean).slice(0, LIMIT.EVENTS);
     }
     return found;
 }

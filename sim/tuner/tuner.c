@@ -76,10 +76,10 @@ static bool integer_16(int which)
 // What FIXPID_PID_GAINS takes, of gains that are scaled and not yet rounded.
 static bool legal(double kp, double ki, double kd)
 {
-    const bool kp_legal =
-        (kp >= 0.0) && (kp < 32767.5) && FIXPID_PID_COUNTS(kp, kp);
-    const bool kd_legal =
-        (kd >= 0.0) && (kd < 32255.5) && FIXPID_PID_COUNTS(kd, kd);
+    const bool kp_legal = (kp >= 0.0) && ((kp - FIXPID_PID_KP_MAX) < 0.5) &&
+                          FIXPID_PID_COUNTS(kp, kp);
+    const bool kd_legal = (kd >= 0.0) && ((kd - FIXPID_PID_KD_MAX) < 0.5) &&
+                          FIXPID_PID_COUNTS(kd, kd);
     const bool ki_legal =
         ((ki == 0.0) || (ki >= 8.0)) && ((ki - FIXPID_PID_KI_MAX) < 0.5);
     return kp_legal && ki_legal && kd_legal;

@@ -196,11 +196,8 @@ static void process_moves(int steps, double drive)
 
 void test_process_lag_steps_as_an_exponential_after_its_dead_time(void)
 {
-    process.a2 = 0.0;
-    process.a1 = 2.0;
-    process.a0 = 1.0;
-    process.gain = 50.0;
-    process.dead_time_s = 0.35;
+    process = (struct process){
+        .a1 = 2.0, .a0 = 1.0, .gain = 50.0, .dead_time_s = 0.35};
     process_start(&process, 0.1, 2.0);
     assert_near(0.35, process_dead_s(&process), 0.05);
     process.dead_time_s = 0.3;
@@ -215,11 +212,8 @@ void test_process_lag_steps_as_an_exponential_after_its_dead_time(void)
 
 void test_process_oscillates_with_its_damping(void)
 {
-    process.a2 = 0.25; // 2 rad/s
-    process.a1 = 0.2;  // 2 * 0.2 * 0.5
-    process.a0 = 1.0;
-    process.gain = 10.0;
-    process.dead_time_s = 0.0;
+    // 2 rad/s, and a1 is 2 * 0.2 * 0.5.
+    process = (struct process){.a2 = 0.25, .a1 = 0.2, .a0 = 1.0, .gain = 10.0};
     process_start(&process, 0.01, 0.5);
     process_moves(300, 1.0);
 
@@ -233,11 +227,7 @@ void test_process_oscillates_with_its_damping(void)
 
 void test_process_integrates_behind_its_lag(void)
 {
-    process.a2 = 0.5;
-    process.a1 = 1.0;
-    process.a0 = 0.0;
-    process.gain = 4.0;
-    process.dead_time_s = 0.0;
+    process = (struct process){.a2 = 0.5, .a1 = 1.0, .gain = 4.0};
     process_start(&process, 0.05, 0.5);
     process_moves(100, 0.5);
     assert_near(4.0 * 0.5 * (5.0 - (0.5 * (1.0 - exp(-10.0)))),
@@ -246,11 +236,8 @@ void test_process_integrates_behind_its_lag(void)
 
 void test_process_start_forgets_what_was_on_its_way(void)
 {
-    process.a2 = 0.0;
-    process.a1 = 1.0;
-    process.a0 = 1.0;
-    process.gain = 1.0;
-    process.dead_time_s = 1.0;
+    process =
+        (struct process){.a1 = 1.0, .a0 = 1.0, .gain = 1.0, .dead_time_s = 1.0};
     process_start(&process, 0.1, 1.0);
     process_moves(5, 1.0);
     process_start(&process, 0.1, 1.0);

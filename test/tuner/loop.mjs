@@ -117,6 +117,36 @@ for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset 
     checkNone(`rules of ${preset.preset} keep their integers`, found.differ.map((rule) => rule.rule));
 }
 
+// --- The plant ------------------------------------------------------------------
+// The plant behind the margins is the C's: with the outputs of a run it moves as that
+// did. (Without friction, and where a sine is its angle.)
+function plantDistance(preset) {
+    const { tuner } = window;
+    const pendulum = preset.preset === 'an964';
+    const state = { ...preset, events: [], ...(pendulum ? { START: 1, DURATION: 0.5 } : {}),
+        ...(['motor', 'an937'].includes(preset.preset) ? { T2: 0 } : {}) };
+    const { n, results, series } = tuner.run(state);
+    const plant = tuner.sampledPlant(state, results.DEAD_S);
+    const start = state.START * Math.PI / 180;
+    let x = pendulum ? [start, 0, 0, start, 0] : plant.phi.map(() => 0);
+    const rest = pendulum ? 0 : series.VALUE_TRUE[0];
+    const perCount = state.SENSOR_RANGE / (2 ** state.SENSOR_BITS - 1);
+    let [away, most] = [0, 0];
+    for (let i = 0; i < n; i++) {
+        const y = plant.out.reduce((sum, c, k) => sum + c * x[k], 0) * perCount;
+        away = Math.max(away, Math.abs(y - (series.VALUE_TRUE[i] - rest)));
+        most = Math.max(most, Math.abs(series.VALUE_TRUE[i] - rest));
+        const [u, u1] = [series.OUTPUT[i - plant.steps] ?? 0, series.OUTPUT[i - plant.steps - 1] ?? 0];
+        x = plant.phi.map((row, k) => row.reduce((sum, p, j) => sum + p * x[j], 0) + plant.now[k] * u + plant.before[k] * u1);
+    }
+    return away / most;
+}
+
+for (const preset of presets) {
+    const away = await page.evaluate(plantDistance, preset);
+    check(`${preset.preset}: the margins' plant is the simulated one within ${(100 * away).toFixed(3)} %`, away < 0.002);
+}
+
 // --- Margins ------------------------------------------------------------------
 // The gain margin is where the loop in time stops being stable, and so is the
 // dead time that the phase margin stands for; Ms is the largest of the Fourier

@@ -173,7 +173,6 @@ part_consumers() {
 }
 
 part_packages() {
-    need ruby
     count packages '^ok ' '^FAILED ' test/packages/run
 }
 
@@ -203,7 +202,6 @@ part_python() {
 }
 
 part_site() {
-    need ruby mkdocs :mkdocs-material clang wasm-ld:lld
     count 'test/site/run' '^ok ' '^FAILED ' test/site/run
 }
 

@@ -2,19 +2,23 @@
 # frozen_string_literal: true
 
 # The lists of names that the page shares with the C: each enumeration of
-# sim/tuner/tuner.h and those of fixpid_autotune.h that the page shows.
+# sim/tuner/tuner.h, those of fixpid_autotune.h that the page shows, and the bits and
+# the ends of ranges of fixpid_pid.h.
 module Names
   class << self
-    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., RULE: .. }
+    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., RULE: ..,
+    #   OPTION: { REVERSE: 0x80, .. }, FEATURE: .., LIMIT: { STEPS: .., KP: .. } }
     def lists
       header = File.read('sim/tuner/tuner.h')
       tuner = File.read('include/fixpid_autotune.h')
+      pid = File.read('include/fixpid_pid.h')
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_status', 'FIXPID_AUTOTUNE_'),
         RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
-        LIMIT: { STEPS: number(header, 'TUNER_STEPS'), EVENTS: number(header, 'TUNER_EVENTS') } }
+        OPTION: bits(pid[%r{^// Bits of options\.$(.*?)\n\n}m, 1], ''), FEATURE: bits(pid, 'HAS_'),
+        LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid) } }
     end
 
     def version
@@ -30,6 +34,17 @@ module Names
       names = body.gsub(%r{//.*}, '').scan(/\w+/)
       names.each_with_index.select { |name, _| name.start_with?(prefix) }
            .to_h { |name, at| [name.delete_prefix(prefix), at] }
+    end
+
+    # Of the macros FIXPID_PID_ with this beginning.
+    def bits(text, prefix)
+      text.scan(/^#define FIXPID_PID_#{prefix}(\w+) (0x\h+)u/).to_h { |name, value| [name, value.hex] }
+    end
+
+    # The largest gains; that of ki with HAS_COARSE_KI, and without.
+    def gains(pid)
+      ki, fine = pid.scan(/^#define FIXPID_PID_KI_MAX UINT32_C\((0x\h+)\)/).flatten.map(&:hex)
+      { KP: number(pid, 'FIXPID_PID_KP_MAX'), KD: number(pid, 'FIXPID_PID_KD_MAX'), KI: ki, KI_FINE: fine }
     end
 
     def number(text, name)
