@@ -117,6 +117,54 @@ for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset 
     checkNone(`rules of ${preset.preset} keep their integers`, found.differ.map((rule) => rule.rule));
 }
 
+// --- A run --------------------------------------------------------------------
+// What the C has done around the library, done here again from the numbers beside it:
+// the sensor, the error of each note's controller, and the pendulum's drift offset.
+function runFaults(preset) {
+    const { tuner } = window;
+    const state = { ...preset, NOISE: 0 };
+    const { n, results, series } = tuner.run(state);
+    const top = 2 ** state.SENSOR_BITS - 1;
+    const counts = (units) => Math.min(top, Math.max(0, Math.floor((units - state.SENSOR_LOW) / state.SENSOR_RANGE * top + 0.5)));
+    const faults = [];
+    let drift = 0;
+    for (let i = 0; i < n; i++) {
+        const [r, y, p] = [series.SETPOINT[i], series.MEASUREMENT[i], series.P[i]];
+        const wanted = { an937: results.KP * 4 * (r - y), an964: y + Math.trunc(drift / 8) - 512 };
+        if (y !== counts(series.VALUE_TRUE[i])) {
+            faults.push(`step ${i}: ${y} of ${series.VALUE_TRUE[i]}`);
+        }
+        if (p !== (wanted[preset.preset] ?? p)) {
+            faults.push(`step ${i}: P ${p}, not ${wanted[preset.preset]}`);
+        }
+        drift = Math.min(55, Math.max(-55, drift + Math.sign(series.OUTPUT[i])));
+    }
+    return faults;
+}
+
+// The twin rounds nothing; where nothing has to be rounded it is the library itself.
+function twinDistance(state) {
+    const { tuner } = window;
+    const { n, series } = tuner.run(state);
+    const counts = (2 ** state.SENSOR_BITS - 1) / state.SENSOR_RANGE;
+    let most = 0;
+    for (let i = 0; i < n; i++) {
+        most = Math.max(most, Math.abs(series.VALUE_TRUE[i] - series.VALUE_TWIN[i]) * counts);
+    }
+    return most;
+}
+
+const TWINS = { // counts, and what of the scene is another
+    oven: [2], flow: [2], spring: [2], axis: [2], motor: [2], an937: [0],
+    an964: [3, { NOISE: 0, DURATION: 0.5, KI: 16, events: [] }],
+};
+for (const preset of presets) {
+    checkNone(`${preset.preset}: its counts are those of its values`, await page.evaluate(runFaults, preset));
+    const [most, more] = TWINS[preset.preset];
+    const away = await page.evaluate(twinDistance, { ...preset, ...more });
+    check(`${preset.preset}: the twin is ${away.toFixed(3)} counts away`, away <= most, `more than ${most}`);
+}
+
 // --- The plant ------------------------------------------------------------------
 // The plant behind the margins is the C's: with the outputs of a run it moves as that
 // did. (Without friction, and where a sine is its angle.)
