@@ -43,7 +43,7 @@ function replaced(events, at, more) {
     return events.map((event, i) => (i === at ? { ...event, ...more } : event));
 }
 
-// A step of the flag under an arrow key: a hundredth of what is shown.
+// Within what is shown, and round: finer than a hundredth of it.
 function tidyTime(s, seconds) {
     const step = 10 ** Math.floor(Math.log10(s.DURATION) - 2);
     const inside = Math.min(s.DURATION, Math.max(0, seconds));
