@@ -10,9 +10,9 @@ class Fixpid(ConanFile):
     name = "fixpid"
     version = "0.1.0"
     description = "Fixed-point PID controllers with an autotuner, without float, for small chips"
-    homepage = "https://example.org/fixpid"
     license = "MIT"
-    topics = ("pid", "control", "fixed-point", "autotune")
+    topics = ("pid", "control", "fixed-point", "autotune", "motor", "heater")
+    exports_sources = ("CMakeLists.txt", "LICENSE", "fixpid.pc.in", "include/*", "meson.build", "src/*")
     package_type = "static-library"
     languages = "C"
     settings = "os", "compiler", "build_type", "arch"

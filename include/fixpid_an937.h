@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
 // fixpid_an937: the PID controller of Microchip's application note AN937,
 // "Implementing a PID Controller Using a PIC18 MCU".
 //
-//   output = (kp * error + ki * accumulated + kd * delta) / 16      (Equation
-//   4)
+//   output = (kp * error + ki * accumulated + kd * delta) / 16   (Equation 4)
 //
 // error is setpoint - measurement, any int16_t; the note works in -4000..4000.
 // Gains are Q4.4: 16 means 1.0, 255 means 15.9375. The sum is limited to a
@@ -28,16 +28,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "fixpid.h"
-
 FIXPID_C_BEGIN
 
 // Makes a gain of its real value at compile time: FIXPID_AN937_GAIN(6.0) is 96.
 // It rounds to the nearest 1/16; a constant outside 0..15.9375 (after rounding)
 // does not compile. No floating-point code is generated.
 #define FIXPID_AN937_GAIN(gain)                                                \
-    ((uint8_t)FIXPID_CHECKED(((gain)*16.0) + 0.5,                              \
-                             ((gain) >= 0.0) && (((gain)*16.0) < 255.5)))
+    FIXPID_CAST(uint8_t, FIXPID_FOLDED(FIXPID_REAL(gain) * 16.0) +             \
+                             FIXPID_CHECKED(                                   \
+                                 0, (FIXPID_REAL(gain) >= 0.0) &&              \
+                                        ((FIXPID_REAL(gain) * 16.0) < 255.5)))
 
 struct fixpid_an937_config {
     uint8_t kp_q4; // proportional gain x 16; the note's motor: 96
@@ -103,21 +103,39 @@ struct fixpid_an937 {
 // fixpid_an937*.c with -DFIXPID_AN937_OBJECT=name, and define that object at
 // file scope, not static. Calls stay as they are; the pointer is ignored.
 //
-// Sources that disagree about the object or whether it has a place do not link:
-// they call `init` by different names.
+// Sources that disagree about the object or its place do not link: see
+// FIXPID_MARKED.
 #ifdef FIXPID_AN937_PLACE
-#define FIXPID_AN937_NAMED FIXPID_JOINED(FIXPID_AN937_OBJECT, placed)
+#define FIXPID_AN937_NAMED                                                     \
+    FIXPID_JOINED(FIXPID_AN937_OBJECT, FIXPID_PLACE_MARK(FIXPID_AN937_PLACE))
 #else
 #define FIXPID_AN937_NAMED FIXPID_AN937_OBJECT
 #define FIXPID_AN937_PLACE
 #endif
 #ifdef FIXPID_AN937_OBJECT
 extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
-#define fixpid_an937_init                                                      \
-    FIXPID_MARKED(FIXPID_JOINED(fixpid_an937_init, FIXPID_AN937_NAMED))
+#define fixpid_an937_mark FIXPID_JOINED(, FIXPID_AN937_NAMED)
 #else
-#define fixpid_an937_init FIXPID_MARKED(fixpid_an937_init)
+#define fixpid_an937_mark
 #endif
+#define fixpid_an937_init FIXPID_MARKED(an937, init)
+#define fixpid_an937_reset FIXPID_MARKED(an937, reset)
+#define fixpid_an937_set_gains FIXPID_MARKED(an937, set_gains)
+#define fixpid_an937_set_accumulated_error_limit                               \
+    FIXPID_MARKED(an937, set_accumulated_error_limit)
+#define fixpid_an937_set_derivative_period                                     \
+    FIXPID_MARKED(an937, set_derivative_period)
+#define fixpid_an937_tick FIXPID_MARKED(an937, tick)
+#define fixpid_an937_step FIXPID_MARKED(an937, step)
+#define fixpid_an937_step_percent FIXPID_MARKED(an937, step_percent)
+#define fixpid_an937_proportional FIXPID_MARKED(an937, proportional)
+#define fixpid_an937_integral FIXPID_MARKED(an937, integral)
+#define fixpid_an937_derivative FIXPID_MARKED(an937, derivative)
+#define fixpid_an937_accumulated_error FIXPID_MARKED(an937, accumulated_error)
+#define fixpid_an937_stat1 FIXPID_MARKED(an937, stat1)
+#define fixpid_an937_stat2 FIXPID_MARKED(an937, stat2)
+#define fixpid_an937_flags FIXPID_MARKED(an937, flags)
+#define fixpid_an937_clear_flags FIXPID_MARKED(an937, clear_flags)
 
 // Addresses for SDCC, where the application has the room: in a PIC18's access
 // RAM a step is a seventh faster. Compile the application and fixpid_an937*.c
@@ -146,7 +164,9 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self);
 
 // New gains for the next step; every value is legal. The accumulated error does
 // not jump, so the output jumps by the change of ki times it. False, and
-// nothing changed, if the controller was refused.
+// nothing changed, if the controller was refused. They are three numbers and
+// not a struct, because a PIC18 takes 42 cycles for them, and through a pointer
+// would take 130.
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
                             uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4);
 
@@ -185,8 +205,8 @@ int32_t fixpid_an937_proportional(FIXPID_DATA const struct fixpid_an937 *self);
 int32_t fixpid_an937_integral(FIXPID_DATA const struct fixpid_an937 *self);
 int32_t fixpid_an937_derivative(FIXPID_DATA const struct fixpid_an937 *self);
 
-// AN937 a_error, within +-accumulated_error_limit; within the limit before,
-// between a new one and the next tick.
+// AN937 a_error, within +-accumulated_error_limit. A new limit takes effect
+// with the next tick.
 int32_t fixpid_an937_accumulated_error(
     FIXPID_DATA const struct fixpid_an937 *self);
 

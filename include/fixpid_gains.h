@@ -1,11 +1,12 @@
-// SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
 // fixpid_gains: gains of fixpid_pid at run time, from a menu, an EEPROM or a
 // bus, in thousandths, and back for a display. 32-bit integers only: no float.
 //
 // Gains that are known when the program is compiled need none of this:
-// FIXPID_PID_GAINS folds them. Both compute the same, each gain rounded half
-// up, this module exactly. The macros fold in double, where a number that ends
-// in just a half may round the other way.
+// FIXPID_PID_GAINS folds them. Both round each gain half up. This module does
+// so exactly; the macros fold in double, where a number that ends in just a
+// half may round the other way.
 //
 // The unit of time is free as long as ki, kd and the rate have the same one. A
 // slow oven whose ki is 0.0005 per second, half a thousandth, has 0.030 per
@@ -32,6 +33,12 @@ struct fixpid_gains_milli {
     uint32_t ki; // the same per second
     uint32_t kd; // the same times seconds
 };
+
+// Sources that disagree about FIXPID_PID_FEATURES do not link: see
+// FIXPID_MARKED.
+#define fixpid_gains_mark FIXPID_PID_FEATURES_MARK
+#define fixpid_gains_from_milli FIXPID_MARKED(gains, from_milli)
+#define fixpid_gains_to_milli FIXPID_MARKED(gains, to_milli)
 
 // Gains for fixpid_pid_init and fixpid_pid_set_gains, which accept them all.
 // `rate_milli` is in thousandths of steps per second, 1..FIXPID_GAINS_RATE_MAX;

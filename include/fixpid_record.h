@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
 // fixpid_record: a tuning of fixpid_pid as bytes, to keep in an EEPROM or in
 // flash, or to send: a version, the configuration and a check.
 //

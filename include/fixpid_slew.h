@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
 // fixpid_slew: a value that follows a target at limited speed, for the ramp of
 // a setpoint or for an actuator that must not be moved fast.
 //
@@ -28,13 +29,11 @@
 #define FIXPID_SLEW_H
 #include <stdint.h>
 
-#include "fixpid.h"
-
 FIXPID_C_BEGIN
 
-// A rate that is none: the value is at its target after each step. So it is
-// with every rate from 0xFFFF0000 on, which are 65535 counts.
-#define FIXPID_SLEW_NO_LIMIT UINT32_C(0xFFFFFFFF)
+// No rate limit: the value is at its target after each step. Any rate of 65535
+// counts per step (0xFFFF0000) or more has the same effect.
+#define FIXPID_SLEW_NO_LIMIT 0xFFFFFFFFu
 
 // A rate from counts per second and steps per second, folded at compile time
 // and rounded half up; also in a static initialiser. It takes constants only;
@@ -42,13 +41,18 @@ FIXPID_C_BEGIN
 // below 0, one that would round to 0 without being 0, or one that 32 bits do
 // not hold: 65536 counts per step. No floating-point code is generated.
 #define FIXPID_SLEW_RATE(counts_per_second, steps_per_second)                  \
-    ((uint32_t)(((counts_per_second)*65536.0 / (steps_per_second)) + 0.5) +    \
+    (FIXPID_FOLDED(FIXPID_SLEW_Q16(counts_per_second, steps_per_second)) +     \
      FIXPID_CHECKED(                                                           \
-         0, ((counts_per_second) >= 0) && ((steps_per_second) > 0) &&          \
-                (((counts_per_second) == 0) ||                                 \
-                 ((counts_per_second)*65536.0 / (steps_per_second) >= 0.5)) && \
-                ((counts_per_second)*65536.0 / (steps_per_second) <            \
+         0, (FIXPID_REAL(counts_per_second) >= 0.0) &&                         \
+                (FIXPID_REAL(steps_per_second) > 0.0) &&                       \
+                ((FIXPID_REAL(counts_per_second) == 0.0) ||                    \
+                 (FIXPID_SLEW_Q16(counts_per_second, steps_per_second) >=      \
+                  0.5)) &&                                                     \
+                (FIXPID_SLEW_Q16(counts_per_second, steps_per_second) <        \
                  4294967295.5)))
+// This is a part of the macro above, and private.
+#define FIXPID_SLEW_Q16(counts_per_second, steps_per_second)                   \
+    (FIXPID_REAL(counts_per_second) * 65536.0 / FIXPID_REAL(steps_per_second))
 
 // This is private, and open only so that the application can allocate it: 12
 // bytes.
@@ -58,7 +62,13 @@ struct fixpid_slew {
     uint32_t fall_q16;
 };
 
-#define fixpid_slew_init FIXPID_MARKED(fixpid_slew_init)
+#define fixpid_slew_mark
+#define fixpid_slew_init FIXPID_MARKED(slew, init)
+#define fixpid_slew_reset FIXPID_MARKED(slew, reset)
+#define fixpid_slew_set_rates FIXPID_MARKED(slew, set_rates)
+#define fixpid_slew_seed FIXPID_MARKED(slew, seed)
+#define fixpid_slew_step FIXPID_MARKED(slew, step)
+#define fixpid_slew_value FIXPID_MARKED(slew, value)
 
 // The rates upward and downward in counts per step x 65536, any uint32_t each:
 // 0 holds the value in that direction. The value is 0, not the first target: an

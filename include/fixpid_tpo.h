@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: MIT
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
 // fixpid_tpo: time-proportioned output, for what can only be on or off: a
 // relay, a solid-state relay, a solenoid valve.
 //
@@ -14,20 +15,20 @@
 //   relay = fixpid_tpo_step(&tpo, fixpid_pid_step(&pid, setpoint, y));
 // The module has no clock. Integers only, no division.
 //
-// The duty that counts is that of a window's first step. The others are
-// ignored; a change waits for the next window, and who must be off at once
-// calls fixpid_tpo_reset.
+// Only the duty of a window's first step counts. The others are ignored, so a
+// change waits for the next window. To switch off at once, call
+// fixpid_tpo_reset.
 //
 // There is at most one pulse in a window. Each on-time has minimum_on steps or
 // more, each off-time minimum_off, also across windows. A window of duty 0 has
 // no pulse, one of full duty no gap.
 //
-// Choose a window of at most a tenth of the plant's lag, because the duty waits
-// for it like in a dead time, and minimum times that the actuator endures:
-// 3600 / (window in seconds) is the most on-off cycles in an hour. With a
-// window of 1 and no minimum it is a sigma-delta modulator, which has the least
-// ripple and switches most. An actuator that needs a rest after power-up gets
-// steps of duty 0 first.
+// Choose a window of at most a tenth of the plant's lag, because waiting for it
+// acts like a dead time, and minimum times that the actuator endures: 3600 /
+// (window in seconds) is the most on-off cycles in an hour. With a window of 1
+// and no minimum it is a sigma-delta modulator, which has the least ripple and
+// switches most. An actuator that needs a rest after power-up gets steps of
+// duty 0 first.
 //
 // Any number of them work side by side. Functions of one must not interrupt
 // each other; fixpid.h says on which chips those of two must not.
@@ -35,8 +36,6 @@
 #define FIXPID_TPO_H
 #include <stdbool.h>
 #include <stdint.h>
-
-#include "fixpid.h"
 
 FIXPID_C_BEGIN
 
@@ -66,11 +65,14 @@ struct fixpid_tpo {
     uint8_t whole; // this window has no gap
 };
 
-#define fixpid_tpo_init FIXPID_MARKED(fixpid_tpo_init)
+#define fixpid_tpo_mark
+#define fixpid_tpo_init FIXPID_MARKED(tpo, init)
+#define fixpid_tpo_reset FIXPID_MARKED(tpo, reset)
+#define fixpid_tpo_step FIXPID_MARKED(tpo, step)
 
 // Nothing is owed, and the next step begins a window. A value outside its range
 // above is refused: the result is false and every step is off until a good
-// init. An all-zero object is such a one.
+// init. An all-zero object is off, too.
 bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
                      const struct fixpid_tpo_config *config);
 

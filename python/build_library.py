@@ -33,7 +33,9 @@ def preprocessed(*options):
 def declarations():
     macros = re.findall(r"^#define (FIXPID_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
     numbers = [name for name, value in macros if NUMBER.fullmatch(value)]
-    return "".join(f"#define {name} ...\n" for name in sorted(numbers)) + preprocessed()
+    # An inline function is declared like any other.
+    declared = re.sub(r"static inline ([^{]*)\{[^}]*\}", r"\1;", preprocessed())
+    return "".join(f"#define {name} ...\n" for name in sorted(numbers)) + declared
 
 
 def beside(name):
@@ -42,5 +44,5 @@ def beside(name):
 
 ffi = FFI()
 ffi.cdef(declarations())
-ffi.set_source("fixpid._library", TEXT, sources=beside("*.c"), depends=beside("**/*.h") + HEADERS,
+ffi.set_source("fixpid._library", TEXT, sources=beside("*/*.c"), depends=beside("**/*.h") + HEADERS,
                include_dirs=[INCLUDE], extra_compile_args=["-std=c99"])

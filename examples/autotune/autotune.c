@@ -59,7 +59,7 @@ static void start(void)
 // of all, and takes many ticks.
 static void take_result(void)
 {
-    struct fixpid_autotune_model process;
+    struct fixpid_autotune_process process;
 
     if (!fixpid_autotune_model(&tuner, &process)) {
         return;
@@ -70,7 +70,7 @@ static void take_result(void)
     }
 }
 
-static bool experiment_is(enum fixpid_autotune_status status)
+static bool experiment_is(enum fixpid_autotune_state status)
 {
     return fixpid_autotune_status(&tuner) == (uint8_t)status;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A port to fill in: each function with what it promises to port.h. It compiles
-// as it is, and then does nothing; test/port_check/filled/ is one for an
+// as it is, and then does nothing; test/use/port_check/filled/ is one for an
 // imaginary chip, and docs/ports.md has the reasons. On a PC
-//     test/port_check/run FOLDER
+//     test/use/port_check/run FOLDER
 // checks each promise, once fake/ beside your port.c says how your chip
 // behaves: filled/ has an example of that, too.
 //

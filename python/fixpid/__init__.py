@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """fixpid in Python: the C library itself, each step bit for bit.
 
-Each noun is a class with its header's verbs: Pid, An937, An964, An964_8bit, Autotune,
-Relay, Slew and Tpo. What `init` takes in C makes an object here; fields that are left
+Each noun whose header has an `init` is a class with its verbs: Pid, An937, An964_8bit,
+Autotune and so on. What `init` takes in C makes an object here; fields that are left
 out are 0:
 
     pid = fixpid.Pid(gains=fixpid.pid_gains(kp=2, ki=0.5, rate=10), output_max=255)
@@ -68,22 +68,25 @@ class _Noun:
 
     c = None  # the structure, for calls of `fixpid.lib` by hand
 
-    def __init_subclass__(cls, noun, config):
-        cls._noun, cls._config = noun, config
+    def __init_subclass__(cls, noun):
+        wanted = ffi.typeof(getattr(lib, f"fixpid_{noun}_init")).args[1]
+        cls._noun, cls._config = noun, wanted.item.cname[len("struct fixpid_"):] if wanted.kind == "pointer" else None
         own = f"fixpid_{noun}_"
         for name in dir(lib):
             verb = name[len(own):]
             if name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
                 setattr(cls, verb, _verb(getattr(lib, name), name))
 
-    def __init__(self, **config):
+    def __init__(self, *numbers, **config):
         self.c = _new(self._noun, {})
-        self.init(**config)
+        self.init(*numbers, **config)
 
-    def init(self, **config):
-        """Starts anew, as init does in C."""
+    def init(self, *numbers, **config):
+        """Starts anew, as init does in C: with the fields of a configuration, or with numbers."""
         function = getattr(lib, f"fixpid_{self._noun}_init")
-        _accept(function(self.c, _new(self._config, config)), function.__name__)
+        if self._config:
+            numbers = (_new(self._config, config),)
+        _accept(function(self.c, *numbers) is not False, f"what fixpid_{self._noun}_init takes")
 
     def steps(self, *arguments):
         """A step for each element of arrays, which numpy broadcasts: an array of results."""
@@ -95,7 +98,7 @@ class _Noun:
         return flat.reshape(arrays[0].shape)
 
 
-class Pid(_Noun, noun="pid", config="pid_config"):
+class Pid(_Noun, noun="pid"):
     """The general-purpose controller: fixpid_pid.h. Its fields are those of the config."""
 
     def set_gains(self, **gains):
@@ -103,24 +106,12 @@ class Pid(_Noun, noun="pid", config="pid_config"):
         _accept(lib.fixpid_pid_set_gains(self.c, _new("pid_gains", gains)), "set_gains")
 
 
-class An937(_Noun, noun="an937", config="an937_config"):
-    """Microchip's AN937: fixpid_an937.h."""
-
-
-class An964(_Noun, noun="an964", config="an964_gains"):
-    """Microchip's AN964: fixpid_an964.h. Its fields are the gains."""
-
-
-class An964_8bit(_Noun, noun="an964_8bit", config="an964_8bit_gains"):
-    """Microchip's AN964 with 8 bits: fixpid_an964_8bit.h. Its fields are the gains."""
-
-
-class Autotune(_Noun, noun="autotune", config="autotune_config"):
+class Autotune(_Noun, noun="autotune"):
     """Finds gains for Pid on the plant itself: fixpid_autotune.h."""
 
     def model(self):
         """The process that was found, as a dictionary, or None."""
-        model = _new("autotune_model", {})
+        model = _new("autotune_process", {})
         return _fields(model[0]) if lib.fixpid_autotune_model(self.c, model) else None
 
     def result(self, rule, robustness_q4=16, **config):
@@ -131,7 +122,7 @@ class Autotune(_Noun, noun="autotune", config="autotune_config"):
         return _fields(config[0]) if found else None
 
 
-class Relay(_Noun, noun="relay", config="relay_config"):
+class Relay(_Noun, noun="relay"):
     """The same by a shorter experiment: fixpid_relay.h."""
 
     def result(self, rule):
@@ -140,16 +131,24 @@ class Relay(_Noun, noun="relay", config="relay_config"):
         return _fields(gains[0]) if lib.fixpid_relay_result(self.c, rule, gains) else None
 
 
-class Tpo(_Noun, noun="tpo", config="tpo_config"):
-    """Time-proportioned output: fixpid_tpo.h."""
-
-
-class Slew(_Noun, noun="slew", config=None):
+class Slew(_Noun, noun="slew"):
     """A value that follows a target at limited speed: fixpid_slew.h."""
 
     def init(self, rise_q16=0, fall_q16=0):
         """The rates upward and downward, in counts per step x 65536."""
         lib.fixpid_slew_init(self.c, rise_q16, fall_q16)
+
+
+for _name in dir(lib):
+    _noun = _name[len("fixpid_"):-len("_init")]
+    if _name.endswith("_init") and _noun.capitalize() not in globals():
+        globals()[_noun.capitalize()] = type(_noun.capitalize(), (_Noun,),
+                                             {"__doc__": f"fixpid_{_noun}.h."}, noun=_noun)
+
+
+def sat16(value):
+    """A number of 32 bits, limited to -32768..32767: a setpoint or a measurement."""
+    return lib.fixpid_sat16(operator.index(value))
 
 
 def slew_rate(counts_per_second, steps_per_second):

@@ -44,7 +44,7 @@ def compiled(lines, body):
 
 def every_function_has_a_method():
     nouns = {noun._noun: noun for noun in fixpid._Noun.__subclasses__()}
-    modules = "record", "gains"
+    modules = "record", "gains", "sat16"
     lost = []
     for name in (name for name in dir(fixpid.lib) if name.startswith("fixpid_")):
         verbs = [name[len(f"fixpid_{noun}_"):] for noun in nouns
@@ -67,6 +67,7 @@ def steps_are_those_of_step():
 
 
 def what_does_not_fit_is_refused():
+    assert (fixpid.sat16(60000), fixpid.sat16(-60000), fixpid.sat16(5)) == (32767, -32768, 5)
     pid = fixpid.Pid(**CONFIG)
     assert refuses(TypeError, pid.step, 1.0, 0)
     assert refuses(TypeError, pid.step, numpy.float32(1), 0)
@@ -89,7 +90,7 @@ def records_come_back():
 
 def relay_finds_gains():
     """On an integrator with a dead time of 5 steps."""
-    relay = fixpid.Relay(output_low=-100, output_high=100, measurement_min=-32768,
+    relay = fixpid.Relay(output_min=-100, output_max=100, measurement_min=-32768,
                          measurement_max=32767, hysteresis=10, timeout_steps=500, cycles=2)
     level, line = 0, [0] * 5
     for _ in range(1000):

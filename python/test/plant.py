@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The plant of the recorded experiments, in integers: test/autotune/autotune_plant.c."""
+"""The plant of the recorded experiments, in integers: test/model/autotune/autotune_plant.c."""
 MASK = 0xFFFFFFFF
 INTEGRAL_MAX = 1 << 47
 

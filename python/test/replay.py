@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Replays the recorded rows of test/vectors/ through the package: replay.py FOLDER.
+"""Replays the recorded rows of test/support/vectors/ through the package: replay.py FOLDER.
 
 Prints `ok NAME: N rows` or `FAILED NAME` with the rows that differ.
 """

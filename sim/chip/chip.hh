@@ -7,7 +7,7 @@
 // second one is refused. Everything is deterministic; time is instruction
 // cycles. What gpsim models wrongly is corrected here where that is possible
 // (TBLRD's cycles, the converter's rounding) and reported by lint() where it is
-// not; test/target/simulator/ holds gpsim to exactly these defects.
+// not; test/chips/target/simulator/ holds gpsim to exactly these defects.
 //
 // An action runs between two instructions or inside one; it may read, write,
 // drive pins and stop the run, but not run the chip.

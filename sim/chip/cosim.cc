@@ -78,16 +78,13 @@ class Cosimulation
     Cosimulation();
     int run();
 
-    // What a fault does, where it needs the chip.
-    unsigned object_bits() const;
+  private:
+    void look();
+    void obey(const fault_order &order);
     void flip(unsigned bit);
-    void reset(double seconds, bool with_random_ram, double share);
     void hang();
     void stop_timer();
     void shift_ticks(double ticks);
-
-  private:
-    void look();
     void take_drive();
     bool goes_on();
     void set_tick(bool enabled);
@@ -130,8 +127,6 @@ class Cosimulation
     double ticks_ahead = 0.0;
     uint64_t masked_until = 0; // the tick's interrupt; 0: it is not masked
 };
-
-Cosimulation *cosimulation = nullptr; // for what faults.h calls
 
 // Where the tick's interrupt is enabled: TMR1IE of a PIC16, CCP2IE of a PIC18,
 // OCIE0A of an AVR.
@@ -321,28 +316,40 @@ void Cosimulation::look()
         set_tick(true);
         masked_until = 0;
     }
-    faults_watch(drive_counts, drive_counts);
+    obey(faults_watch(drive_counts, drive_counts));
     looking = false;
 }
 
-unsigned Cosimulation::object_bits() const
+void Cosimulation::obey(const fault_order &order)
 {
-    return (unsigned)(8 * probe_objects[0].size);
+    switch (order.deed) {
+    case FAULT_FLIP_BIT:
+        flip(order.bit);
+        break;
+    case FAULT_RESET_CHIP: // at an instruction boundary within the next pass
+        wanted = Wanted::reset;
+        dark_s = order.seconds;
+        random_ram = order.random_ram;
+        share_of_pass = order.share;
+        break;
+    case FAULT_HANG_LOOP: // its own watchdog ends it
+        hang();
+        break;
+    case FAULT_STOP_TIMER:
+        stop_timer();
+        break;
+    case FAULT_SHIFT_TICKS:
+        shift_ticks(order.ticks);
+        break;
+    default:
+        break;
+    }
 }
 
 void Cosimulation::flip(unsigned bit)
 {
     const unsigned address = objects[0] + bit / 8;
     chip.poke(address, chip.peek(address) ^ (1u << (bit % 8)));
-}
-
-// At an instruction boundary within the next pass.
-void Cosimulation::reset(double seconds, bool with_random_ram, double share)
-{
-    wanted = Wanted::reset;
-    dark_s = seconds;
-    random_ram = with_random_ram;
-    share_of_pass = share;
 }
 
 void Cosimulation::hang()
@@ -561,16 +568,6 @@ int Cosimulation::run()
     return EXIT_SUCCESS;
 }
 
-const fault_chip broken_chip = {
-    [] { return cosimulation->object_bits(); },
-    [](unsigned bit) { cosimulation->flip(bit); },
-    [](double seconds, bool with_random_ram, double share) {
-        cosimulation->reset(seconds, with_random_ram, share);
-    },
-    [](double) { cosimulation->hang(); }, // its own watchdog ends it
-    [] { cosimulation->stop_timer(); },
-    [](double ticks) { cosimulation->shift_ticks(ticks); }};
-
 constexpr int exit_wrong_use = 2;
 
 // FIRMWARE --faults NAME FIRST COUNT [KIND]
@@ -582,7 +579,7 @@ int break_loop(const std::vector<std::string> &words)
         return exit_wrong_use;
     }
     faulty = true;
-    faults_plan(words[0].c_str(), &broken_chip,
+    faults_plan(words[0].c_str(), (unsigned)(8 * probe_objects[0].size),
                 std::strtol(words[1].c_str(), nullptr, 10),
                 std::strtol(words[2].c_str(), nullptr, 10), kind);
     faults_heading();
@@ -645,7 +642,6 @@ int application_main(void)
 {
     try {
         Cosimulation one;
-        cosimulation = &one;
         return one.run();
     } catch (const ChipError &error) {
         (void)std::fprintf(stderr, "%s\n", error.what());

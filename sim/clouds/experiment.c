@@ -13,8 +13,8 @@
 static void start_relay(struct experiment *self, const struct task *task)
 {
     const struct fixpid_relay_config config = {
-        .output_low = 0,
-        .output_high = (int16_t)task->output_max,
+        .output_min = 0,
+        .output_max = (int16_t)task->output_max,
         .output_rest = 0,
         .measurement_min = 0,
         .measurement_max = (int16_t)task->sensor_max,

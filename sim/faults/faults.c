@@ -30,7 +30,7 @@ static const char *const kind_names[FAULT_KINDS] = {
 
 static struct plan {
     const char *name;
-    const struct fault_chip *chip;
+    unsigned object_bits;
     long first;
     long count;
     int kind;
@@ -108,10 +108,10 @@ static size_t column(const char *name)
     exit(EXIT_FAILURE);
 }
 
-void faults_plan(const char *name, const struct fault_chip *chip, long first,
-                 long count, int kind)
+void faults_plan(const char *name, unsigned object_bits, long first, long count,
+                 int kind)
 {
-    plan = (struct plan){name, chip, first, count, kind};
+    plan = (struct plan){name, object_bits, first, count, kind};
     value_at = column(fault_loop.value);
     target_at =
         (fault_loop.target != NULL) ? column(fault_loop.target) : value_at;
@@ -186,7 +186,7 @@ static void draw_kind(long turn)
     case FAULT_DEAD_TIMER:
         break; // nothing else to choose
     case FAULT_FLIP:
-        fault.bit = (unsigned)(turn % (long)plan.chip->object_bits());
+        fault.bit = (unsigned)(turn % (long)plan.object_bits);
         break;
     case FAULT_RESET:
         // Each of the places once, in an order that spreads the first ones.
@@ -274,10 +274,11 @@ static void report(const char *how)
 
 // ---- Breaking and mending ----
 
-static void hang(void)
+static struct fault_order hang(void)
 {
     seen.hung_s = world_time_s();
-    plan.chip->hang(fault.value);
+    return (struct fault_order){.deed = FAULT_HANG_LOOP,
+                                .seconds = fault.value};
 }
 
 static void break_input(void)
@@ -292,42 +293,55 @@ static void break_input(void)
     }
 }
 
-static void strike(void)
+static struct fault_order strike(void)
 {
+    struct fault_order order = {.deed = FAULT_GO_ON};
+
     seen.struck = true;
     seen.ticks_seen = floor(world_time_s() / TICK_S);
     break_input();
     switch (fault.kind) {
     case FAULT_FLIP:
-        plan.chip->flip(fault.bit);
+        order.deed = FAULT_FLIP_BIT;
+        order.bit = fault.bit;
         break;
     case FAULT_RESET:
         seen.resets++;
-        plan.chip->reset(RESET_S, false, fault.value);
+        order.deed = FAULT_RESET_CHIP;
+        order.seconds = RESET_S;
+        order.share = fault.value;
         break;
     case FAULT_BROWN_OUT:
         seen.resets++;
-        plan.chip->reset(fault.value, true, 0.0);
+        order.deed = FAULT_RESET_CHIP;
+        order.seconds = fault.value;
+        order.random_ram = true;
         break;
     case FAULT_HANG:
     case FAULT_HANGS:
-        hang();
+        order = hang();
         break;
     case FAULT_DEAD_TIMER:
         seen.hung_s = world_time_s();
-        plan.chip->stop_timer();
+        order.deed = FAULT_STOP_TIMER;
         break;
     default:
         break;
     }
+    return order;
+}
+
+static struct fault_order shift_ticks(double ticks)
+{
+    return (struct fault_order){.deed = FAULT_SHIFT_TICKS, .ticks = ticks};
 }
 
 // Once in each tick, as long as the fault lasts.
-static void shake_ticks(void)
+static struct fault_order shake_ticks(struct fault_order order)
 {
     const double ticks = floor(world_time_s() / TICK_S);
     if ((fault.kind < FAULT_TICKS_LOST) || (ticks <= seen.ticks_seen)) {
-        return;
+        return order;
     }
     seen.ticks_seen = ticks;
     if (fault.kind == FAULT_TICKS_LATE) {
@@ -337,16 +351,14 @@ static void shake_ticks(void)
     } else {
         // this tick is as it should be
     }
-    plan.chip->shift_ticks(seen.ticks_ahead);
+    return shift_ticks(seen.ticks_ahead);
 }
 
-static void mend(void)
+static struct fault_order mend(struct fault_order order)
 {
     seen.mended = true;
     world_break_input(fault.channel, WORLD_WHOLE, 0.0);
-    if (fault.kind == FAULT_TICKS_LATE) {
-        plan.chip->shift_ticks(0.0);
-    }
+    return (fault.kind == FAULT_TICKS_LATE) ? shift_ticks(0.0) : order;
 }
 
 void faults_was_reset(void)
@@ -449,32 +461,34 @@ static bool over(double now_s)
     return quiet || (now_s > (until_s + fault_loop.watch_s));
 }
 
-// What the fault does at this moment; it may not return.
-static void act(double now_s)
+// What the fault does at this moment: one thing at most, by its kind.
+static struct fault_order act(double now_s)
 {
+    struct fault_order order = {.deed = FAULT_GO_ON};
     if (!seen.struck && (now_s >= fault.at_s)) {
-        strike();
+        order = strike();
     }
     if (seen.struck && !seen.mended) {
         if (now_s < (fault.at_s + fault.for_s)) {
-            shake_ticks();
+            order = shake_ticks(order);
         } else {
-            mend();
+            order = mend(order);
         }
     }
     if ((seen.next_hang_s > 0.0) && (now_s >= seen.next_hang_s)) {
         seen.hangs_left--;
         seen.next_hang_s = 0.0;
-        hang();
+        order = hang();
     }
+    return order;
 }
 
-void faults_watch(int drive, int asked)
+struct fault_order faults_watch(int drive, int asked)
 {
     const double now_s = world_time_s();
     if (!seen.begun) {
         if (now_s < fault_loop.start_s) {
-            return;
+            return (struct fault_order){.deed = FAULT_GO_ON};
         }
         copy_for_each();
     }
@@ -484,5 +498,5 @@ void faults_watch(int drive, int asked)
         report(end());
         _exit(EXIT_SUCCESS);
     }
-    act(now_s);
+    return act(now_s);
 }

@@ -63,21 +63,30 @@ struct fault_loop {
 // Bound by the linker: loop_*.c.
 extern const struct fault_loop fault_loop;
 
-// What the program can do to the chip that it simulates. `reset` and `hang`
-// need not return.
-struct fault_chip {
-    unsigned (*object_bits)(void);
-    void (*flip)(unsigned bit);
-    void (*reset)(double dark_s, bool random_ram, double share);
-    void (*hang)(double watchdog_s);
-    void (*stop_timer)(void);
-    void (*shift_ticks)(double ticks); // the same as host_shift_ticks
+// What the program does to the chip that it simulates, before time goes on.
+enum fault_deed {
+    FAULT_GO_ON,
+    FAULT_FLIP_BIT,
+    FAULT_RESET_CHIP, // without drive for `seconds`
+    FAULT_HANG_LOOP,  // until the watchdog comes, typically after `seconds`
+    FAULT_STOP_TIMER,
+    FAULT_SHIFT_TICKS // the same as host_shift_ticks
 };
 
-// The faults with these numbers will be tried; each number is a fault by
-// itself, kinds by turns or only one of them (FAULT_KINDS: all).
-void faults_plan(const char *name, const struct fault_chip *chip, long first,
-                 long count, int kind);
+struct fault_order {
+    enum fault_deed deed;
+    unsigned bit; // of the object
+    double seconds;
+    double share; // of a pass of the loop, after which a reset comes
+    double ticks;
+    bool random_ram;
+};
+
+// The faults with these numbers will be tried on an object of so many bits;
+// each number is a fault by itself, kinds by turns or only one of them
+// (FAULT_KINDS: all).
+void faults_plan(const char *name, unsigned object_bits, long first, long count,
+                 int kind);
 
 // False: there is no such kind.
 bool faults_kind(const char *name, int *kind);
@@ -85,11 +94,12 @@ bool faults_kind(const char *name, int *kind);
 void faults_heading(void);
 
 // To be called whenever time has passed, at least four times a tick: `drive` is
-// what the pins command and `asked` what the application wanted. Does not
-// return when the last fault has been watched.
-void faults_watch(int drive, int asked);
+// what the pins command and `asked` what the application wanted. Returns what
+// is to be done to the chip, and not at all when the last fault has been
+// watched.
+struct fault_order faults_watch(int drive, int asked);
 
-// To be called after a reset that `reset` has not been asked for.
+// To be called after a reset that was not ordered.
 void faults_was_reset(void);
 
 // A random number of 32 bits.

@@ -58,19 +58,18 @@ static void load(const char *path)
     object = found(TEXT(HOST_PROBE_OBJECT));
 }
 
-static unsigned object_bits(void)
-{
-    return (unsigned)(object_size * 8u);
-}
-
 static void flip(unsigned bit)
 {
     object[bit / 8u] ^= (unsigned char)(1u << (bit % 8u));
 }
 
+static void obey(const struct fault_order *order);
+
 static void look(void)
 {
-    faults_watch(host_drive_counts(), host_drive_asked());
+    const struct fault_order order =
+        faults_watch(host_drive_counts(), host_drive_asked());
+    obey(&order);
 }
 
 // Lets time pass in which no instruction is executed.
@@ -86,10 +85,8 @@ static void stand_still(double seconds)
 static bool random_ram;
 static double dark_s;
 
-// The host's application takes no time between two calls of the port.
-static void reset(double seconds, bool random, double share)
+static void reset(double seconds, bool random)
 {
-    (void)share;
     host_reset();
     timer_dead = false;
     random_ram = random;
@@ -103,13 +100,38 @@ static void hang(double watchdog_s)
     host_reset();
     look(); // the drive is off
     faults_was_reset();
-    reset(START_UP_S, false, 0.0);
+    reset(START_UP_S, false);
 }
 
 static void stop_timer(void)
 {
     timer_dead = true;
     dead_since_s = world_time_s();
+}
+
+// The host's application takes no time between two calls of the port, so that a
+// share of its pass means nothing. A reset and a hang do not return.
+static void obey(const struct fault_order *order)
+{
+    switch (order->deed) {
+    case FAULT_FLIP_BIT:
+        flip(order->bit);
+        break;
+    case FAULT_RESET_CHIP:
+        reset(order->seconds, order->random_ram);
+        break;
+    case FAULT_HANG_LOOP:
+        hang(order->seconds);
+        break;
+    case FAULT_STOP_TIMER:
+        stop_timer();
+        break;
+    case FAULT_SHIFT_TICKS:
+        host_shift_ticks(order->ticks);
+        break;
+    default:
+        break;
+    }
 }
 
 static void watch(void)
@@ -122,7 +144,7 @@ static void watch(void)
         host_reset();
         look();
         faults_was_reset();
-        reset(START_UP_S, false, 0.0);
+        reset(START_UP_S, false);
     }
 }
 
@@ -156,8 +178,6 @@ static void run(const char *path)
 // PROGRAM APPLICATION.so FIRST COUNT [KIND]
 int main(int count, char **arguments)
 {
-    static const struct fault_chip chip = {
-        object_bits, flip, reset, hang, stop_timer, host_shift_ticks};
     int kind = (int)FAULT_KINDS;
 
     if ((count < 4) || ((count > 4) && !faults_kind(arguments[4], &kind))) {
@@ -168,8 +188,9 @@ int main(int count, char **arguments)
                       arguments[0]);
         return EXIT_WRONG_USE;
     }
-    faults_plan(TEXT(FAULTS_NAME), &chip, strtol(arguments[2], NULL, 10),
-                strtol(arguments[3], NULL, 10), kind);
+    faults_plan(TEXT(FAULTS_NAME), (unsigned)(object_size * 8u),
+                strtol(arguments[2], NULL, 10), strtol(arguments[3], NULL, 10),
+                kind);
     faults_heading();
     run(arguments[1]);
     return EXIT_FAILURE; // the copies end by themselves

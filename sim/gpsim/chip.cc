@@ -89,6 +89,7 @@ struct Chip::Implementation {
 
     Register *reg(unsigned address) const;
     gpsimObject *find(const std::string &name) const;
+    instruction *routine(const std::string &name) const;
     unsigned code_bytes() const;
     Watched *watch(unsigned address);
     Stimulus_Node *node(const std::string &pin);
@@ -471,9 +472,33 @@ unsigned Chip::data(const std::string &name) const
     return found->getAddress();
 }
 
+// A function of the library may have a mark behind its name: FIXPID_MARKED in
+// include/fixpid.h. Of several, such as step and step_percent, the shortest is
+// it. (gpsim calls a plain function for each symbol.)
+instruction *Chip::Implementation::routine(const std::string &name) const
+{
+    static std::string wanted;
+    static std::string shortest;
+
+    if (auto *const found = dynamic_cast<instruction *>(find(name))) {
+        return found;
+    }
+    wanted = "_" + name + "_";
+    shortest.clear();
+    processor->getSymbolTable().ForEachSymbolTable(
+        [](const SymbolEntry_t &symbol) {
+            if ((symbol.first.compare(0, wanted.size(), wanted) == 0) &&
+                (dynamic_cast<instruction *>(symbol.second) != nullptr) &&
+                (shortest.empty() || (symbol.first.size() < shortest.size()))) {
+                shortest = symbol.first;
+            }
+        });
+    return dynamic_cast<instruction *>(processor->findSymbol(shortest));
+}
+
 unsigned Chip::code(const std::string &name) const
 {
-    auto *const found = dynamic_cast<instruction *>(self->find(name));
+    instruction *const found = self->routine(name);
     if (found == nullptr) {
         throw ChipError("the firmware has no routine " + name);
     }

@@ -117,7 +117,7 @@ static void print_loop(const struct subject *subject,
 // What the experiment found out, 0 where the plant integrates.
 static void print_process(const struct tuned *tuned)
 {
-    struct fixpid_autotune_model model = {.gain_q8 = 0};
+    struct fixpid_autotune_process model = {.gain_q8 = 0};
     const bool found = fixpid_autotune_model(&tuned->tuner, &model);
     const bool lag = found && model.lag_q4 != FIXPID_AUTOTUNE_INTEGRATING;
 

@@ -306,8 +306,20 @@ void Chip::Implementation::one()
 uint32_t Chip::Implementation::symbol(const std::string &wanted,
                                       bool data) const
 {
-    const auto found = symbols.find(wanted);
+    auto found = symbols.find(wanted);
 
+    // A function of the library may have a mark behind its name: FIXPID_MARKED
+    // in include/fixpid.h. Of several, such as step and step_percent, the
+    // shortest is it.
+    if (found == symbols.end() && !data) {
+        for (auto at = symbols.begin(); at != symbols.end(); at++) {
+            if (at->first.compare(0, wanted.size() + 1, wanted + "_") == 0 &&
+                (found == symbols.end() ||
+                 at->first.size() < found->first.size())) {
+                found = at;
+            }
+        }
+    }
     if (found == symbols.end() || (found->second >= data_offset) != data) {
         throw ChipError(std::string(data ? "no variable " : "no routine ") +
                         wanted);

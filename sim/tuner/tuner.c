@@ -390,7 +390,7 @@ static bool begin_experiment(void)
 
 static void tell_experiment(void)
 {
-    struct fixpid_autotune_model model;
+    struct fixpid_autotune_process model;
 
     results[RESULT_STATUS] = fixpid_autotune_status(&autotune);
     if (fixpid_autotune_model(&autotune, &model)) {

@@ -6,7 +6,8 @@
 //
 // The caller fills tuner_params and tuner_events and calls tuner_run or
 // tuner_experiment; what comes of it is in tuner_counts, tuner_values and
-// tuner_results. tools/lib/tuner.rb reads the lists of names for the page.
+// tuner_results. tools/lib/pages/tuner.rb reads the lists of names for the
+// page.
 #ifndef TUNER_H
 #define TUNER_H
 #include <stdint.h>

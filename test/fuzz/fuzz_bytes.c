@@ -167,7 +167,7 @@ static void relay_steps(void)
 
 static void autotune_steps(void)
 {
-    struct fixpid_autotune_model model;
+    struct fixpid_autotune_process model;
     struct fixpid_pid_config config = {.output_max = 1};
 
     spoil(&autotune, sizeof autotune);

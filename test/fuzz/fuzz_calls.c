@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What stands beside a controller against its definition: the calls of
-// test/beside, which the input chooses.
+// test/chips/modules, which the input chooses.
 #include <stdio.h>
 #include <stdlib.h>
 

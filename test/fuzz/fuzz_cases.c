@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A controller, FUZZ_CONTROLLER, against its definition: an input is a sequence
-// of questions (test/target/exchange.h), of which one in four is raw bytes. The
-// first one initialises, in an object of other bytes.
+// of questions (test/chips/target/exchange.h), of which one in four is raw
+// bytes. The first one initialises, in an object of other bytes.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,15 +3,15 @@
 // complement (wide) and in sign-magnitude (narrow).
 #include "prove.h"
 
+#include "an937/fixpid_an937_arith.h"
 #include "fixpid_an937.h"
-#include "fixpid_an937_arith.h"
 
 struct fixpid_an937 c; // of any bytes, where a proof begins
 struct fixpid_an937 nondet_an937(void);
 struct fixpid_an937_config nondet_an937_config(void);
 
-#include "fixpid_an937.c"
-#include "fixpid_an937_more.c"
+#include "an937/fixpid_an937.c"
+#include "an937/fixpid_an937_more.c"
 
 #define SUM_MAX 0xFFFFFF
 #define TERM_MAX 16711425 // 255 * 65535

@@ -2,15 +2,15 @@
 // fixpid_an964 against the equations of its header.
 #include "prove.h"
 
+#include "an964/fixpid_an964_arith.h"
 #include "fixpid_an964.h"
-#include "fixpid_an964_arith.h"
 
 struct fixpid_an964 c; // of any bytes, where a proof begins
 struct fixpid_an964 nondet_an964(void);
 struct fixpid_an964_gains nondet_an964_gains(void);
 
-#include "fixpid_an964.c"
-#include "fixpid_an964_more.c"
+#include "an964/fixpid_an964.c"
+#include "an964/fixpid_an964_more.c"
 
 #define GAIN_MAX 1023
 #define ERROR_MAX 1023

@@ -2,15 +2,15 @@
 // fixpid_an964_8bit against the equations of its header.
 #include "prove.h"
 
+#include "an964_8bit/fixpid_an964_8bit_arith.h"
 #include "fixpid_an964_8bit.h"
-#include "fixpid_an964_8bit_arith.h"
 
 struct fixpid_an964_8bit c; // of any bytes, where a proof begins
 struct fixpid_an964_8bit nondet_an964_8bit(void);
 struct fixpid_an964_8bit_gains nondet_an964_8bit_gains(void);
 
-#include "fixpid_an964_8bit.c"
-#include "fixpid_an964_8bit_more.c"
+#include "an964_8bit/fixpid_an964_8bit.c"
+#include "an964_8bit/fixpid_an964_8bit_more.c"
 
 #define GAIN_MAX 127
 #define SUM FIXPID_AN964_8BIT_SUM_LIMIT

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // fixpid_autotune: its step is total, its output within its range, and what is
 // final stays so. The experiment itself is compared with a model by
-// test/autotune; its result is more arithmetic than a solver takes.
+// test/model/autotune; its result is more arithmetic than a solver takes.
 #include "prove.h"
 
 #include "fixpid_autotune.h"
@@ -10,8 +10,8 @@ struct fixpid_autotune c; // of any bytes, where a proof begins
 struct fixpid_autotune nondet_autotune(void);
 struct fixpid_autotune_config nondet_autotune_config(void);
 
-#include "fixpid_autotune.c"
-#include "fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune.c"
+#include "autotune/fixpid_autotune_cycle.c"
 
 static bool legal_config(const struct fixpid_autotune_config *k)
 {

@@ -8,7 +8,7 @@
 struct fixpid_gains_milli nondet_milli(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
 
-#include "fixpid_gains.c"
+#include "gains/fixpid_gains.c"
 
 static bool legal_rate(number rate_milli)
 {

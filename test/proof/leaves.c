@@ -13,10 +13,10 @@
 #define INT_MAX 32767
 #endif
 
-#include "fixpid_an937_arith.h"
-#include "fixpid_an964_8bit_arith.h"
-#include "fixpid_an964_arith.h"
-#include "fixpid_pid_arith.h"
+#include "an937/fixpid_an937_arith.h"
+#include "an964/fixpid_an964_arith.h"
+#include "an964_8bit/fixpid_an964_8bit_arith.h"
+#include "common/fixpid_signed.h"
 
 static uint64_t cases;
 

@@ -6,16 +6,16 @@
 #include "prove.h"
 
 #include "fixpid_pid.h"
-#include "fixpid_pid_private.h"
+#include "pid/fixpid_pid_private.h"
 
 struct fixpid_pid c; // of any bytes, where a proof begins
 struct fixpid_pid nondet_pid(void);
 struct fixpid_pid_config nondet_pid_config(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
 
-#include "fixpid_pid.c"
-#include "fixpid_pid_more.c"
-#include "fixpid_pid_track.c"
+#include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_more.c"
+#include "pid/fixpid_pid_track.c"
 
 struct signals nondet_signals(void);
 

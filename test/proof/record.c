@@ -9,7 +9,7 @@
 struct fixpid_record nondet_record(void);
 struct fixpid_pid_config nondet_pid_config(void);
 
-#include "fixpid_record.c"
+#include "record/fixpid_record.c"
 
 static bool same(const struct fixpid_pid_config *a,
                  const struct fixpid_pid_config *b)

@@ -10,11 +10,11 @@ struct fixpid_relay nondet_relay(void);
 struct fixpid_relay_config nondet_relay_config(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
 
-#include "fixpid_relay.c"
+#include "relay/fixpid_relay.c"
 
 static bool legal_config(const struct fixpid_relay_config *k)
 {
-    return (k->output_low < k->output_high) &&
+    return (k->output_min < k->output_max) &&
            (k->measurement_min < k->measurement_max) &&
            inside(k->hysteresis, 1, 8191) &&
            inside(k->timeout_steps, 2, 32767) && inside(k->cycles, 1, 8) &&
@@ -81,8 +81,8 @@ static bool sound(const struct fixpid_relay *x)
 static bool same_config(const struct fixpid_relay_config *a,
                         const struct fixpid_relay_config *b)
 {
-    return (a->output_low == b->output_low) &&
-           (a->output_high == b->output_high) &&
+    return (a->output_min == b->output_min) &&
+           (a->output_max == b->output_max) &&
            (a->output_rest == b->output_rest) &&
            (a->measurement_min == b->measurement_min) &&
            (a->measurement_max == b->measurement_max) &&
@@ -173,7 +173,7 @@ static void claim_output(const struct fixpid_relay *was, number error,
     if (error < -hysteresis) {
         high = false;
     }
-    claim(out == (high ? was->config.output_high : was->config.output_low));
+    claim(out == (high ? was->config.output_max : was->config.output_min));
 }
 
 void prove_step(void)
@@ -252,7 +252,7 @@ void prove_total(void)
     c = nondet_relay();
     was = c;
     out = fixpid_relay_step(&c, nondet_int16(), nondet_int16());
-    claim((out == was.config.output_low) || (out == was.config.output_high) ||
+    claim((out == was.config.output_min) || (out == was.config.output_max) ||
           (out == was.config.output_rest));
 }
 

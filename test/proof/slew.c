@@ -7,7 +7,7 @@
 struct fixpid_slew c; // of any bytes, where a proof begins
 struct fixpid_slew nondet_slew(void);
 
-#include "fixpid_slew.c"
+#include "slew/fixpid_slew.c"
 
 #define ONE ((number)65536) // a count
 

@@ -8,7 +8,7 @@ struct fixpid_tpo c; // of any bytes, where a proof begins
 struct fixpid_tpo nondet_tpo(void);
 struct fixpid_tpo_config nondet_tpo_config(void);
 
-#include "fixpid_tpo.c"
+#include "tpo/fixpid_tpo.c"
 
 static bool legal_config(const struct fixpid_tpo_config *config)
 {

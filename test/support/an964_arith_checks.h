@@ -5,8 +5,8 @@
 #define AN964_ARITH_CHECKS_H
 #include <stdint.h>
 
+#include "an964/fixpid_an964_arith.h"
 #include "fixpid_an964.h"
-#include "fixpid_an964_arith.h"
 
 #ifndef TEST_STRIDE
 #define TEST_STRIDE 1 // 1 walks a whole domain

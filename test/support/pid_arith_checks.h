@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "fixpid_pid_arith.h"
+#include "common/fixpid_signed.h"
 #include "numbers.h"
 #include "reference.h"
 

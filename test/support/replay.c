@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replays a recorded file of test/vectors/ through the public interface:
+// Replays a recorded file of test/support/vectors/ through the public
+// interface:
 //
 //   replay an937 FILE
 //   replay an964 FILE

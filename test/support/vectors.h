@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rows of a recorded file under test/vectors/, in order: read from the file on
-// the host, from a table made of the same file where there are no files.
+// Rows of a recorded file under test/support/vectors/, in order: read from the
+// file on the host, from a table made of the same file where there are no
+// files.
 #ifndef VECTORS_H
 #define VECTORS_H
 #include <stdbool.h>

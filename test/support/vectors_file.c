@@ -16,7 +16,7 @@ void vectors_open(const char *name)
     if (file != NULL) {
         fclose(file);
     }
-    snprintf(path, sizeof path, "test/vectors/%s.csv", name);
+    snprintf(path, sizeof path, "test/support/vectors/%s.csv", name);
     file = fopen(path, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, path);
     TEST_ASSERT_NOT_NULL_MESSAGE(fgets(header, sizeof header, file), path);

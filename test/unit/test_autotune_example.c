@@ -3,11 +3,11 @@
 #include "mock_port.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_cycle.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_more.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")
 
@@ -134,7 +134,7 @@ void test_main_experiment_over_gains_are_kept(void)
 
 void test_main_control_starts_from_what_holds_the_temperature(void)
 {
-    struct fixpid_autotune_model process;
+    struct fixpid_autotune_process process;
 
     swing();
     TEST_ASSERT_TRUE(fixpid_autotune_model(&tuner, &process));

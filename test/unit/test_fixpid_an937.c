@@ -7,8 +7,8 @@
 #include "unity.h"
 #include "vectors.h"
 
-TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_more.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

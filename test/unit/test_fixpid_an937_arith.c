@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The numbers of fixpid_an937 and their products against 64 bits, in the form
 // that the compiler's macros choose: in two's complement or in sign-magnitude.
+#include "an937/fixpid_an937_arith.h"
 #include "fixpid_an937.h"
-#include "fixpid_an937_arith.h"
 #include "numbers.h"
 #include "reference.h"
 #include "unity.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A tick from an interrupt that arrives inside a step, which is using another:
 // the source is compiled here with an interrupt before each of its sums.
-#include "fixpid_an937.h"
-#include "fixpid_an937_arith.h"
+// (Without the public header: Ceedling would link the source that belongs to
+// it, too.)
+#include "an937/fixpid_an937_arith.h"
 #include "unity.h"
 
 FIXPID_DATA struct fixpid_an937 an937_controller;
@@ -19,7 +20,7 @@ static void interrupt(void)
 
 #define fixpid_number_add(sum, change, limit, flags)                           \
     (interrupt(), fixpid_number_add(sum, change, limit, flags))
-#include "fixpid_an937.c"
+#include "an937/fixpid_an937.c"
 #undef fixpid_number_add
 
 #define IS_VOLATILE(member)                                                    \

@@ -6,8 +6,8 @@
 #include "unity.h"
 #include "vectors.h"
 
-TEST_SOURCE_FILE("src/fixpid_an964.c")
-TEST_SOURCE_FILE("src/fixpid_an964_more.c")
+TEST_SOURCE_FILE("src/an964/fixpid_an964.c")
+TEST_SOURCE_FILE("src/an964/fixpid_an964_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

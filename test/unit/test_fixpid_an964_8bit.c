@@ -5,8 +5,8 @@
 #include "reference.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_8bit over their whole domains, in the form that
 // the compiler's macros choose.
+#include "an964_8bit/fixpid_an964_8bit_arith.h"
 #include "fixpid_an964_8bit.h"
-#include "fixpid_an964_8bit_arith.h"
 #include "unity.h"
 
 void setUp(void)

@@ -6,9 +6,9 @@
 #include "poison.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_cycle.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_more.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 
 #define REST 77
 #define NOISE_STEPS 34
@@ -234,8 +234,8 @@ void test_init_options_but_reverse_are_refused(void)
 
 static void nothing_is_known(void)
 {
-    struct fixpid_autotune_model model;
-    struct fixpid_autotune_model model_before;
+    struct fixpid_autotune_process model;
+    struct fixpid_autotune_process model_before;
     struct fixpid_pid_config pid;
     struct fixpid_pid_config pid_before;
 
@@ -925,17 +925,17 @@ static void found(struct wave first, struct wave second)
     is_over(FIXPID_AUTOTUNE_DONE);
 }
 
-static struct fixpid_autotune_model model(void)
+static struct fixpid_autotune_process model(void)
 {
-    struct fixpid_autotune_model found_model;
+    struct fixpid_autotune_process found_model;
 
     TEST_ASSERT_TRUE(fixpid_autotune_model(&autotune_controller, &found_model));
     return found_model;
 }
 
-static void is_model(struct fixpid_autotune_model expected)
+static void is_model(struct fixpid_autotune_process expected)
 {
-    const struct fixpid_autotune_model is_found = model();
+    const struct fixpid_autotune_process is_found = model();
 
     TEST_ASSERT_EQUAL_UINT32(expected.gain_q8, is_found.gain_q8);
     TEST_ASSERT_EQUAL_UINT32(expected.lag_q4, is_found.lag_q4);
@@ -1013,7 +1013,7 @@ static bool gives(uint8_t rule, uint8_t robustness_q4)
     return good;
 }
 
-// The numbers of these tests are those of test/autotune/model.rb.
+// The numbers of these tests are those of test/model/autotune/model.rb.
 static const struct wave lag_up = {-20, 40, 60, -20, 20, 30};
 static const struct wave lag_down = {-40, 20, 20, -60, 30, 20};
 static const struct wave integrator_up = {-30, 30, 50, -50, 20, 40};
@@ -1021,8 +1021,8 @@ static const struct wave integrator_down = {-30, 30, 50, -50, 40, 20};
 
 static void lag_is_found(void)
 {
-    is_model((struct fixpid_autotune_model){428, 345, 174, 1302784, 569, 800, 0,
-                                            0, 1});
+    is_model((struct fixpid_autotune_process){428, 345, 174, 1302784, 569, 800,
+                                              0, 0, 1});
     gains_are(FIXPID_AUTOTUNE_SIMC_PI, 82, 249892, 0, 0);
     gains_are(FIXPID_AUTOTUNE_AMIGO_PI, 59, 193400, 0, 0);
     gains_are(FIXPID_AUTOTUNE_AMIGO_PID, 161, 574976, 791, 0);
@@ -1059,9 +1059,9 @@ void test_result_of_a_reverse_process_is_the_same(void)
 void test_result_an_integrator_has_gains_by_every_rule(void)
 {
     found(integrator_up, integrator_down);
-    is_model((struct fixpid_autotune_model){FIXPID_AUTOTUNE_INTEGRATING,
-                                            FIXPID_AUTOTUNE_INTEGRATING, 131,
-                                            1108768, 524, 960, 0, 0, 1});
+    is_model((struct fixpid_autotune_process){FIXPID_AUTOTUNE_INTEGRATING,
+                                              FIXPID_AUTOTUNE_INTEGRATING, 131,
+                                              1108768, 524, 960, 0, 0, 1});
     gains_are(FIXPID_AUTOTUNE_SIMC_PI, 108, 49111, 0, 0);
     gains_are(FIXPID_AUTOTUNE_AMIGO_PI, 157, 88472, 0, 0);
     gains_are(FIXPID_AUTOTUNE_AMIGO_PID, 201, 190528, 872, 0);
@@ -1086,8 +1086,8 @@ void test_model_noise_and_hysteresis_are_those_of_the_first_steps(void)
     play(&lag_down);
     play(&lag_up);
     is_over(FIXPID_AUTOTUNE_DONE);
-    is_model((struct fixpid_autotune_model){428, 345, 174, 1302784, 569, 800, 0,
-                                            3, 2});
+    is_model((struct fixpid_autotune_process){428, 345, 174, 1302784, 569, 800,
+                                              0, 3, 2});
     gains_are(FIXPID_AUTOTUNE_SIMC_PI, 81, 246512, 0, 0);
 }
 
@@ -1096,8 +1096,8 @@ void test_result_amigo_pid_weighs_the_setpoint_where_dead_time_is_long(void)
 {
     found((struct wave){-15, 20, 24, -6, 6, 12},
           (struct wave){-5, 7, 5, -19, 5, 9});
-    is_model((struct fixpid_autotune_model){42, 20, 97, 2178560, 3434, 256, -55,
-                                            0, 1});
+    is_model((struct fixpid_autotune_process){42, 20, 97, 2178560, 3434, 256,
+                                              -55, 0, 1});
     robust_gains_are(16, FIXPID_AUTOTUNE_AMIGO_PID,
                      (struct fixpid_pid_gains){.kp_q8 = 446,
                                                .ki_q24 = 8167680,
@@ -1184,9 +1184,9 @@ void test_result_a_measurement_that_turns_at_once_has_no_delay_to_turn(void)
 {
     found((struct wave){-30, -1, 50, -50, 20, 40},
           (struct wave){-30, -1, 50, -50, 40, 20});
-    is_model((struct fixpid_autotune_model){FIXPID_AUTOTUNE_INTEGRATING,
-                                            FIXPID_AUTOTUNE_INTEGRATING, 125,
-                                            507520, 1173, 960, 0, 0, 1});
+    is_model((struct fixpid_autotune_process){FIXPID_AUTOTUNE_INTEGRATING,
+                                              FIXPID_AUTOTUNE_INTEGRATING, 125,
+                                              507520, 1173, 960, 0, 0, 1});
 }
 
 // Cycles whose halves begin with these deviations, between usual ones.
@@ -1212,7 +1212,7 @@ static void found_turns(int16_t after_high, int16_t after_low)
 static void is_integrator(uint32_t dead_q4, uint32_t slope_q24,
                           uint32_t ultimate_q8)
 {
-    is_model((struct fixpid_autotune_model){
+    is_model((struct fixpid_autotune_process){
         FIXPID_AUTOTUNE_INTEGRATING, FIXPID_AUTOTUNE_INTEGRATING, dead_q4,
         slope_q24, ultimate_q8, 640, 0, 0, 1});
 }
@@ -1388,7 +1388,7 @@ static const struct exact {
     int16_t output_min, output_max;
     uint16_t swing;
     struct wave first, second;
-    struct fixpid_autotune_model model;
+    struct fixpid_autotune_process model;
     uint16_t kp_q8; // of SIMC PI
     uint32_t ki_q24;
 } exact[] = {
@@ -1525,9 +1525,9 @@ void test_model_of_an_area_of_1_is_one(void)
     config.swing = 196;
     found((struct wave){-12, 15, 66, -15, 4, 11},
           (struct wave){-6, 10, 14, -42, 12, 5});
-    is_model((struct fixpid_autotune_model){FIXPID_AUTOTUNE_INTEGRATING,
-                                            FIXPID_AUTOTUNE_INTEGRATING, 8,
-                                            4827, 1938528, 256, -2240, 0, 1});
+    is_model((struct fixpid_autotune_process){FIXPID_AUTOTUNE_INTEGRATING,
+                                              FIXPID_AUTOTUNE_INTEGRATING, 8,
+                                              4827, 1938528, 256, -2240, 0, 1});
 }
 
 static uint8_t filter_of(uint16_t high, uint16_t low)
@@ -1592,8 +1592,8 @@ void test_model_holding_output_far_beyond_the_range_is_at_its_end(void)
     play_far(895, 16030);
     play_far(0, 2);
     is_over(FIXPID_AUTOTUNE_DONE);
-    is_model((struct fixpid_autotune_model){0, 42, 306, 519, 3139328, 640,
-                                            INT16_MIN, 0, 1});
+    is_model((struct fixpid_autotune_process){0, 42, 306, 519, 3139328, 640,
+                                              INT16_MIN, 0, 1});
 }
 
 // ---- Flipped bits ----
@@ -1684,7 +1684,7 @@ void test_result_of_any_bytes_is_legal(void)
 
     numbers_seed(66);
     for (unsigned turn = 0; turn < 3000u; turn++) {
-        struct fixpid_autotune_model process;
+        struct fixpid_autotune_process process;
         struct fixpid_pid_config pid = {0};
 
         numbers_fill(&autotune_controller, sizeof autotune_controller);

@@ -3,7 +3,7 @@
 #include "unity.h"
 
 // By another name, or the test's runner would include it and use nothing of it.
-#define UNDER_TEST "fixpid_autotune_arith.h"
+#define UNDER_TEST "autotune/fixpid_autotune_arith.h"
 #include UNDER_TEST
 
 #define MANTISSAS 12

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two's complement patterns, and the summands of shift and add.
-#include "fixpid_bits.h"
-#include "fixpid_shift_add.h"
+#include "common/fixpid_bits.h"
+#include "common/fixpid_shift_add.h"
 #include "unity.h"
 
 #ifndef TEST_STRIDE

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which constants the macros of the headers take, at both ends of each range.
 // What FIXPID_CHECKED would ask of the compiler is asked of the program here;
-// test/consumers shows that the compilers refuse. A double has 53 bits here.
+// test/use/consumers shows that the compilers refuse. A double has 53 bits
+// here.
 #include "fixpid_an937.h"
 #include "fixpid_pid.h"
 #include "fixpid_slew.h"
@@ -15,8 +16,8 @@ static bool seen;
 
 #undef FIXPID_CHECKED
 #define FIXPID_CHECKED(value, legal) ((seen = (legal)) ? 0u : 1u)
-#undef FIXPID_PID_FOLDED // nothing to fold in what is illegal
-#define FIXPID_PID_FOLDED(value) 0u
+#undef FIXPID_FOLDED // nothing to fold in what is illegal
+#define FIXPID_FOLDED(value) 0u
 
 #define Q24 16777216.0
 
@@ -88,6 +89,7 @@ void test_ki_is_0_or_from_8(void)
     TEST_ASSERT_FALSE(ki_legal(-8 / Q24, 1));
     TEST_ASSERT_FALSE(ki_legal(-8 / Q24, -1));
     TEST_ASSERT_FALSE(ki_legal(0, -1));
+    TEST_ASSERT_FALSE(ki_legal(0, -0.5));
     TEST_ASSERT_TRUE(ki_legal(0.5, 1));
     TEST_ASSERT_TRUE(ki_legal(1, 0.5));
 }
@@ -110,6 +112,7 @@ void test_kd_is_0_or_from_half_a_256th(void)
     TEST_ASSERT_FALSE(kd_legal(-1, 1, 0));
     TEST_ASSERT_FALSE(kd_legal(-1, -1, 0));
     TEST_ASSERT_FALSE(kd_legal(0, -1, 0));
+    TEST_ASSERT_FALSE(kd_legal(0, -0.5, 0));
     TEST_ASSERT_FALSE(kd_legal(0, 0, 0));
     TEST_ASSERT_TRUE(kd_legal(0.75, 0.5, 0));
 }
@@ -138,6 +141,7 @@ void test_a_slew_rate_is_0_or_from_half_a_65536th(void)
     TEST_ASSERT_FALSE(rate_legal(-1, 1));
     TEST_ASSERT_FALSE(rate_legal(-1, -1));
     TEST_ASSERT_FALSE(rate_legal(0, -1));
+    TEST_ASSERT_FALSE(rate_legal(0, -0.5));
     TEST_ASSERT_FALSE(rate_legal(0, 0));
     TEST_ASSERT_TRUE(rate_legal(0.75, 0.5));
 }

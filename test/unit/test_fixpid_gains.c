@@ -7,7 +7,7 @@
 #include "unity.h"
 #include "vectors.h"
 
-TEST_SOURCE_FILE("src/fixpid_gains.c")
+TEST_SOURCE_FILE("src/gains/fixpid_gains.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000

@@ -1,35 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Several controllers side by side: pointer mode only.
+// Several controllers side by side: pointer mode only. What has no object mode
+// is tried in its own test.
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
 #include "fixpid_relay.h"
-#include "fixpid_slew.h"
-#include "fixpid_tpo.h"
 #include "numbers.h"
 #include "numbers_pid.h"
 #include "reference.h"
-#include "reference_control.h"
 #include "reference_pid.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_more.c")
-TEST_SOURCE_FILE("src/fixpid_an964.c")
-TEST_SOURCE_FILE("src/fixpid_an964_more.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
-TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_pid_track.c")
-TEST_SOURCE_FILE("src/fixpid_relay.c")
-TEST_SOURCE_FILE("src/fixpid_autotune.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_cycle.c")
-TEST_SOURCE_FILE("src/fixpid_autotune_more.c")
-TEST_SOURCE_FILE("src/fixpid_slew.c")
-TEST_SOURCE_FILE("src/fixpid_tpo.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
+TEST_SOURCE_FILE("src/an964/fixpid_an964.c")
+TEST_SOURCE_FILE("src/an964/fixpid_an964_more.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit_more.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
+TEST_SOURCE_FILE("src/relay/fixpid_relay.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 
 #define COUNT 5
 
@@ -187,46 +183,6 @@ void test_relay_several_instances_keep_their_own_state(void)
     TEST_ASSERT_EQUAL_UINT32(1080457, gains[1].ki_q24);
 }
 
-void test_slew_several_instances_keep_their_own_state(void)
-{
-    struct fixpid_slew slews[COUNT];
-    struct reference_slew references[COUNT];
-
-    for (unsigned i = 0; i < COUNT; i++) {
-        fixpid_slew_init(&slews[i], 100000u * i, 70000u * i);
-        reference_slew_init(&references[i], 100000 * (int32_t)i,
-                            70000 * (int32_t)i);
-    }
-    for (unsigned n = 0; n < 2000; n++) {
-        const uint32_t i = numbers_below(COUNT);
-        const int16_t target = numbers_int16();
-
-        TEST_ASSERT_EQUAL_INT32(reference_slew_step(&references[i], target),
-                                fixpid_slew_step(&slews[i], target));
-    }
-}
-
-void test_tpo_several_instances_keep_their_own_state(void)
-{
-    struct fixpid_tpo tpos[COUNT];
-    struct reference_tpo references[COUNT];
-
-    for (unsigned i = 0; i < COUNT; i++) {
-        const struct fixpid_tpo_config config = {
-            (int16_t)(100 + i), (uint16_t)(3 + i), (uint16_t)(i / 2), 1};
-
-        TEST_ASSERT_TRUE(fixpid_tpo_init(&tpos[i], &config));
-        TEST_ASSERT_TRUE(reference_tpo_init(&references[i], &config));
-    }
-    for (unsigned n = 0; n < 2000; n++) {
-        const uint32_t i = numbers_below(COUNT);
-        const int16_t duty = (int16_t)numbers_below(110);
-
-        TEST_ASSERT_EQUAL(reference_tpo_step(&references[i], duty),
-                          fixpid_tpo_step(&tpos[i], duty));
-    }
-}
-
 // A slow experiment and a fast one, step by step in turn. The swing is the
 // same, so the periods alone make the difference.
 void test_autotune_several_instances_keep_their_own_state(void)
@@ -250,7 +206,7 @@ void test_autotune_several_instances_keep_their_own_state(void)
         }
     }
     for (unsigned i = 0; i < 2; i++) {
-        struct fixpid_autotune_model model;
+        struct fixpid_autotune_process model;
 
         TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
                                 fixpid_autotune_status(&experiments[i]));

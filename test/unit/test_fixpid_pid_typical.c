@@ -11,9 +11,9 @@
 #include "numbers_pid.h"
 #include "reference_pid.h"
 
-TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/fixpid_pid_track.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 20000

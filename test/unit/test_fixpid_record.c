@@ -7,9 +7,9 @@
 #include "numbers_pid.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_record.c")
-TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/record/fixpid_record.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000

@@ -4,7 +4,7 @@
 #include "poison.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_relay.c")
+TEST_SOURCE_FILE("src/relay/fixpid_relay.c")
 
 #define REST 77
 
@@ -72,8 +72,8 @@ static uint8_t experiment(uint16_t high_steps, uint16_t low_steps, int16_t top,
 
 void setUp(void)
 {
-    config = (struct fixpid_relay_config){.output_low = -100,
-                                          .output_high = 100,
+    config = (struct fixpid_relay_config){.output_min = -100,
+                                          .output_max = 100,
                                           .output_rest = REST,
                                           .measurement_min = INT16_MIN,
                                           .measurement_max = INT16_MAX,
@@ -106,18 +106,18 @@ static void accepted(void)
     setUp();
 }
 
-void test_init_output_low_not_below_high_is_refused(void)
+void test_init_output_min_not_below_max_is_refused(void)
 {
-    config.output_low = 100;
+    config.output_min = 100;
     refused();
-    config.output_low = 101;
+    config.output_min = 101;
     refused();
-    config.output_low = 99;
+    config.output_min = 99;
     accepted();
-    config.output_high = -100;
+    config.output_max = -100;
     refused();
-    config.output_low = INT16_MIN;
-    config.output_high = INT16_MAX;
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
     accepted();
 }
 
@@ -628,8 +628,8 @@ void test_step_of_several_reasons_irregular_then_too_fast_is_given(void)
 static void measured(uint16_t span, uint16_t swing, uint16_t high_steps,
                      uint16_t low_steps)
 {
-    config.output_low = INT16_MIN;
-    config.output_high = (int16_t)(INT16_MIN + (int32_t)span);
+    config.output_min = INT16_MIN;
+    config.output_max = (int16_t)(INT16_MIN + (int32_t)span);
     config.hysteresis = 1;
     config.timeout_steps = 32767;
     TEST_ASSERT_EQUAL_UINT8(

@@ -8,13 +8,14 @@
 #include "unity.h"
 #include "vectors.h"
 
-TEST_SOURCE_FILE("src/fixpid_slew.c")
+TEST_SOURCE_FILE("src/slew/fixpid_slew.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000
 #endif
 
 #define ROWS 1000
+#define INSTANCES 5
 
 // Columns of slew.csv.
 enum { RUN, EVENT, RISE, FALL, SEED, TARGET, OUTPUT, VALUE };
@@ -314,4 +315,23 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
 {
     TEST_ASSERT_EQUAL_UINT(12, sizeof slew);
     TEST_ASSERT_EQUAL_UINT(0, poison_left(&slew, sizeof slew, init_it));
+}
+
+void test_slew_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_slew slews[INSTANCES];
+    struct reference_slew references[INSTANCES];
+
+    for (unsigned i = 0; i < INSTANCES; i++) {
+        fixpid_slew_init(&slews[i], 100000u * i, 70000u * i);
+        reference_slew_init(&references[i], 100000 * (int32_t)i,
+                            70000 * (int32_t)i);
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(INSTANCES);
+        const int16_t target = numbers_int16();
+
+        TEST_ASSERT_EQUAL_INT32(reference_slew_step(&references[i], target),
+                                fixpid_slew_step(&slews[i], target));
+    }
 }

@@ -8,13 +8,14 @@
 #include "unity.h"
 #include "vectors.h"
 
-TEST_SOURCE_FILE("src/fixpid_tpo.c")
+TEST_SOURCE_FILE("src/tpo/fixpid_tpo.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000
 #endif
 
 #define ROWS 1000
+#define INSTANCES 5
 
 // Columns of tpo.csv.
 enum {
@@ -385,5 +386,26 @@ void test_step_of_any_bytes_a_reset_makes_good(void)
         fixpid_tpo_reset(&tpo);
         TEST_ASSERT_EQUAL_INT32(0, tpo.credit);
         TEST_ASSERT_EQUAL_UINT16(0, tpo.left);
+    }
+}
+
+void test_tpo_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_tpo tpos[INSTANCES];
+    struct reference_tpo references[INSTANCES];
+
+    for (unsigned i = 0; i < INSTANCES; i++) {
+        const struct fixpid_tpo_config each = {
+            (int16_t)(100 + i), (uint16_t)(3 + i), (uint16_t)(i / 2), 1};
+
+        TEST_ASSERT_TRUE(fixpid_tpo_init(&tpos[i], &each));
+        TEST_ASSERT_TRUE(reference_tpo_init(&references[i], &each));
+    }
+    for (unsigned n = 0; n < 2000; n++) {
+        const uint32_t i = numbers_below(INSTANCES);
+        const int16_t duty = (int16_t)numbers_below(110);
+
+        TEST_ASSERT_EQUAL(reference_tpo_step(&references[i], duty),
+                          fixpid_tpo_step(&tpos[i], duty));
     }
 }

@@ -3,8 +3,8 @@
 #include "mock_port.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_an937.c")
-TEST_SOURCE_FILE("src/fixpid_an937_more.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
+TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/motor")
 

@@ -3,8 +3,8 @@
 #include "mock_port.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_an964_8bit.c")
-TEST_SOURCE_FILE("src/fixpid_an964_8bit_more.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit.c")
+TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit_more.c")
 TEST_INCLUDE_PATH("port/pic/pic16f684")
 TEST_INCLUDE_PATH("examples/pendulum_8bit")
 

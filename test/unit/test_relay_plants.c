@@ -5,9 +5,9 @@
 #include "fixpid_relay.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("src/fixpid_relay.c")
-TEST_SOURCE_FILE("src/fixpid_pid.c")
-TEST_SOURCE_FILE("src/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/relay/fixpid_relay.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 
 #define DELAY_MAX 40
 #define PERCENT (INT64_C(1) << 24)
@@ -132,8 +132,8 @@ static uint8_t experiment(const struct plant *of,
                           const struct expected *expected)
 {
     const struct fixpid_relay_config config = {
-        .output_low = expected->relay_low,
-        .output_high = expected->relay_high,
+        .output_min = expected->relay_low,
+        .output_max = expected->relay_high,
         .output_rest = 0,
         .measurement_min = -32000,
         .measurement_max = (int16_t)(of->measurement_max - 1),

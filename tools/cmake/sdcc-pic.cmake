@@ -66,7 +66,7 @@ foreach(needed SDCC_LIBRARIES GPLIB GPLINK)
   endif()
 endforeach()
 
-set(SDCC_ONE_BANK_TOOL ${CMAKE_CURRENT_LIST_DIR}/../lib/one_bank)
+set(SDCC_ONE_BANK_TOOL ${CMAKE_CURRENT_LIST_DIR}/../lib/build/one_bank)
 set(SDCC_ONE_BANK_FOLDER ${CMAKE_BINARY_DIR}/one_bank)
 if(SDCC_ONE_BANK)
   execute_process(

@@ -60,6 +60,14 @@ def remove_results(loops)
   FileUtils.rm_f("#{Host.folder}/results.json")
 end
 
+# A dot each ten seconds, while a loop takes long.
+def with_dots
+  dots = Thread.new { loop { sleep(10) && print('. ') } }
+  yield
+ensure
+  dots.kill
+end
+
 # A line for each loop, its name at once.
 def run_loops(loops)
   name_width = loops.map(&:size).max
@@ -68,7 +76,7 @@ def run_loops(loops)
     print name.ljust(name_width + 2)
     Report.start(name)
     begin
-      LOOPS.fetch(name).run.call
+      with_dots { LOOPS.fetch(name).run.call }
     rescue Host::Failure => e
       Report.failure(e.message)
     end

@@ -181,7 +181,7 @@ if ARGV == ['--quick']
   single_conditions(library_all)
   exit(@failures.zero? ? 0 : 1)
 end
-# Two examples are built with their system's headers by test/packages;
+# Two examples are built with their system's headers by test/use/packages;
 # SDCC compiles the support files, the co-simulation those of chips, and the
 # comparisons, faults and recipes of tools/demo are programs for a PC, as is what the
 # tuner page computes with.

@@ -1,172 +1,314 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What package managers read of this project, their manifests, says what the
-# project itself says: the version of include/fixpid.h, the sources of
-# CMakeLists.txt, the headers of include/, and what the library is as
-# library.properties has it. Prints `ok MANIFEST` or `FAILED MANIFEST` and why. With
-# --update it first writes those that are made from the headers.
+# What package managers read of this project, their manifests. They are written from
+# tools/lib/project.rb, tools/lib/modules.rb, include/ and src/, some as a whole, some in
+# parts: `--update` writes them. Without it each is compared, and for each there is
+# `ok MANIFEST` or `FAILED MANIFEST` with the lines that differ.
 require 'json'
-require 'yaml'
+require 'open3'
+require_relative 'modules'
+require_relative 'project'
 
 Encoding.default_external = 'UTF-8'
 
+# The text of each manifest.
 module Manifests
-  SOURCES = File.read('CMakeLists.txt')[/set\(fixpid_sources\s(.*?)\)/m, 1].split.freeze
-  HEADERS = Dir['include/*.h'].sort.freeze
-  VERSION = File.read('include/fixpid.h').scan(/^#define FIXPID_VERSION_\w+ (\d+)$/).join('.').freeze
-  # What all manifests have in common is here once.
-  PROPERTIES = File.readlines('library.properties', chomp: true).to_h { |line| line.split('=', 2) }.freeze
-  DESCRIPTION = PROPERTIES['sentence'].chomp('.').freeze
-
-  # What a program's sources take in, and below what a package manager's users get.
-  SMALL_FILES = %w[CMakeLists.txt LICENSE fixpid.pc.in include meson.build src].freeze
-  USER_FILES = JSON.parse(File.read('library.json'))['export']['include'].freeze
-
   # Arduino looks for headers in src/ only.
-  FORWARDS = HEADERS.to_h do |header|
+  FORWARDS = Project::HEADERS.to_h do |header|
     ["src/#{File.basename(header)}", <<~TEXT]
       // SPDX-License-Identifier: MIT
       // For Arduino, which looks for headers in src/ only.
+      #ifdef __has_include
+      #if !__has_include("../#{header}")
+      #error "fixpid: to have both in one folder copy src first, then include"
+      #endif
+      #endif
       #include "../#{header}"
     TEXT
   end.freeze
 
-  class << self
-    def written
-      FORWARDS.merge('keywords.txt' => keywords)
-    end
+  module_function
 
-    # {manifest => what is wrong with it}
-    def wrong
-      @wrong = Hash.new { |hash, path| hash[path] = [] }
-      version_and_sources
-      written.each { |path, text| same(path, 'what --update writes', text, File.exist?(path) ? File.read(path) : nil) }
-      arduino
-      meson
-      platformio
-      esp_idf
-      zephyr
-      cmsis_pack
-      conan_and_vcpkg
-      readme
-      @wrong
-    end
+  def whole
+    FORWARDS.merge('keywords.txt' => keywords, 'library.properties' => arduino, 'library.json' => platformio,
+                   'idf_component.yml' => esp_idf, 'fixpid.fixpid.pdsc' => cmsis_pack, 'vcpkg/fixpid/vcpkg.json' => vcpkg,
+                   'zephyr/module.yml' => zephyr)
+  end
 
-    private
+  # Of files that are otherwise written by hand: [what, where it stands, its text].
+  def parts
+    { 'CMakeLists.txt' => [['sources', /(?<=set\(fixpid_sources\n).*?(?=\))/m, indented(Project::SOURCES, '    ')]],
+      'meson.build' => [['sources', /(?<=fixpid_sources = files\(\n).*?(?=\))/m, indented(quoted(Project::SOURCES, "'"), '  ', ',')],
+                        ['version', /(?<=version: ')[\d.]+/, Project::VERSION],
+                        ['licence', /(?<= license: ')[^']*/, Project::LICENSE],
+                        ['sentence', /(?<=description: ')[^']*/, Project::SENTENCE]],
+      'fixpid.pc.in' => [['sentence', /(?<=^Description: ).*/, Project::SENTENCE]],
+      'conanfile.py' => [['attributes', /(?<=^class Fixpid\(ConanFile\):\n).*?(?=^    package_type)/m, conan]],
+      'zephyr/Kconfig' => [['all features', /(?<=range 0x00 )\w+\n\tdefault \w+/, "#{features}\n\tdefault #{features}"]],
+      'CITATION.cff' => [['licence', /(?<=^license: ).*/, Project::LICENSE], ['version', /(?<=^version: ).*/, Project::VERSION]],
+      'python/setup.py' => [['licence', /(?<=^    license=").*(?=",$)/, Project::LICENSE]] }
+  end
 
-    def same(path, what, wanted, found)
-      @wrong[path] << "#{what}: #{found.inspect}, not #{wanted.inspect}" unless found == wanted
-      @wrong[path]
-    end
+  # Every manifest as it should be, by its path; nil for what has lost its place.
+  def written
+    whole.merge(parts.to_h do |path, pieces|
+      text = File.exist?(path) ? File.read(path) : nil
+      [path, pieces.reduce(text) { |so_far, (_, place, piece)| so_far&.match?(place) ? so_far.sub(place) { piece } : nil }]
+    end)
+  end
 
-    # Every file or folder is there.
-    def there(path, what, files)
-      missing = files.reject { |file| File.exist?(file) }
-      same(path, "#{what} that are not there", [], missing)
-    end
+  def indented(items, indent, separator = '')
+    items.map { |item| "#{indent}#{item}" }.join("#{separator}\n")
+  end
 
-    def version_and_sources
-      same('CMakeLists.txt', 'sources', Dir['src/**/*.c'].sort, SOURCES.sort)
-      same('CHANGELOG.md', 'newest version', VERSION, File.read('CHANGELOG.md')[/^## ([^\s,]+)/, 1])
-    end
+  def quoted(items, quote = '"')
+    items.map { |item| "#{quote}#{item}#{quote}" }
+  end
 
-    # The words that the editor colours: types, functions, and the constants.
-    def keywords
-      text = HEADERS.map { |header| File.read(header).gsub(%r{//.*}, '') }.join
-      types = text.scan(/^(?:struct|enum) (fixpid_\w+) \{/)
-      functions = text.scan(/^\w[\w *]*\b(fixpid_\w+)\(/)
-      constants = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
-      { 'KEYWORD1' => types, 'KEYWORD2' => functions, 'LITERAL1' => constants }.flat_map do |kind, words|
-        words.flatten.uniq.sort.map { |word| "#{word}\t#{kind}\n" }
-      end.join
-    end
+  def examples(system)
+    Dir["examples/#{system}/*"].sort
+  end
 
-    def arduino
-      path = 'library.properties'
-      same(path, 'version', VERSION, PROPERTIES['version'])
-      there(path, 'headers', PROPERTIES['includes'].split(',').map { |header| "include/#{header}" })
-      same(path, 'headers in src/', FORWARDS.keys, Dir['src/fixpid*.h'].select { |file| HEADERS.include?("include/#{File.basename(file)}") }.sort)
-      sketches = Dir['examples/arduino/*']
-      same(path, 'sketches', sketches.map { |folder| "#{folder}/#{File.basename(folder)}.ino" }, Dir['examples/arduino/*/*.ino'])
-    end
+  # The words that the editor colours: types, functions, and the constants.
+  def keywords
+    text = Project::HEADERS.map { |header| File.read(header).gsub(%r{//.*}, '') }.join
+    types = text.scan(/^(?:struct|enum) (fixpid_\w+) \{/)
+    functions = text.scan(/^\w[\w *]*\b(fixpid_\w+)\(/)
+    constants = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
+    { 'KEYWORD1' => types, 'KEYWORD2' => functions, 'LITERAL1' => constants }.flat_map do |kind, words|
+      words.flatten.uniq.sort.map { |word| "#{word}\t#{kind}\n" }
+    end.join
+  end
 
-    def common(path, version, description, url, license)
-      same(path, 'version', VERSION, version)
-      same(path, 'description', DESCRIPTION, description)
-      same(path, 'URL', PROPERTIES['url'], url)
-      same(path, 'licence', PROPERTIES['license'], license)
-    end
+  # The specification demands a url, and the library manager refuses an empty one.
+  def arduino
+    { name: Project::NAME, version: Project::VERSION, author: Project::AUTHOR, maintainer: Project::AUTHOR,
+      sentence: "#{Project::SENTENCE}.", paragraph: Project::PARAGRAPH, category: 'Signal Input/Output',
+      url: Project::ADDRESS || Project::PLACEHOLDER, architectures: '*', includes: Project::FIRST_HEADERS.join(','),
+      license: Project::LICENSE }.map { |name, value| "#{name}=#{value}\n" }.join
+  end
 
-    def meson
-      path = 'meson.build'
-      text = File.read(path)
-      same(path, 'version', VERSION, text[/version: '([\d.]+)'/, 1])
-      same(path, 'sources', SOURCES, text.scan(%r{'(src/\S+\.c)'}).flatten)
-      same('fixpid.pc.in', 'description', DESCRIPTION, File.read('fixpid.pc.in')[/^Description: (.*)/, 1])
-    end
+  # `homepage` may be left out.
+  def platformio
+    json(name: Project::NAME, version: Project::VERSION, description: Project::SENTENCE, keywords: Project::KEYWORDS,
+         homepage: Project::ADDRESS, license: Project::LICENSE, headers: Project::FIRST_HEADERS, frameworks: '*', platforms: '*',
+         build: { includeDir: 'include', srcDir: 'src', flags: '-std=c99' }, export: { include: Project::USER_FILES },
+         examples: examples('arduino').map { |base| { name: File.basename(base), base: base, files: Dir.children(base).sort } })
+  end
 
-    def platformio
-      path = 'library.json'
-      library = JSON.parse(File.read(path))
-      common(path, *library.values_at('version', 'description', 'homepage', 'license'))
-      same(path, 'headers', PROPERTIES['includes'].split(','), library['headers'])
-      there(path, 'exported files', USER_FILES)
-      same(path, 'examples', Dir['examples/arduino/*'].sort, library['examples'].map { |example| example['base'] }.sort)
-      there(path, 'files of examples', library['examples'].flat_map { |example| example['files'].map { |file| "#{example['base']}/#{file}" } })
-    end
+  # `homepage` may be left out.
+  def vcpkg
+    json(name: Project::NAME, version: Project::VERSION, description: Project::SENTENCE, homepage: Project::ADDRESS,
+         license: Project::LICENSE, dependencies: %w[vcpkg-cmake vcpkg-cmake-config].map { |name| { name: name, host: true } })
+  end
 
-    def esp_idf
-      path = 'idf_component.yml'
-      component = YAML.safe_load(File.read(path))
-      common(path, *component.values_at('version', 'description', 'url', 'license'))
-      same(path, 'examples', Dir['examples/esp-idf/*'].sort, component['examples'].map { |example| example['path'] })
-    end
+  def json(fields)
+    "#{JSON.pretty_generate(fields.compact)}\n"
+  end
 
-    # Its sources are all that there are; an option that a file reads is one.
-    def zephyr
-      path = 'zephyr/module.yml'
-      parts = YAML.safe_load(File.read(path))
-      same(path, 'keys', %w[name build samples], parts.keys)
-      there(path, 'files', ["#{parts['build']['cmake']}/CMakeLists.txt", parts['build']['kconfig'], *parts['samples']])
-      options = File.read('zephyr/Kconfig').scan(/^(?:menu)?config (\w+)$/).flatten
-      same('zephyr/CMakeLists.txt', 'options', options.sort, File.read('zephyr/CMakeLists.txt').scan(/CONFIG_(\w+)/).flatten.uniq.sort)
-    end
+  # `url` may be left out.
+  def esp_idf
+    <<~TEXT.gsub(/^\n/, '')
+      # SPDX-License-Identifier: MIT
+      version: #{Project::VERSION}
+      description: #{Project::SENTENCE}
+      #{Project::ADDRESS && "url: #{Project::ADDRESS}"}
+      license: #{Project::LICENSE}
+      tags: [#{Project::KEYWORDS.join(', ')}]
+      examples:
+      #{indented(examples('esp-idf'), '  - path: ')}
+      dependencies:
+        idf: ">=4.4"
+    TEXT
+  end
 
-    # A component for each header. What is for SDCC on a PIC is in none.
-    def cmsis_pack
-      path = 'fixpid.fixpid.pdsc'
-      text = File.read(path)
-      common(path, text[/<release version="(.*?)"/, 1], *%w[description url].map { |tag| text[%r{<#{tag}>(.*?)</}, 1] }, text[/spdx="(.*?)"/, 1])
-      same(path, 'versions of components', [VERSION], text.scan(/Cversion="(.*?)"/).flatten.uniq)
-      files = text.scan(/<file category="(\w+)" name="(.*?)"/).group_by(&:first).transform_values { |pairs| pairs.map(&:last) }
-      same(path, 'sources', SOURCES.grep_v(%r{/pic1[48]/}).sort, files['source'].sort)
-      same(path, 'headers', HEADERS - ['include/fixpid.h'], files['header'].sort)
-      there(path, 'files', files['include'].uniq)
-    end
+  def zephyr
+    <<~TEXT
+      # SPDX-License-Identifier: MIT
+      name: #{Project::NAME}
+      build:
+        cmake: zephyr
+        kconfig: zephyr/Kconfig
+      samples:
+        - examples/zephyr
+    TEXT
+  end
 
-    def conan_and_vcpkg
-      conan = File.read('conanfile.py')
-      common('conanfile.py', *%w[version description homepage license].map { |name| conan[/^    #{name} = "(.*)"$/, 1] })
-      same('conanfile.py', 'exported files', SMALL_FILES, conan[/exports_sources = \((.*?)\)/m, 1].scan(/"(.*?)"/).flatten.map { |name| name.chomp('/*') })
-      port = JSON.parse(File.read('vcpkg/fixpid/vcpkg.json'))
-      common('vcpkg/fixpid/vcpkg.json', *port.values_at('version', 'description', 'homepage', 'license'))
-    end
+  def features
+    File.read('include/fixpid_pid.h')[/^#define FIXPID_PID_ALL (0x\h+)u$/, 1]
+  end
 
-    # Each way to install names tests that there are.
-    def readme
-      rows = File.read('README.md')[/<!-- install:begin -->(.*?)<!-- install:end -->/m, 1].lines.grep(/^\| (?!with |-)/)
-      tests = `test/packages/run --list; test/consumers/run --list`.split
-      named = rows.map { |row| row.split('|').last(2).first.scan(/`(\w+)`/).flatten }
-      same('README.md', 'ways to install without a test', 0, named.count(&:empty?))
-      same('README.md', 'tests that are not there', [], named.flatten - tests)
+  # `homepage` may be left out.
+  def conan
+    fields = { name: Project::NAME, version: Project::VERSION, description: Project::SENTENCE, homepage: Project::ADDRESS,
+               license: Project::LICENSE }.compact
+    files = Project::SMALL_FILES.map { |path| File.directory?(path) ? "#{path}/*" : path }
+    fields.map { |name, value| "    #{name} = \"#{value}\"\n" }.join +
+      { topics: Project::KEYWORDS, exports_sources: files }.map { |name, values| "    #{name} = (#{quoted(values).join(', ')})\n" }.join
+  end
+
+  # `url` may be empty for a pack that is on no server.
+  def cmsis_pack
+    <<~TEXT
+      <?xml version="1.0" encoding="UTF-8"?>
+      <!-- SPDX-License-Identifier: MIT -->
+      <package schemaVersion="1.7.36" xmlns:xs="http://www.w3.org/2001/XMLSchema-instance" xs:noNamespaceSchemaLocation="PACK.xsd">
+        <vendor>#{Project::NAME}</vendor>
+        <name>#{Project::NAME}</name>
+        <description>#{Project::SENTENCE}</description>
+        <url>#{Project::ADDRESS}</url>
+        <license>LICENSE</license>
+        <licenseSets>
+          <licenseSet id="all" default="true" gating="true">
+            <license title="#{Project::LICENSE}" name="LICENSE" spdx="#{Project::LICENSE}"/>
+          </licenseSet>
+        </licenseSets>
+        <releases>
+          <release version="#{Project::VERSION}">CHANGELOG.md says what is new.</release>
+        </releases>
+        <keywords>
+      #{Project::KEYWORDS.map { |word| "    <keyword>#{word}</keyword>" }.join("\n")}
+        </keywords>
+        <conditions>
+      #{conditions}  </conditions>
+        <taxonomy>
+          <description Cclass="Control">Controllers</description>
+        </taxonomy>
+        <components>
+      #{Modules::ALL.map { |name, entry| component(name, entry) }.join}  </components>
+      </package>
+    TEXT
+  end
+
+  # Of the modules that others need.
+  def conditions
+    Modules::ALL.keys.flat_map { |name| Modules.needs(name) }.uniq.map do |name|
+      title = Modules::ALL.fetch(name)[:title]
+      <<-TEXT
+    <condition id="#{title}">
+      <require Cclass="Control" Cgroup="fixpid" Csub="#{title}"/>
+    </condition>
+      TEXT
+    end.join
+  end
+
+  def component(name, entry)
+    needed = Modules.needs(name).map { |other| Modules::ALL.fetch(other)[:title] }
+    condition = needed.map { |title| " condition=\"#{title}\"" }.join
+    sources = Project::PORTABLE_SOURCES.grep(%r{\Asrc/#{name}/})
+    <<-TEXT
+    <component Cclass="Control" Cgroup="fixpid" Csub="#{entry[:title]}" Cversion="#{Project::VERSION}"#{condition}>
+      <description>#{entry[:what]}</description>
+      <files>
+        <file category="include" name="include/"/>
+        <file category="header" name="include/fixpid_#{name}.h"/>
+#{sources.map { |source| "        <file category=\"source\" name=\"#{source}\"/>\n" }.join}      </files>
+    </component>
+    TEXT
+  end
+end
+
+# What is wrong with the manifests, as lines that a person can read.
+module ManifestFaults
+  UPDATE = 'ruby tools/lib/manifests.rb --update'
+  LINES_MOST = 10
+  CHARACTERS_MOST = 120
+  BY_HAND = %w[CHANGELOG.md README.md docs/installing.md zephyr/CMakeLists.txt].freeze
+
+  module_function
+
+  # {manifest => its faults}
+  def all
+    found = Hash.new { |hash, path| hash[path] = [] }
+    Manifests.written.each { |path, text| found[path].concat(differences(path, text)) }
+    missing(BY_HAND).each { |path| found[path] << 'it is gone' }
+    found['tools/lib/modules.rb'].concat(Modules.lacks)
+    by_hand.each { |path, what, faults| found[path].concat(faults.empty? ? [] : ["#{what}: #{faults.join(', ')}"]) }
+    found
+  end
+
+  def text(path)
+    File.exist?(path) ? File.read(path) : ''
+  end
+
+  def differences(path, wanted)
+    return ["it is gone#{"; #{UPDATE}" if wanted}"] unless File.exist?(path)
+    return lost(path) unless wanted
+
+    output, = Open3.capture2('diff', '-U0', path, '-', stdin_data: wanted)
+    lines = output.lines(chomp: true).drop(2).grep_v(/\A(?:@@|\\)/).map { |line| shown(line) }
+    return [] if lines.empty?
+
+    more = lines.size > LINES_MOST ? ["and #{lines.size - LINES_MOST} lines more"] : []
+    [*lines.first(LINES_MOST), *more, UPDATE]
+  end
+
+  def shown(line)
+    text = "#{line[0]} #{line[1..].strip.squeeze("\t ").tr("\t", ' ')}"
+    text.size > CHARACTERS_MOST ? "#{text[0, CHARACTERS_MOST]}..." : text
+  end
+
+  # What --update finds no place for.
+  def lost(path)
+    text = File.read(path)
+    Manifests.parts.fetch(path).reject { |_, place, _| text.match?(place) }
+             .map { |what, place, _| "no place for the #{what}: nothing is like #{place.inspect}" }
+  end
+
+  # [file, what, what is wrong with that] of what no tool can write.
+  def by_hand
+    headers = Dir['src/*.h'] - Manifests::FORWARDS.keys
+    sketches = Manifests.examples('arduino').map { |folder| "#{folder}/#{File.basename(folder)}.ino" }
+    [*headers.map { |path| [path, 'not in include', [path]] },
+     ['CMakeLists.txt', 'sources in no folder of src', Dir['src/**/*.c'] - Project::SOURCES],
+     ['CHANGELOG.md', "newest version, which is not #{Project::VERSION}", [text('CHANGELOG.md')[/^## ([^\s,]+)/, 1]] - [Project::VERSION]],
+     ['tools/lib/project.rb', 'files that are not there', missing([*Project::USER_FILES, *Project::FIRST_HEADERS.map { |name| "include/#{name}" }])],
+     ['library.properties', 'sketches that are not there', missing(sketches)],
+     ['library.properties', 'sketches without a folder of their name', Dir['examples/arduino/*/*.ino'] - sketches],
+     ['zephyr/module.yml', 'files that are not there', missing(%w[zephyr/CMakeLists.txt zephyr/Kconfig examples/zephyr])],
+     ['zephyr/CMakeLists.txt', 'options that it or zephyr/Kconfig does not have', options], *installing]
+  end
+
+  def without_the_other(some, others)
+    (some | others) - (some & others)
+  end
+
+  def missing(paths)
+    paths.reject { |path| File.exist?(path) }
+  end
+
+  # An option that a file reads is one.
+  def options
+    asked, read = [['zephyr/Kconfig', /^(?:menu)?config (\w+)$/], ['zephyr/CMakeLists.txt', /CONFIG_(\w+)/]].map do |path, name|
+      text(path).scan(name).flatten.uniq
     end
+    without_the_other(asked, read)
+  end
+
+  # Each way to install names tests that there are, and README.md has a line of each.
+  def installing
+    page = 'docs/installing.md'
+    tests = `test/use/packages/run --list; test/use/consumers/run --list`.split
+    named = ways(page).to_h { |cells| [cells.first, cells.last.scan(/`(\w+)`/).flatten] }
+    [[page, 'ways to install', named.empty? ? ['none between the marks of its table'] : []],
+     [page, 'ways to install without a test', named.select { |_, names| names.empty? }.keys],
+     [page, 'tests that are not there', named.values.flatten - tests],
+     ['README.md', "ways to install that it or #{page} does not have", without_the_other(named.keys, ways('README.md').map(&:first))]]
+  end
+
+  # The cells of its table, by rows.
+  def ways(page)
+    rows = text(page)[/<!-- install:begin -->.*?<!-- install:end -->/m].to_s.lines.grep(/^\| (?!with |-)/)
+    rows.map { |row| row.split('|')[1...-1].map(&:strip) }
   end
 end
 
 if $PROGRAM_NAME == __FILE__
-  Manifests.written.each { |path, text| File.write(path, text) } if ARGV == ['--update']
-  wrong = Manifests.wrong
-  wrong.each { |path, faults| puts faults.empty? ? "ok #{path}" : "FAILED #{path}: #{faults.join("\n    ")}" }
+  Manifests.written.compact.each { |path, text| File.write(path, text) } if ARGV == ['--update']
+  wrong = ManifestFaults.all
+  wrong.each do |path, faults|
+    puts faults.empty? ? "ok #{path}" : "FAILED #{path}: #{faults.join(faults.size > 2 ? "\n    " : '; ')}"
+  end
   exit(wrong.values.all?(&:empty?) ? 0 : 1)
 end

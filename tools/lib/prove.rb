@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks of
-# test/proof/breaks.txt that they must notice. Prints a line for each.
+# What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks that they
+# must notice, of test/faults.txt and drawn by a machine. Prints a line for each.
 require_relative 'prove/cbmc'
 require_relative 'prove/choice'
 require_relative 'prove/coverage'
@@ -12,8 +12,8 @@ require_relative 'prove/seeded'
 
 BUILD = 'build/prove'.freeze
 
-# Does the work of a list, so many things at a time; prints what each says and
-# gives whether all were good.
+# Does the work of a list, so many things at a time; prints what each says, in a line
+# or several, and gives whether all were good.
 def all_good?(list)
   queue = Queue.new
   list.each { |item| queue << item }
@@ -23,11 +23,11 @@ def all_good?(list)
   workers = Array.new(Integer(ENV.fetch('JOBS', '2'))) do
     Thread.new do
       while (item = take(queue))
-        fine, line = yield item
+        fine, *said = yield item
         lock.synchronize do
           done += 1
           good &&= fine
-          puts "#{fine ? 'ok' : 'FAILED'} #{line}"
+          said.flatten.each { |line| puts "#{fine ? 'ok' : 'FAILED'} #{line}" }
           warn "prove: #{done} of #{list.size}" if $stderr.tty?
         end
       end
@@ -58,19 +58,6 @@ def refute(broken)
   return [true, "#{broken.name}: noticed, #{answer.seconds.round(1)} s"] if answer.verdict == :refuted
 
   [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
-end
-
-# Adds breaks for the functions that have too few.
-def choose(proofs)
-  choice = Choice.new(proofs, Seeded.all(proofs), BUILD)
-  all_good?(choice.lacking) do |file, function|
-    rows = choice.of(file, function)
-    File.open(Seeded::FILE, 'a') { |list| list.puts rows }
-    [true, "#{file}, #{function}: #{rows.size} breaks added"]
-  end
-  few = Seeded.uneven(Seeded.all(proofs))
-  puts few
-  few.empty?
 end
 
 # Whether what is said to change nothing is proved to, or argued.
@@ -120,14 +107,15 @@ if mode == 'list'
 end
 
 exit(covered?(proofs, words) ? 0 : 1) if mode == 'coverage'
-exit(choose(proofs) ? 0 : 1) if mode == 'choose'
 seeded = Seeded.all(proofs)
 breaks = seeded.select { |broken| chosen.include?(broken.proof) }
-breaks = breaks.uniq { |broken| broken.proof.group } if mode == 'quick'
+breaks = breaks.uniq(&:proof) if mode == 'quick'
 complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
 noticed = all_good?(breaks) { |broken| refute(broken) }
+choice = Choice.new(proofs, chosen, BUILD)
+drawn = all_good?(choice.places) { |place| choice.judge(place) }
 covered = mode == 'quick' || !words.empty? || covered?(proofs, words)
-puts "#{chosen.size} proofs, #{breaks.size} breaks"
-exit(proved && noticed && covered && complaints.empty? ? 0 : 1)
+puts "#{chosen.size} proofs, #{breaks.size} breaks, and those of #{choice.places.size} functions"
+exit(proved && noticed && drawn && covered && complaints.empty? ? 0 : 1)

@@ -7,10 +7,11 @@ say() {
 }
 
 # announce WORDS: what takes long is said also where tools/test keeps a program's
-# messages; its own are descriptor 8.
+# messages; its own are descriptor 8. Whether it is open is tried in a shell of its
+# own: a redirection that fails on `:` ends dash.
 announce() {
     told=2
-    { : >&8; } 2>/dev/null && told=8
+    (: >&8) 2>/dev/null && told=8
     say "$@" 2>&"$told"
 }
 
@@ -18,6 +19,10 @@ die() {
     say "$@"
     exit 1
 }
+
+# Every tool makes temporary files, some only after minutes.
+[ -w "${TMPDIR:-/tmp}/" ] ||
+    die "cannot write to ${TMPDIR:-/tmp}, the folder for temporary files (TMPDIR)"
 
 # work_folder FOLDER MEGABYTES: makes it, or says why nothing can be written
 # there.
@@ -80,7 +85,7 @@ has_package() {
     python3-cffi) has_module cffi ;;
     python3-dev) builds '#include <Python.h>' cc \
         "-I$("${PYTHON:-/usr/bin/python3}" -c 'import sysconfig
-print(sysconfig.get_path("include"))')" ;;
+print(sysconfig.get_path("include"))' 2>/dev/null)" ;;
     python3-matplotlib) has_module matplotlib ;;
     python3-numpy) has_module numpy ;;
     python3-scipy) has_module scipy ;;

@@ -69,7 +69,7 @@ void setup()
     Serial.println(config.gains.kd_q8);
 
     (void)fixpid_pid_init(&controller, &config);
-    struct fixpid_autotune_model found;
+    fixpid_autotune_process found;
     if (fixpid_autotune_model(&tuner, &found)) {
         fixpid_pid_seed(&controller, found.holding); // no bump at the change
     }

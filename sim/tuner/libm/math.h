@@ -5,7 +5,7 @@
 // without contraction (-ffp-contract=off) each operation is IEEE 754's.
 //
 // They are within 1e-14 of the system's for the arguments that plants have,
-// which test/tuner checks. NaN and signed zeros get no care.
+// which test/web/tuner checks. NaN and signed zeros get no care.
 #ifndef MATH_H
 #define MATH_H
 #include <stdint.h>

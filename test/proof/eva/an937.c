@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_an937.c"
-#include "fixpid_an937_more.c"
+#include "an937/fixpid_an937.c"
+#include "an937/fixpid_an937_more.c"
 
 static void call_any(struct fixpid_an937 *c)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_an964.c"
-#include "fixpid_an964_more.c"
+#include "an964/fixpid_an964.c"
+#include "an964/fixpid_an964_more.c"
 
 static void call_any(struct fixpid_an964 *c)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_an964_8bit.c"
-#include "fixpid_an964_8bit_more.c"
+#include "an964_8bit/fixpid_an964_8bit.c"
+#include "an964_8bit/fixpid_an964_8bit_more.c"
 
 static void call_any(struct fixpid_an964_8bit *c)
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_autotune.c"
-#include "fixpid_autotune_cycle.c"
-#include "fixpid_autotune_more.c"
+#include "autotune/fixpid_autotune.c"
+#include "autotune/fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune_more.c"
 
 static void ask(struct fixpid_autotune *c)
 {
-    struct fixpid_autotune_model model;
+    struct fixpid_autotune_process model;
     struct fixpid_pid_config pid;
 
     (void)fixpid_autotune_status(c);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_gains.c"
+#include "gains/fixpid_gains.c"
 
 void eva(void)
 {

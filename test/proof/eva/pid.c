@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_pid.c"
-#include "fixpid_pid_more.c"
-#include "fixpid_pid_track.c"
+#include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_more.c"
+#include "pid/fixpid_pid_track.c"
 
 static struct fixpid_pid_gains any_gains(void)
 {

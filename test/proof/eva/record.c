@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_record.c"
+#include "record/fixpid_record.c"
 
 void eva(void)
 {

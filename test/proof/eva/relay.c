@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_relay.c"
+#include "relay/fixpid_relay.c"
 
 void eva(void)
 {
     const struct fixpid_relay_config config = {
-        .output_low = ANY_INT16,
-        .output_high = ANY_INT16,
+        .output_min = ANY_INT16,
+        .output_max = ANY_INT16,
         .output_rest = ANY_INT16,
         .measurement_min = ANY_INT16,
         .measurement_max = ANY_INT16,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_slew.c"
+#include "slew/fixpid_slew.c"
 
 void eva(void)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "eva.h"
 
-#include "fixpid_tpo.c"
+#include "tpo/fixpid_tpo.c"
 
 void eva(void)
 {

@@ -64,7 +64,7 @@ class FaultRun
 end
 
 # All runs of a loop.
-class Faults
+class FaultRuns
   attr_reader :name, :rules, :runs
 
   def initialize(name, rules, runs)
@@ -83,7 +83,7 @@ class Faults
   end
 
   def of(*kinds)
-    Faults.new(name, rules, runs.select { |run| kinds.include?(run.kind) })
+    FaultRuns.new(name, rules, runs.select { |run| kinds.include?(run.kind) })
   end
 
   def kinds
@@ -173,7 +173,7 @@ def run_faults(long)
     count = long ? rules.long_runs : rules.runs
     command = ["#{programs}/faults_#{name}", "#{programs}/faults_#{name}_application.so"]
     Report.start("faults #{name}")
-    all = Faults.read(name, rules, halves_of_faults("faults-#{name}", command, count))
+    all = FaultRuns.read(name, rules, halves_of_faults("faults-#{name}", command, count))
     all.check(count, true)
     number_faults(all)
     draw_faults(all)
@@ -192,7 +192,7 @@ def run_faults_on_chips(long)
     paths = halves_of_faults("faults_chip-#{name}", command, count)
     places = long && chip.example == name ? RESET_PLACES : 0
     paths += halves_of_faults("faults_chip-#{name}-reset", command, places, 'reset') if places.positive?
-    all = Faults.read(name, chip.rules, paths)
+    all = FaultRuns.read(name, chip.rules, paths)
     all.check(count + places, false)
     check_places(all) if places.positive?
     number_faults(all)

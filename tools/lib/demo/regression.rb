@@ -5,7 +5,7 @@
 # that is as it was, and that nobody requires. What is required has a limit and
 # a reason in the loop's own file.
 module Regression
-  FILE = 'test/demo/regression.txt'
+  FILE = 'test/tools/demo/regression.txt'
   HEAD = <<~TEXT
     # What tools/demo measured. Nobody requires these values: they show that
     # something changed. `tools/demo --renew LOOP` takes those of a loop anew and

@@ -90,7 +90,7 @@ module Report
       @checks << Check.new(@loop, 'runs to its end', :==, 'yes', 'no', '')
     end
 
-    # Lines for who wants to know more.
+    # Lines for a reader who wants to know more.
     def note(*lines)
       @notes.concat(lines)
     end

@@ -32,7 +32,7 @@ class Cbmc
   def functions
     program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
     tool('goto-instrument', '--reachable-call-graph', program) or abort "prove: #{@proof.name}: #{@said}"
-    @said.scan(/^\w+ -> (\w+)$/).flatten.uniq
+    @said.scan(/^\w+ -> (\w+)$/).flatten.map { |name| name.delete_suffix(mark(name)) }.uniq
   end
 
   # What it does, without the places of its lines and of its file.
@@ -59,6 +59,13 @@ class Cbmc
 
   private
 
+  # What stands behind the names of a module's functions: FIXPID_MARKED in
+  # include/fixpid.h.
+  def mark(name)
+    noun = @proof.options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1].to_s.downcase
+    !noun.empty? && name.start_with?("fixpid_#{noun}_") ? '_c' : ''
+  end
+
   def tool(name, *arguments)
     @said, status = Open3.capture2e("#{ENV.fetch('CBMC')}/#{name}", *arguments)
     status.success?
@@ -74,7 +81,7 @@ class Cbmc
          '-o', program) or return nil
     @proof.contracts.each do |function|
       replaced = "#{program}-#{function}"
-      tool('goto-instrument', '--replace-calls', "#{function}:#{function}_contract", program, replaced) or return nil
+      tool('goto-instrument', '--replace-calls', "#{function}#{mark(function)}:#{function}_contract", program, replaced) or return nil
       program = replaced
     end
     program

@@ -1,95 +1,121 @@
 # SPDX-License-Identifier: MIT
-# Finds breaks that a proof notices, for the functions that have too few.
+# Whether the proofs notice what a machine breaks.
 require 'open3'
-require_relative '../mutants/breaks'
+require_relative '../faults/breaks'
+require_relative '../faults/excuses'
+require_relative 'equivalents'
 require_relative 'exhaustion'
 require_relative 'seeded'
 
-# Takes the breaks of tools/lib/mutants and asks the proofs that reach a
-# function, those first that reach the fewest others.
+# Of each function of more than five statements breaks of tools/lib/faults are drawn,
+# always the same, one of each line before the second ones: five of them must be noticed
+# before fifteen were missed. What is known to change nothing is not drawn. A break is
+# shown to the proofs that come to the function, first to those that come to the fewest
+# others.
 class Choice
-  TRIES = 20
-  SECONDS = 12
-  FAILURES = 3
+  MISSED_MOST = 15
+  SECONDS = [2, 12].freeze # who notices, does so soon: all proofs have a short time before one has a long one
+  FAILURES = 3 # as often a proof may notice nothing, unless it is the only one
   WORD = WORDS.first
 
-  def initialize(proofs, breaks, build)
+  def initialize(proofs, chosen, build)
     @build = build
-    @breaks = breaks
-    @reached = {}
-    @proofs = proofs.select { |proof| proof.exhausted? || (proof.word == WORD && !SLOW.include?(proof.what)) }
-    @proofs.each { |proof| [Proofs.sources(proof), reaches(proof)] } # before several ask at a time
+    @proofs = proofs.select { |proof| proof.exhausted? || proof.word == WORD }
+    @places = Seeded.long_functions.select { |file, _| whole?(file, proofs, chosen) }
+    files = @places.map(&:first).uniq
+    asked = @proofs.select { |proof| (Proofs.sources(proof) & files).any? }
+    @reached = Hash[asked.each_slice([asked.size / 2, 1].max).map { |some| Thread.new { some.map { |proof| [proof, reaches(proof)] } } }
+                         .flat_map(&:value)]
+    @excuses = Excuses.new(Equivalents::FILE)
   end
 
-  def lacking
-    Seeded.lacking(@breaks).keys.reject { |place| Seeded.unproved?(*place) }
-  end
+  attr_reader :places
 
-  # What is noticed of a function's breaks: the rows that are to be added.
-  def of(file, function)
-    needed = Seeded.lacking(@breaks).fetch([file, function])
-    proofs = proofs_of(file, function)
-    failures = Hash.new(0)
-    found = []
-    candidates(file, function).first(TRIES).each do |whole, instead|
-      break if found.size == needed
+  # Whether enough is noticed, and what to print. Of a function that is said to be
+  # unproved, so many in a row would be enough to refute that.
+  def judge(place)
+    unproved = Seeded.unproved?(*place)
+    noticed, tried = draw(*place, unproved ? 0 : MISSED_MOST)
+    enough = noticed.size == Seeded::BREAKS
+    return [true, unproved ? [] : noticed] if enough ^ unproved
 
-      broken = proofs.map { |proof| Broken.new(proof, file, function, whole, instead, "#{function}_#{file.hash}") }
-                     .find { |one| noticed?(one, failures) }
-      found << broken.row if broken
-      proofs = better(proofs, broken, failures)
-    end
-    found
+    where = place.join(', ')
+    [false, unproved ? "#{Seeded::UNPROVED}: no longer true: #{where}" : "#{where}: #{noticed.size} breaks noticed of #{tried}, not #{Seeded::BREAKS}"]
   end
 
   private
 
-  def noticed?(broken, failures)
-    answer = broken.in_tree(@build) { |tree| judge_of(broken.proof).new(broken.proof, @build, tree, SECONDS).run }
-    failures[broken.proof] += 1 unless answer.verdict == :refuted
-    answer.verdict == :refuted
+  # Those of a module of which all is to be proved, those of no module with everything.
+  def whole?(file, proofs, chosen)
+    of_module = proofs.select { |proof| proof.group == file.split('/')[1] }
+    ((of_module.empty? ? proofs : of_module) - chosen).empty?
   end
 
-  # The proof that noticed comes first; those that never did go.
-  def better(proofs, broken, failures)
-    failures[broken.proof] = -TRIES * TRIES if broken
-    [broken&.proof, *proofs].compact.uniq.reject { |proof| failures[proof] >= FAILURES }
+  # The lines about those that are noticed, and how many were tried, until as many as are
+  # allowed were missed.
+  def draw(file, function, missed_most)
+    proofs = proofs_of(file, function)
+    proofs = proofs.reject { |proof| Equivalents::WEAK.include?(proof.what) } if missed_most.zero?
+    failures = Hash.new(0)
+    noticed = []
+    drawn = proofs.empty? ? [] : candidates(file, function)
+    tried = drawn.take_while.with_index do |(mutant, key), at|
+      next if noticed.size == Seeded::BREAKS || at - noticed.size > missed_most
+
+      proof, line = ask(proofs, mutant, key, failures)
+      noticed << line if proof
+      proofs = better(proofs, proof, failures)
+    end
+    [noticed, tried.size]
   end
 
-  # In the first form that comes to it; to try all operands is the last means.
+  # The one that noticed a break first; those that never did not any more.
+  def better(proofs, proof, failures)
+    failures[proof] = -Float::INFINITY if proof
+    kept = [proof, *proofs].compact.uniq.reject { |one| failures[one] >= FAILURES }
+    kept.empty? ? proofs : kept
+  end
+
+  # The proof that notices a break, and the line about it.
+  def ask(proofs, mutant, key, failures)
+    Seeded.in_tree(@build, key, mutant.file, mutant.source) do |tree|
+      SECONDS.each do |seconds|
+        proofs = proofs.select do |proof|
+          answer = judge_of(proof).new(proof, @build, tree, seconds).run
+          return [proof, "#{Broken.new(proof, nil, nil, key).name}: noticed, #{answer.seconds.round(1)} s"] if answer.verdict == :refuted
+
+          more = seconds != SECONDS.last && answer.verdict == :none && !answer.why.start_with?('it does not compile')
+          failures[proof] += 1 unless more
+          more
+        end
+      end
+    end
+    nil
+  end
+
+  # In the first form that comes to it. Those that say little, those that are slow, and
+  # those that try all operands are the last means.
   def proofs_of(file, function)
-    reached = @proofs.select { |proof| Proofs.sources(proof).include?(file) && reaches(proof).include?(function) }
-    tried, asked = reached.uniq { |proof| [proof.group, proof.what, proof.exhausted? && proof.form] }.partition(&:exhausted?)
-    asked.sort_by { |proof| reaches(proof).size } + tried
+    reached = @reached.select { |proof, functions| Proofs.sources(proof).include?(file) && functions.include?(function) }.keys
+    reached.uniq { |proof| [proof.group, proof.what, proof.exhausted? && proof.form] }.sort_by do |proof|
+      last = [Equivalents::WEAK.include?(proof.what), SLOW.include?(proof.what), proof.exhausted?].count(true)
+      [last, @reached[proof].size]
+    end
   end
 
   def reaches(proof)
-    @reached[proof] ||= proof.exhausted? ? in_leaves(proof) : Cbmc.new(proof, @build).functions
-  end
+    return Cbmc.new(proof, @build).functions unless proof.exhausted?
 
-  def in_leaves(proof)
     text, = Open3.capture2('cc', '-std=c99', '-E', '-P', *proof.options, '-Iinclude', '-Isrc', proof.harness)
     text.scan(/(\w+)\(/).flatten.uniq
   end
 
-  # [whole, instead] of each line that can be broken, one of each line before the
-  # second ones.
+  # [mutant, its name] in the order in which they are tried.
   def candidates(file, function)
-    lines = Seeded.lines(file)
-    there = @breaks.map { |broken| [broken.file, broken.whole, broken.instead] }
-    of_lines = Breaks.of(file).select { |mutant| Seeded.functions(file)[mutant.line - 1] == function }.group_by(&:line)
-    rounds = of_lines.flat_map { |line, mutants| mutants.each_with_index.map { |mutant, round| [round, line, mutant] } }
-    rounds.sort_by { |round, line, _| [round, line] }.map { |_, _, mutant| change(lines, mutant) }.compact.uniq
-          .reject { |change| there.include?([file, *change]) }
-          .select { |whole, _| Broken.new(nil, file, function, whole).places.size == 1 }
-  end
-
-  # What it changes, if that is one line.
-  def change(lines, mutant)
-    now = mutant.source.lines
-    differ = lines.each_index.reject { |at| lines[at] == now[at] }
-    return unless now.size == lines.size && differ.size == 1
-
-    [lines, now].map { |text| text[differ.first].sub(%r{//.*}, '').strip }
+    keys = Excuses.keys(Breaks.of(file), Seeded.lines(file).join)
+    named = keys.select { |mutant, key| Seeded.functions(file)[mutant.line - 1] == function && !@excuses.cover?(key) }
+    shuffled = named.sort_by { |_, key| Digest::SHA256.hexdigest(key) }
+    shuffled.group_by { |mutant, _| mutant.line }.values.flat_map { |of_line| of_line.each_with_index.to_a }
+            .sort_by { |(_, key), round| [round, Digest::SHA256.hexdigest(key)] }.map(&:first)
   end
 end

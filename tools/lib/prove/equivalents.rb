@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Whether what test/mutants/equivalent.txt says to change nothing is proved to.
-require_relative '../mutants/breaks'
-require_relative '../mutants/excuses'
+# Whether what test/tools/mutants/equivalent.txt says to change nothing is proved to.
+require_relative '../faults/breaks'
+require_relative '../faults/excuses'
 require_relative 'exhaustion'
 require_relative 'seeded'
 
@@ -12,7 +12,7 @@ require_relative 'seeded'
 class Equivalents
   # They say that nothing bad follows, and not what must.
   WEAK = %w[total total_rest refused].freeze
-  FILE = 'test/mutants/equivalent.txt'.freeze
+  FILE = 'test/tools/mutants/equivalent.txt'.freeze
   ARGUED = "#{FOLDER}/argued.txt".freeze
   WORD = WORDS.first
 
@@ -42,7 +42,7 @@ class Equivalents
     mutant = mutants(file)[key] or return [false, "#{key}: there is no such line"]
     return [true, "#{key}: argued, as nothing is proved of it"] if unproved?(mutant)
 
-    held, why = Seeded.in_tree(@build, "equal_#{key.hash}", file, mutant.source) { |tree| shown(mutant, key, tree) }
+    held, why = Seeded.in_tree(@build, key, file, mutant.source) { |tree| shown(mutant, key, tree) }
     if @argued.cover?(key)
       [!held, held ? "#{key}: argued in #{ARGUED}, and proved: #{why}" : "#{key}: argued, as #{why}"]
     else

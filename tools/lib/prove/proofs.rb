@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The proofs, as test/proof/proofs.txt and the harnesses in test/proof/ have them.
 require 'open3'
+require 'pathname'
 
 FOLDER = 'test/proof'.freeze
 WORDS = [16, 32, 64].freeze
@@ -57,6 +58,7 @@ module Proofs
     @sources ||= {}
     @sources[[proof.harness, proof.options]] ||=
       Open3.capture2('cc', '-MM', *proof.options, "-I#{FOLDER}", '-Iinclude', '-Isrc', proof.harness).first.split
+           .map { |file| Pathname(file).cleanpath.to_s } # of src/pid/../common/
   end
 
   # Of each row `module form [option]... : what...`.

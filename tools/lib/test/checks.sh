@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=sh
+# shellcheck disable=SC2154 # part, which runs
 # Sourced by tools/test: how a part counts what passed and what failed.
 
 folder=build/test
@@ -13,13 +14,13 @@ check() {
         passed=$((passed + 1))
     else
         failed=$((failed + 1))
-        echo "FAILED $name"
+        echo "FAILED $name; again: tools/test $part, or: $*"
         tail -n 40 "$log"
     fi
 }
 
 # count NAME GOOD BAD COMMAND...: a runner that prints a line for each thing it
-# checked, like GOOD or BAD.
+# checked, like GOOD or BAD, or `skipped NAME: why`.
 count() {
     name=$1 good=$2 bad=$3
     shift 3
@@ -27,13 +28,19 @@ count() {
     "$@" >"$log" 2>&1 </dev/null || status=1
     passes=$(grep -c "$good" "$log") || true
     failures=$(grep -c "$bad" "$log") || true
+    skips=$(grep -c '^skipped ' "$log") || true
     [ $status -eq 0 ] || [ "$failures" -ne 0 ] || failures=1
-    [ $status -ne 0 ] || [ "$passes" -ne 0 ] || failures=1
+    [ $status -ne 0 ] || [ $((passes + skips)) -ne 0 ] || failures=1
     passed=$((passed + passes))
     failed=$((failed + failures))
+    skipped=$((skipped + skips))
+    grep '^skipped ' "$log" || true
     if [ "$failures" -ne 0 ]; then
-        echo "FAILED $name"
-        grep -v "$good" "$log" | tail -n 60
+        echo "FAILED $name; again: tools/test $part"
+        # The last lines, and of those before what failed.
+        grep -v "$good" "$log" | awk -v "bad=$bad" '
+            { line[NR] = $0 }
+            END { for (at = 1; at <= NR; at++) if (at > NR - 60 || line[at] ~ bad) print line[at] }'
     fi
 }
 
@@ -66,7 +73,7 @@ run_ceedling() {
     passed=$((passed + tests - failures))
     failed=$((failed + failures))
     if [ "$failures" -ne 0 ]; then
-        echo "FAILED unit tests: $name"
+        echo "FAILED unit tests: $name; again: tools/test $part"
         why=$(sed -n -e '/FAILED TEST SUMMARY/,/OVERALL/p' \
             -e '/EXCEPTION/,$p' -e '/BUILD FAILURE/,$p' "$log")
         printf '%s\n' "${why:-$(tail -n 20 "$log")}" | head -n 60

@@ -19,12 +19,8 @@ mode_and_form() {
     if [ "$1" = object ]; then
         objects="    'test_fixpid_*':
 $defines
-      - FIXPID_AN937_OBJECT=an937_controller
-      - FIXPID_AN964_OBJECT=an964_controller
-      - FIXPID_AN964_8BIT_OBJECT=an964_8bit_controller
-      - FIXPID_PID_OBJECT=pid_controller
-      - FIXPID_RELAY_OBJECT=relay_controller
-      - FIXPID_AUTOTUNE_OBJECT=autotune_controller
+$(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
+    "      - FIXPID_#{name.upcase}_OBJECT=#{name}_controller" }')
     '/test_pendulum\\.c/':
       - FIXPID_AN964_OBJECT=pendulum
     'test_pendulum_8bit':
@@ -63,6 +59,7 @@ part_quick() {
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
+    check 'planted faults' ruby tools/lib/faults/plant.rb
     part_docs
 }
 
@@ -108,9 +105,8 @@ part_limits() {
 }
 
 part_autotune() {
-    need ruby cc:gcc :libc6-dev
-    count 'test/relay/run' '^ok ' '^FAILED ' test/relay/run
-    count 'test/autotune/run' '^ok ' '^FAILED ' test/autotune/run
+    count 'test/model/relay/run' '^ok ' '^FAILED ' test/model/relay/run
+    count 'test/model/autotune/run' '^ok ' '^FAILED ' test/model/autotune/run
 }
 
 part_fuzz() {
@@ -123,23 +119,23 @@ part_avr() {
     mkdir -p build/avr/vectors
     # The last columns are the firmware's own cycles: no test reads them.
     for vectors in an937_firmware an964_firmware; do
-        cut -d , -f 1-12 "test/vectors/$vectors.csv" >"build/avr/$vectors.csv"
+        cut -d , -f 1-12 "test/support/vectors/$vectors.csv" >"build/avr/$vectors.csv"
     done
-    ruby test/avr/vectors_table.rb build/avr/*_firmware.csv \
-        test/vectors/pid_definition.csv test/vectors/track.csv \
-        test/vectors/slew.csv test/vectors/tpo.csv test/vectors/gains.csv \
+    # shellcheck disable=SC2046 # a list of files
+    ruby test/chips/avr/vectors_table.rb build/avr/*_firmware.csv \
+        $(find test/support/vectors -name '*.csv' ! -name '*_firmware.csv' ! -name autotune.csv) \
         >build/avr/vectors/vectors_table.c
     # Its own form in both modes; the narrow one, in plain C, in one.
-    run_mode avr pointer wide test/avr/avr.yml
-    run_mode avr object wide test/avr/avr.yml
-    run_mode avr pointer narrow test/avr/avr.yml
+    run_mode avr pointer wide test/chips/avr/avr.yml
+    run_mode avr object wide test/chips/avr/avr.yml
+    run_mode avr pointer narrow test/chips/avr/avr.yml
 }
 
 part_sanitize() {
     need clang :libclang-rt-14-dev
     need_ceedling
     for form in $forms; do
-        run_mode sanitize pointer "$form" test/sanitize/sanitize.yml
+        run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
     done
 }
 
@@ -168,56 +164,52 @@ part_lint() {
 
 part_consumers() {
     need cmake make ruby
-    count consumers '^ok ' '^FAILED ' test/consumers/run
-    count 'test/port_check/run' '^ok ' '^FAILED ' test/port_check/run
+    count consumers '^ok ' '^FAILED ' test/use/consumers/run
+    count 'test/use/port_check/run' '^ok ' '^FAILED ' test/use/port_check/run
 }
 
 part_packages() {
-    count packages '^ok ' '^FAILED ' test/packages/run
+    count packages '^ok ' '^FAILED ' test/use/packages/run
 }
 
 part_firmware() {
     need clang
     need_sdcc
-    count 'chips of tools/firmware' '^ok ' '^FAILED ' test/firmware/run
+    count 'chips of tools/firmware' '^ok ' '^FAILED ' test/use/firmware/run
     check 'tools/firmware' tools/firmware
-    count 'the sources under XC8' '^ok ' '^FAILED ' test/xc8_check/run
+    count 'the sources under XC8' '^ok ' '^FAILED ' test/use/xc8_check/run
 }
 
 part_target() {
     need qemu-system-arm simavr avr-gcc:gcc-avr
     need_sdcc
     build_gpsim
-    count 'test/target/run' '^ok ' '^FAILED ' test/target/run
-    count 'test/relay/chips' '^ok ' '^FAILED ' test/relay/chips
-    count 'test/autotune/chips' '^ok ' '^FAILED ' test/autotune/chips
-    count 'test/beside/run' '^ok ' '^FAILED ' test/beside/run
+    count 'test/chips/target/run' '^ok ' '^FAILED ' test/chips/target/run
+    count 'test/model/relay/chips' '^ok ' '^FAILED ' test/model/relay/chips
+    count 'test/model/autotune/chips' '^ok ' '^FAILED ' test/model/autotune/chips
 }
 
 part_python() {
-    need cc:gcc :libc6-dev :python3-dev :python3-venv :python3-cffi \
-        :python3-setuptools :python3-wheel :python3-numpy :python3-scipy \
-        :python3-matplotlib
-    count 'test/python/run' '^ok ' '^FAILED ' test/python/run
+    count 'test/use/python/run' '^ok ' '^FAILED ' test/use/python/run
 }
 
 part_site() {
-    count 'test/site/run' '^ok ' '^FAILED ' test/site/run
+    count 'test/web/site/run' '^ok ' '^FAILED ' test/web/site/run
 }
 
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
-    count 'test/families/run' '^ok ' '^FAILED ' test/families/run
+    count 'test/chips/families/run' '^ok ' '^FAILED ' test/chips/families/run
 }
 
 part_cost() {
     need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :avr-libc \
         :libsimavr-dev
     build_gpsim
-    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/cost/bounds.rb
-    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/cost/stacks.rb
-    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/cost/random_loops.rb
-    count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/cost/changes.rb
+    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/bounds.rb
+    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/stacks.rb
+    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/tools/cost/random_loops.rb
+    count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
 }
 
@@ -225,33 +217,39 @@ part_chip() {
     need_sdcc
     build_gpsim
     count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip
-    count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/cosim_check
+    count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/build/cosim_check
 }
 
 part_demo() {
     need cmake cc:gcc :libc6-dev make ruby gnuplot:gnuplot-nox
-    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/demo/readers.rb
+    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/tools/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
 }
 
 part_tuner() {
-    count 'test/tuner/run' '^ok ' '^FAILED ' test/tuner/run
+    count 'test/web/tuner/run' '^ok ' '^FAILED ' test/web/tuner/run
 }
 
 part_docs() {
     need ruby gpasm:gputils cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
-    check 'documentation' ruby tools/lib/check_docs.rb
+    check 'documentation' ruby tools/lib/pages/check_docs.rb
     check 'without dpkg' without_packages \
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
 }
 
+# The first command on a machine that has nothing.
+part_bare() {
+    count 'test/tools/bare/run' '^ok ' '^FAILED ' test/tools/bare/run
+}
+
 part_gates() {
     need ruby cc:gcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
-        avr-g++:gcc-avr :avr-libc gpasm:gputils
+        avr-g++:gcc-avr :avr-libc gpasm:gputils dash
     need_ceedling
-    for gate in parts lint documents memory mutants; do
-        count "test/gates/$gate.rb" '^ok ' '^FAILED ' ruby "test/gates/$gate.rb"
+    for gate in test/tools/gates/*.rb; do
+        [ "${gate##*/}" = planted.rb ] || # which they share
+            count "$gate" '^ok ' '^FAILED ' ruby "$gate"
     done
 }
 
@@ -260,19 +258,18 @@ part_assembly() {
     need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc
     need_sdcc
     build_gpsim
-    check 'the arithmetic on chips' test/target/run arith
-    count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/mutants/assembly.rb
+    check 'the arithmetic on chips' test/chips/target/run arith
+    count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/faults/assembly.rb
 }
 
 part_mutants() {
     need ruby cc:gcc :libc6-dev
     need_ceedling
-    count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/mutants.rb
+    count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
 }
 
 # The runner, and what it runs in a minute.
 part_proofs() {
-    need ruby cc:gcc
     count 'test/proof/judge' '^ok ' '^FAILED ' test/proof/judge
     count 'tools/prove --quick' '^ok ' '^FAILED ' tools/prove --quick
 }

@@ -1,14 +1,182 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=sh
-# shellcheck disable=SC2154 # work
-# Sourced by the runners that try things out in throw-away folders, each under a
-# name: how they judge commands, and how a name is run. They set `work`, the folder
-# of these folders, and have a function `names` that prints the names.
+# shellcheck disable=SC2154 # root, work
+# Sourced by the runners below test/, after setup.sh: what each is asked for in the same
+# words (`asked`), and how it judges commands. They set `root`, the project's folder, and
+# `work`, a folder of their own. In Ruby it is named.rb.
 
 # What a user's shell might set and these projects should not see.
 unset CDPATH CC CXX CFLAGS CXXFLAGS CPPFLAGS LDFLAGS DESTDIR MAKEFLAGS
 unset CMAKE_PREFIX_PATH CMAKE_GENERATOR CMAKE_BUILD_TYPE PKG_CONFIG_PATH
 export LC_ALL=C
+
+# --- which tests ---
+
+# asked SCRIPT [ARGUMENT]...: answers --help with the script's first comment, and sets
+# `chosen`, a line for each test to run: those that are named, with --failed what failed
+# when it ran last, and with no argument all. The runner has a function `names`, which
+# prints all, and --list prints that; or it calls `wanted` before each test.
+asked() {
+    script=$1
+    record=$root/build/failed/$(echo "$script" | tr / _)
+    listing=no
+    chosen=
+    shift
+    all=$(names 2>/dev/null) || all=
+    case ${1-} in
+    --list)
+        [ -z "$all" ] || {
+            printf '%s\n' "$all"
+            exit 0
+        }
+        listing=yes
+        return
+        ;;
+    -h | --help)
+        sed -n '3,/^[^#]/{/shellcheck/d;s/^# \{0,1\}//p;}' "$root/$script"
+        exit 0
+        ;;
+    --failed)
+        [ -s "$record" ] || {
+            echo 'nothing failed last time'
+            exit 0
+        }
+        chosen=$(cat "$record")
+        return
+        ;;
+    esac
+    for name in "$@"; do
+        case $name in
+        -*) wrong_name "$name" ;;
+        esac
+        [ -z "$all" ] || printf '%s\n' "$all" | grep -qxF -e "$name" ||
+            wrong_name "$name"
+        chosen="$chosen${chosen:+
+}$name"
+    done
+    chosen=${chosen:-$all}
+}
+
+wrong_name() {
+    say "no such test: $1; see --list"
+    exit 2
+}
+
+# wanted NAME: whether to run this test; for --list it says the name.
+seen=
+wanted() {
+    printf '%s\n' "$seen" | grep -qxF -e "$1" || {
+        [ "$listing" = no ] || echo "$1"
+        seen="$seen
+$1"
+    }
+    [ "$listing" = no ] || return 1
+    [ -z "$chosen" ] || printf '%s\n' "$chosen" | grep -qxF -e "$1"
+}
+
+# each COMMAND...: with the name of each chosen test as its last arguments, one for each
+# word; and the runner ends.
+each() {
+    while read -r name <&3; do
+        # shellcheck disable=SC2086 # its words
+        "$@" "$name" $name
+    done 3<<END
+$chosen
+END
+    finish
+}
+
+# The end of a runner. What was named is a test.
+finish() {
+    [ -z "$seen" ] || printf '%s\n' "$chosen" | while read -r name; do
+        printf '%s\n' "$seen" | grep -qxF -e "$name" || wrong_name "$name"
+    done || exit 2
+    [ "$failures" -eq 0 ]
+    exit
+}
+
+# --- what they print ---
+
+failures=0
+
+# passed NAME [WORDS], or failed NAME [LOG].
+passed() {
+    remember "$1"
+    echo "ok $1${2:+: $2}"
+}
+
+failed() {
+    remember "$1" failed
+    failures=$((failures + 1))
+    echo "FAILED $1; again: $(again "$1")"
+    [ -z "${2-}" ] || tail -n 40 "$2" | sed 's/^/    /'
+}
+
+again() {
+    case $1 in
+    *[!A-Za-z0-9_.-]*) echo "$script '$1'" ;;
+    *) echo "$script $1" ;;
+    esac
+}
+
+# remember NAME [failed]: for --failed.
+remember() {
+    mkdir -p "${record%/*}"
+    [ -f "$record" ] || : >"$record"
+    grep -vxF -e "$1" "$record" >"$record.new" || : # which has no line then
+    [ $# -eq 1 ] || echo "$1" >>"$record.new"
+    mv "$record.new" "$record"
+}
+
+# attempt NAME COMMAND...: passed with the last line that it prints, or failed.
+attempt() {
+    attempted=$1
+    shift
+    if "$@" >"$work/log" 2>&1 </dev/null; then
+        passed "$attempted" "$(tail -n 1 "$work/log")"
+    else
+        failed "$attempted" "$work/log"
+    fi
+}
+
+# runner NAME COMMAND...: one that prints its own lines for what it checks.
+runner() {
+    attempted=$1
+    shift
+    if "$@" >"$work/log" 2>&1 </dev/null; then
+        remember "$attempted"
+        grep '^ok ' "$work/log" || echo "ok $attempted"
+    elif grep -q '^FAILED ' "$work/log"; then
+        remember "$attempted" failed
+        failures=$((failures + 1))
+        grep '^ok ' "$work/log"
+        grep -v '^ok ' "$work/log" | tail -n 60
+        echo "again: $(again "$attempted")"
+    else
+        failed "$attempted" "$work/log"
+    fi
+}
+
+# try_out NAME COMMAND...: in a folder of its own, $work/NAME.
+try_out() {
+    tried=$1
+    shift
+    mkdir "$work/$tried" || exit 1
+    # Not in a condition: that would switch -e off inside.
+    (
+        set -e
+        cd "$work/$tried"
+        "$@"
+    ) >"$work/$tried.log" 2>&1 </dev/null
+    status=$?
+    if [ "$status" -eq 0 ]; then
+        passed "$tried"
+    else
+        failed "$tried" "$work/$tried.log"
+    fi
+}
+
+# --- how they judge ---
 
 # quiet COMMAND...: succeeds and prints nothing.
 quiet() {
@@ -42,51 +210,4 @@ same() {
     [ "$1" = "$2" ] && return 0
     printf 'expected:\n%s\nfound:\n%s\n' "$1" "$2"
     return 1
-}
-
-# asked SCRIPT [NAME]...: answers --list and --help, whose text is the script's
-# first comment, and stops at what is no name.
-asked() {
-    script=$1
-    shift
-    case ${1-} in
-    --list)
-        names | tr ' ' '\n'
-        exit 0
-        ;;
-    -h | --help)
-        sed -n '3,/^[^#]/s/^# \{0,1\}//p' "$script"
-        exit 0
-        ;;
-    esac
-    for name in "$@"; do
-        if ! names | tr ' ' '\n' | grep -qxF -e "$name"; then
-            say "no such name: $name; see --list"
-            exit 2
-        fi
-    done
-}
-
-failures=0
-
-# try_out NAME COMMAND...: in the folder $work/NAME; prints `ok NAME` or `FAILED
-# NAME` and the log.
-try_out() {
-    name=$1
-    shift
-    mkdir "$work/$name" || exit 1
-    # Not in a condition: that would switch -e off inside.
-    (
-        set -e
-        cd "$work/$name"
-        "$@"
-    ) >"$work/$name.log" 2>&1 </dev/null
-    status=$?
-    if [ "$status" -eq 0 ]; then
-        echo "ok $name"
-    else
-        echo "FAILED $name"
-        sed 's/^/    /' "$work/$name.log"
-        failures=$((failures + 1))
-    fi
 }

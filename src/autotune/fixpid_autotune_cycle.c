@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// The relays of fixpid_autotune, and what the end of a cycle decides.
+#include "fixpid_autotune.h"
+
+#include "../common/fixpid_bits.h"
+#include "fixpid_autotune_private.h"
+
+#define SEEN_MAX 48u
+#define SEEN_LOST 8u // losing the swing counts as so many cycles
+#define LAST_PERIOD_MIN 10u
+
+// Wide enough for every swing asked for: a swing is at most 65534, and a range
+// at most 65535.
+#define AMPLITUDE_MAX UINT32_C(131072)
+
+void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums)
+{
+    sums->all = 0;
+    sums->on = 0;
+    sums->rise = 0;
+    sums->steps = 0;
+    sums->on_steps = 0;
+}
+
+// A second difference of noise is 1.95 standard deviations in the mean; the sum
+// of 32 is at most 32 * 1023 = 32736, and with its half 49104.
+int16_t fixpid_autotune_hysteresis(
+    FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t sum = (uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u);
+    const uint16_t counts = (uint16_t)((sum >> 5) + 1u);
+
+    return (int16_t)counts;
+}
+
+// How far a side is from the centre. `half` is at most 21759, so that twice of
+// it fits.
+static uint16_t reach(FIXPID_DATA const struct fixpid_autotune *self,
+                      uint8_t phase, uint8_t side)
+{
+    const uint8_t wide =
+        (phase == PHASE_SECOND) ? (uint8_t)AT_LOW : (uint8_t)AT_HIGH;
+
+    if (phase == PHASE_CENTRE) {
+        return (uint16_t)(SELF.half + (SELF.half >> 1));
+    }
+    if (side == wide) {
+        return (uint16_t)(SELF.half << 1);
+    }
+    return SELF.half;
+}
+
+int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase, uint8_t side)
+{
+    const uint16_t centre = (uint16_t)SELF.centre;
+    const uint16_t far = reach(self, phase, side);
+    int16_t end = SELF.config.output_min;
+    uint16_t room = (uint16_t)(centre - (uint16_t)end);
+    uint16_t level = (uint16_t)(centre - far);
+
+    if (side == AT_HIGH) {
+        end = SELF.config.output_max;
+        room = (uint16_t)((uint16_t)end - centre);
+        level = (uint16_t)(centre + far);
+    }
+    if (phase == PHASE_FIND) {
+        return end;
+    }
+    if (far >= room) {
+        return end;
+    }
+    return (int16_t)level;
+}
+
+uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase)
+{
+    return (uint16_t)((uint16_t)fixpid_autotune_level(self, phase, AT_HIGH) -
+                      (uint16_t)fixpid_autotune_level(self, phase, AT_LOW));
+}
+
+void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self)
+{
+    SELF.output = fixpid_autotune_level(self, SELF.state, SELF.side);
+}
+
+void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
+                            uint8_t status)
+{
+    SELF.state = status;
+    SELF.output = SELF.config.output_rest;
+}
+
+// floor(256 part / whole), 0..255. pre: part < whole
+static uint8_t share(uint16_t part, uint16_t whole)
+{
+    uint8_t quotient = 0;
+    uint32_t rest = part;
+    uint8_t bit;
+
+    for (bit = 0; bit < 8u; bit++) {
+        rest <<= 1;
+        quotient = (uint8_t)(quotient << 1);
+        if (rest >= whole) {
+            rest -= whole;
+            quotient |= 1u;
+        }
+    }
+    return quotient;
+}
+
+// The relay that would make the wanted swing of this one.
+static uint32_t amplitude_for(uint16_t wanted_swing, uint16_t swing,
+                              uint16_t relay_counts)
+{
+    uint16_t wanted = wanted_swing;
+    uint32_t amplitude = relay_counts;
+
+    while (wanted > swing) {
+        wanted >>= 1; // rounded towards a smaller swing
+        amplitude <<= 1;
+    }
+    if (amplitude > AMPLITUDE_MAX) {
+        amplitude = AMPLITUDE_MAX;
+    }
+    if (wanted < swing) {
+        amplitude = (amplitude * share(wanted, swing)) >> 8;
+    }
+    return amplitude;
+}
+
+// counts * share / 256, to the nearest: 65535 * 255 + 128 < 2^24
+static uint16_t counts_of(uint16_t counts, uint8_t share_q8)
+{
+    return (uint16_t)((((uint32_t)counts * share_q8) + 128u) >> 8);
+}
+
+// What a half cycle overshoots is in proportion to the drive that is left on
+// its side. So where the setpoint cuts the swing, the output that holds it cuts
+// the relay: true of every lag with every dead time. The lowest deviation is
+// below 0 and the highest above, as the relay switched on both sides.
+static void recentre(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
+    const uint16_t swing =
+        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+    const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
+    const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
+                                       (uint16_t)SELF.config.output_min);
+    uint16_t wanted = SELF.config.swing;
+    uint32_t amplitude;
+
+    if (wanted == 0u) { // 24 hystereses; SDCC would link a multiplication
+        wanted = (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
+        wanted = (uint16_t)(wanted + wanted + wanted);
+    }
+    amplitude = amplitude_for(wanted, swing, relay_counts);
+    SELF.centre =
+        (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
+                                                            AT_LOW) +
+                            counts_of(relay_counts, share(below, swing)));
+    if (amplitude > widest) { // or the two relays would not differ
+        amplitude = widest;
+    }
+    SELF.half = (uint16_t)((amplitude * 85u) >> 8); // a third
+    if (SELF.half < 2u) {
+        SELF.half = 2;
+    }
+}
+
+static uint16_t distance(uint16_t a, uint16_t b)
+{
+    if (a < b) {
+        return (uint16_t)(b - a);
+    }
+    return (uint16_t)(a - b);
+}
+
+// The half at high is as long as it was before, within a 32nd of the period:
+// the output that holds the setpoint is the same. The sums have this cycle,
+// too.
+static bool same_load(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t on = (uint16_t)(SELF.last_period - SELF.elapsed);
+    const uint32_t others = (uint32_t)SELF.config.cycles + SELF.averaged;
+    const uint32_t cycles = others + 1u; // 8 at most
+    const uint32_t all = cycles * on;
+    const uint32_t sum = SELF.sums[0].on_steps;
+    const uint32_t more = (all > sum) ? all : sum;
+    const uint32_t less = (all > sum) ? sum : all;
+    const uint16_t allowed = (uint16_t)((SELF.last_period >> 5) + 1u);
+
+    return (more - less) <= (others * allowed);
+}
+
+// The cycle that ends is like the one before it, or in the last phase like
+// those of the first.
+static bool regular(FIXPID_DATA const struct fixpid_autotune *self,
+                    uint16_t before)
+{
+    if (SELF.state == PHASE_THIRD) {
+        return same_load(self);
+    }
+    return distance(SELF.last_period, before) <=
+           (uint16_t)((SELF.last_period >> 3) + 1u);
+}
+
+FIXPID_DATA struct fixpid_autotune_sums *fixpid_autotune_sums_of_phase(
+    FIXPID_DATA struct fixpid_autotune *self)
+{
+    if (SELF.state == PHASE_SECOND) {
+        return &SELF.sums[1];
+    }
+    return &SELF.sums[0];
+}
+
+// True if one half is below an eighth of the cycles. So short a half says
+// little of the process.
+static bool lopsided(FIXPID_DATA const struct fixpid_autotune_sums *sums)
+{
+    const uint16_t least = (uint16_t)(sums->steps >> 3);
+
+    if (sums->on_steps < least) {
+        return true;
+    }
+    return (uint16_t)(sums->steps - sums->on_steps) < least;
+}
+
+static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t swing =
+        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+
+    if (lopsided(&SELF.sums[0])) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (lopsided(&SELF.sums[1])) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (SELF.last_period < LAST_PERIOD_MIN) {
+        return FIXPID_AUTOTUNE_TOO_FAST;
+    }
+    if ((swing >> 2) < (uint16_t)fixpid_autotune_hysteresis(self)) {
+        return FIXPID_AUTOTUNE_TOO_SMALL;
+    }
+    return FIXPID_AUTOTUNE_DONE;
+}
+
+// The cycles of a relay are complete, or one more is averaged.
+static void average(FIXPID_DATA struct fixpid_autotune *self)
+{
+    SELF.averaged++;
+    if (SELF.averaged < SELF.config.cycles) {
+        return;
+    }
+    SELF.averaged = FRESH;
+    if (SELF.state == PHASE_THIRD) {
+        fixpid_autotune_finish(self, ending(self));
+        return;
+    }
+    if (SELF.state == PHASE_FIRST) {
+        fixpid_autotune_clear(&SELF.sums[1]);
+    }
+    SELF.state++; // the third phase goes on with the sums of the first
+}
+
+// A cycle unlike the one before may be the first of new ones.
+static void start_average_again(FIXPID_DATA struct fixpid_autotune *self)
+{
+    if (SELF.state == PHASE_THIRD) {
+        SELF.state = PHASE_FIRST;
+    }
+    fixpid_autotune_clear(fixpid_autotune_sums_of_phase(self));
+    SELF.averaged = 0;
+}
+
+// A cycle is a half at high and the half at low that ends now.
+static void end_cycle(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint16_t before = SELF.last_period;
+
+    SELF.last_period = SELF.period;
+    SELF.period = 0;
+    SELF.seen++;
+    if (SELF.seen >= SEEN_MAX) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_IRREGULAR);
+    } else if (SELF.averaged == FRESH) {
+        SELF.averaged = 0;
+    } else if (SELF.state < PHASE_FIRST) {
+        recentre(self);
+        SELF.averaged = FRESH;
+        SELF.state++;
+        if (SELF.state == PHASE_FIRST) {
+            fixpid_autotune_clear(&SELF.sums[0]);
+        }
+    } else if (regular(self, before)) {
+        average(self);
+    } else {
+        start_average_again(self);
+    }
+}
+
+void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
+                               int16_t deviation)
+{
+    end_cycle(self);
+    SELF.elapsed = 0;
+    if (SELF.state >= PHASE_NOISE) {
+        SELF.highest = deviation;
+        SELF.lowest = deviation;
+        fixpid_autotune_drive(self);
+    }
+}
+
+// The relay does not hold the setpoint any more: from the whole range again.
+void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self)
+{
+    fixpid_autotune_clear(&SELF.sums[0]);
+    SELF.state = PHASE_FIND;
+    SELF.averaged = FRESH;
+    SELF.period = 0;
+    SELF.elapsed = 1;
+    SELF.seen = (uint8_t)(SELF.seen + SEEN_LOST);
+    fixpid_autotune_drive(self);
+}

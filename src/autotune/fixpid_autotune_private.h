@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What the sources of fixpid_autotune share: how they reach the experiment, its
+// phases and its relays.
+#include "fixpid_autotune.h"
+
+#undef OBJECT
+#ifdef FIXPID_AUTOTUNE_OBJECT
+#define OBJECT FIXPID_AUTOTUNE_OBJECT
+#endif
+#include "../common/fixpid_self.h"
+
+#ifndef FIXPID_AUTOTUNE_PRIVATE_H
+#define FIXPID_AUTOTUNE_PRIVATE_H
+
+// `state` while the experiment runs; each is above every status.
+#define PHASE_NOISE 16u
+#define PHASE_FIND 17u   // the whole range: where is the setpoint?
+#define PHASE_CENTRE 18u // again, smaller
+#define PHASE_FIRST 19u  // two halves up, one down
+#define PHASE_SECOND 20u // one up, two down
+#define PHASE_THIRD 21u  // the first again: is the load the same?
+
+#define AT_LOW 0u
+#define AT_HIGH 1u
+
+#define FRESH 255u // `averaged`: a relay's first cycle, which never counts
+
+// These functions have the marks of the others.
+#define fixpid_autotune_sums_of_phase FIXPID_MARKED(autotune, sums_of_phase)
+#define fixpid_autotune_clear FIXPID_MARKED(autotune, clear)
+#define fixpid_autotune_level FIXPID_MARKED(autotune, level)
+#define fixpid_autotune_span FIXPID_MARKED(autotune, span)
+#define fixpid_autotune_hysteresis FIXPID_MARKED(autotune, hysteresis)
+#define fixpid_autotune_drive FIXPID_MARKED(autotune, drive)
+#define fixpid_autotune_finish FIXPID_MARKED(autotune, finish)
+#define fixpid_autotune_end_cycle FIXPID_MARKED(autotune, end_cycle)
+#define fixpid_autotune_find_again FIXPID_MARKED(autotune, find_again)
+
+// The sums that the present phase adds to.
+FIXPID_DATA struct fixpid_autotune_sums *fixpid_autotune_sums_of_phase(
+    FIXPID_DATA struct fixpid_autotune *self);
+
+void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums);
+
+// The relay's output on a side in a phase, within the output range.
+int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase, uint8_t side);
+
+// The difference of both, 1..65535.
+uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
+                              uint8_t phase);
+
+// Counts on each side of the setpoint within which the relay does not switch:
+// 1..1536.
+int16_t fixpid_autotune_hysteresis(
+    FIXPID_DATA const struct fixpid_autotune *self);
+
+// Outputs what phase and side ask for.
+void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self);
+
+// Ends the experiment.
+void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
+                            uint8_t status);
+
+// The relay has switched to high: a cycle is a half at high and the half at low
+// before that switch, of which `elapsed` is the length.
+void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
+                               int16_t deviation);
+
+// The relay does not hold the setpoint any more: from the whole range again.
+void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self);
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The functions of fixpid_bits.h for SDCC, which needs other spellings. Most
+// are macros: its pic16 port keeps a copy of each `static inline` function in
+// flash and passes the arguments through memory.
+#ifndef FIXPID_BITS_SDCC_H
+#define FIXPID_BITS_SDCC_H
+#include <stdint.h>
+
+#include "fixpid.h"
+
+// SDCC negates this one in place. (Other compilers' sanitizers report a wrap.)
+#define fixpid_negated(bits) ((uint16_t)(0u - (bits)))
+#define complement(x) ((int16_t)(-1 - (x)))
+#define shift_right_floor(x, n) ((x) >> (n))
+// With a product, as the C has it, SDCC would call its multiplication.
+#define shift_left(x, n) ((int32_t)((uint32_t)(x) << (n)))
+#define clamp32(value, low, high)                                              \
+    (((value) > (high)) ? (high) : (((value) < (low)) ? (low) : (value)))
+
+// (is_just of fixpid_signed.h. Of an inline function SDCC mistakes the
+// integral's lowest byte, on an 8051 with --stack-auto.)
+#define is_just(limit, counts, integral, fraction)                             \
+    (((uint16_t)((limit) ^ (counts)) | (uint16_t)(integral) | (fraction)) == 0u)
+
+// SDCC's own sums wrap.
+#define fixpid_add32(a, b) ((a) + (b))
+#define fixpid_sub32(a, b) ((a) - (b))
+
+// SDCC multiplies bytes only where there is no cast, and then keeps all 16
+// bits. Nobody calls it where a PIC18's products are in assembly, and there it
+// would stay in every object file.
+#if !defined(__SDCC_pic16) || defined(FIXPID_NO_ASSEMBLY)
+FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
+{
+    return a * b;
+}
+#endif
+
+#endif

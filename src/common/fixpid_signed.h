@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Signed values of 16 and 32 bits: saturated sums, a product, and a shift by a
+// variable.
+#ifndef FIXPID_SIGNED_H
+#define FIXPID_SIGNED_H
+#include <limits.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fixpid_bits.h"
+
+// Defined if the compiler has __builtin_add_overflow, which is the CPU's flag:
+// GCC from version 5 on, clang.
+#if defined(__GNUC__) && (__GNUC__ >= 5)
+#define FIXPID_HAS_ADD_OVERFLOW
+#elif defined(__has_builtin)
+#if __has_builtin(__builtin_add_overflow)
+#define FIXPID_HAS_ADD_OVERFLOW
+#endif
+#endif
+
+// (Older compilers for ARM say that they have the instructions and do not.)
+#if defined(__AVR_HAVE_MOVW__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_signed_avr.h"
+// Deviation 20.9: INT_MAX is a macro of <limits.h>.
+#elif (INT_MAX <= 32767) || !defined(FIXPID_HAS_ADD_OVERFLOW) ||               \
+    ((FIXPID_MULTIPLIER_BITS < 16) && !defined(__riscv))
+#include "fixpid_signed_narrow.h"
+#elif defined(__ARM_FEATURE_SAT) && !defined(FIXPID_NO_ASSEMBLY) &&            \
+    (!defined(__GNUC__) || defined(__clang__) || (__GNUC__ >= 10))
+#include "fixpid_signed_arm.h"
+#elif defined(__riscv)
+#include "fixpid_signed_riscv.h"
+#else
+
+// a - b, saturated
+FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
+{
+    const int32_t difference = (int32_t)a - b;
+
+    if (difference != (int16_t)difference) {
+        return (int16_t)(INT16_MAX ^ shift_right_floor(difference, 30));
+    }
+    return (int16_t)difference;
+}
+
+// a + b, saturated
+FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
+{
+    int32_t sum;
+
+    if (__builtin_add_overflow(a, b, &sum)) {
+        return (a < 0) ? INT32_MIN : INT32_MAX;
+    }
+    return sum;
+}
+
+// a + b, which fits unless bits were flipped: fixpid_add32 for a sum that gcc
+// for an AVR is not to merge with the sum before it, which takes it more
+// cycles.
+FIXPID_INLINE int32_t add32_apart(int32_t a, int32_t b)
+{
+    return fixpid_add32(a, b);
+}
+
+// gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+{
+    return (int32_t)gain * x;
+}
+
+// floor(x / 2^n), with n the lowest three bits of `places`; the others may be
+// anything, such as the options of which the lowest three are a filter.
+FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t places)
+{
+    return shift_right_floor(x, places & 7u);
+}
+
+// True if an integral of 40 bits, which are those of `integral` and then
+// `fraction`, equals `limit` counts exactly. `counts` is its integer part.
+FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
+                           uint8_t fraction)
+{
+    (void)counts;
+    return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
+}
+
+#endif
+
+#endif

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_pid.h"
+
+#include "fixpid_pid_accept.h"
+#include "fixpid_pid_private.h"
+
+// The object's `options` has the caller's options in its upper bits and, in the
+// five that are free, the derivative filter and the scale of ki: one byte
+// instead of three, and a step asks with one comparison whether the PID is
+// plain, which has none of the caller's bits. WEIGHTED is set if the setpoint
+// weight is below 1. If the caller set the bit, the weight is 0.
+#define REVERSE (HAS_REVERSE ? FIXPID_PID_REVERSE : 0u)
+#define ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? FIXPID_PID_DERIVATIVE_ON_ERROR : 0u)
+#define WEIGHTED (HAS_WEIGHT ? FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT : 0u)
+#define PUBLIC_OPTIONS (REVERSE | ON_ERROR | WEIGHTED)
+
+// The private ones; the lowest three are the derivative filter.
+#define FILTER (HAS_FILTER ? 0x07u : 0u)
+#define KI_FINE 0x08u // ki has 24 fractional bits; neither bit: 16
+#define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
+
+#define FEEDFORWARD (HAS_FEEDFORWARD ? SELF.feedforward : 0)
+#define WEIGHT_ONE 256u
+#define KI_KEPT_MAX 32767u
+#define KI_MIDDLE_MAX UINT32_C(8388479)    // rounds to 32767 * 256
+#define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
+
+// The signals of one step. A compiler that inlines keeps them in registers;
+// SDCC, where it gives locals fixed addresses or reaches them through a stack
+// pointer, is much faster with an object that has a name.
+struct signals {
+    int32_t p_d_ff;   // P + D + feed-forward, Q24.8
+    int32_t integral; // the candidate, Q16.16
+    int16_t error;
+    int16_t derivative_input; // falls with the error
+    uint8_t fraction;         // the candidate's next eight bits
+};
+
+#if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
+FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
+#define SIGNALS (*((void)signals, &fixpid_pid_signals)) // it counts as used
+#define LOCAL_SIGNALS                                                          \
+    FIXPID_DATA struct signals *const signals = &fixpid_pid_signals
+#else
+#define SIGNALS (*signals)
+#define LOCAL_SIGNALS                                                          \
+    struct signals now;                                                        \
+    struct signals *const signals = &now
+#endif
+
+// ki becomes 15 bits with one of three exponents, rounded to the nearest. Each
+// decision here, and everywhere in src/, has one condition, so that tests which
+// cover every branch also show that every condition matters (MC/DC).
+static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
+                         const struct fixpid_pid_gains *gains)
+{
+    const uint16_t kp_q8 = gains->kp_q8;
+    uint32_t ki = gains->ki_q24;
+    const uint16_t kd_q8 = gains->kd_q8;
+    const uint8_t filter = gains->derivative_filter;
+
+    if (kp_q8 > FIXPID_PID_KP_MAX) {
+        return false;
+    }
+    if (ki > FIXPID_PID_KI_MAX) {
+        return false;
+    }
+    if (kd_q8 > FIXPID_PID_KD_MAX) {
+        return false;
+    }
+    if (filter > FIXPID_PID_FILTER_MAX) {
+        return false;
+    }
+    SELF.options = (uint8_t)((SELF.options & PUBLIC_OPTIONS) | filter);
+    SELF.kp = kp_q8;
+    SELF.kd = kd_q8;
+    if (ki <= KI_KEPT_MAX) {
+        SELF.options |= KI_FINE;
+    } else if (HAS_COARSE_KI ? (ki > KI_MIDDLE_MAX) : false) {
+        ki = (ki + 32768u) >> 16;
+        SELF.options |= KI_COARSE;
+    } else {
+        ki = (ki + 128u) >> 8;
+    }
+    SELF.ki = (uint16_t)ki;
+    return true;
+}
+
+// If the configuration leaves the weight out, it is 0, which means b = 1.
+static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
+                          uint16_t weight_q8)
+{
+    SELF.setpoint_weight = (uint8_t)weight_q8;
+    if (weight_q8 > WEIGHT_ONE) {
+        return false;
+    }
+    if ((SELF.options & WEIGHTED) != 0u) {
+        return weight_q8 == 0u;
+    }
+    if (SELF.setpoint_weight != 0u) { // neither 0 nor WEIGHT_ONE
+        if (HAS_WEIGHT) {
+            SELF.options |= WEIGHTED;
+        }
+        return HAS_WEIGHT;
+    }
+    return true;
+}
+
+static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
+                          const struct fixpid_pid_config *config)
+{
+    SELF.options = config->options;
+    if ((SELF.options & (uint8_t)~PUBLIC_OPTIONS) != 0u) {
+        return false;
+    }
+    if (!accept_weight(self, config->setpoint_weight_q8)) {
+        return false;
+    }
+    SELF.output_min = config->output_min;
+    SELF.output_max = config->output_max;
+    if (SELF.output_min >= SELF.output_max) {
+        return false;
+    }
+    if (!accept_integral_limits(self, config->integral_min,
+                                config->integral_max)) {
+        return false;
+    }
+    return accept_gains(self, &config->gains);
+}
+
+// A refused controller has no gains, and its integral and its output can only
+// be 0.
+static void refuse(FIXPID_DATA struct fixpid_pid *self)
+{
+    SELF.kp = 0;
+    SELF.ki = 0;
+    SELF.kd = 0;
+    SELF.output_min = 0;
+    SELF.output_max = 0;
+    SELF.integral_min = 0;
+    SELF.integral_max = 0;
+}
+
+bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
+                     const struct fixpid_pid_config *config)
+{
+    bool accepted;
+
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(config != 0);
+    accepted = accept_config(self, config);
+    if (!accepted) {
+        refuse(self);
+    }
+    fixpid_pid_reset(self);
+    return accepted;
+}
+
+void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
+{
+    int16_t start = 0; // or the nearest count within the integral's limits
+
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.integral_min > 0) {
+        start = SELF.integral_min;
+    }
+    if (SELF.integral_max < 0) {
+        start = SELF.integral_max;
+    }
+    SELF.integral = shift_left(start, 16);
+    SELF.integral_fraction = 0;
+    SELF.derivative = 0;
+    SELF.previous = 0;
+    SELF.proportional_error = 0;
+    SELF.feedforward = 0;
+    SELF.output = 0;
+    SELF.status = FIXPID_PID_FIRST;
+}
+
+bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
+                          const struct fixpid_pid_gains *gains)
+{
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(gains != 0);
+    if (REFUSED) {
+        return false;
+    }
+    return accept_gains(self, gains);
+}
+
+// The proportional term's error is that of b * setpoint, rounded half up.
+static void weighted_error(FIXPID_DATA struct fixpid_pid *self,
+                           FIXPID_DATA struct signals *signals,
+                           int16_t setpoint)
+{
+    // within 255 * 32768 + 128
+    const int32_t product = mul16(SELF.setpoint_weight, setpoint) + 128;
+    int16_t weighted = (int16_t)shift_right_floor(product, 8);
+
+    if ((SELF.options & REVERSE) != 0u) {
+        weighted = complement(weighted);
+    }
+    SELF.proportional_error = sub16_sat(weighted, SIGNALS.derivative_input);
+}
+
+// Computes the errors in reverse, with a setpoint weight, or with the
+// derivative on the error. Reverse takes the mirror images of all inputs, which
+// changes the signs of their differences.
+static void special_errors(FIXPID_DATA struct fixpid_pid *self,
+                           FIXPID_DATA struct signals *signals,
+                           int16_t setpoint, int16_t measurement)
+{
+    int16_t goal = setpoint;
+
+    SIGNALS.derivative_input = measurement;
+    if ((SELF.options & REVERSE) != 0u) {
+        goal = complement(setpoint);
+        SIGNALS.derivative_input = complement(measurement);
+    }
+    SIGNALS.error = sub16_sat(goal, SIGNALS.derivative_input);
+    SELF.proportional_error = SIGNALS.error;
+    if ((SELF.options & WEIGHTED) != 0u) {
+        weighted_error(self, signals, setpoint);
+    }
+    if ((SELF.options & ON_ERROR) != 0u) {
+        SIGNALS.derivative_input = complement(SIGNALS.error);
+    }
+}
+
+// D = kd * (fall of the input), through the filter.
+static void differentiate(FIXPID_DATA struct fixpid_pid *self,
+                          FIXPID_DATA struct signals *signals)
+{
+    int32_t derivative;
+    int16_t fall;
+
+    if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
+        SELF.previous = SIGNALS.derivative_input;
+    }
+    fall = sub16_sat(SELF.previous, SIGNALS.derivative_input);
+    SELF.previous = SIGNALS.derivative_input;
+    derivative = mul16(SELF.kd, fall);
+    if ((SELF.options & FILTER) != 0u) {
+        // Both are within 2^30 - 2^24. The shift takes the lowest three bits of
+        // the options, which are the filter.
+        derivative = fixpid_add32(
+            derivative,
+            SELF.derivative - shift_right_by(SELF.derivative, SELF.options));
+        if (derivative > DERIVATIVE_MAX) {
+            derivative = DERIVATIVE_MAX;
+        }
+        if (derivative < -DERIVATIVE_MAX) {
+            derivative = -DERIVATIVE_MAX;
+        }
+    }
+    SELF.derivative = derivative;
+}
+
+// Sets the candidate, saturated. That is safe: every value that is cut off here
+// is beyond the integral's limits anyway.
+static void set_candidate(FIXPID_DATA struct signals *signals,
+                          int32_t integral_q8)
+{
+    int32_t limited = integral_q8;
+
+    if (limited > COUNTS_MAX_Q8) {
+        limited = COUNTS_MAX_Q8;
+    }
+    if (limited < -COUNTS_MAX_Q8) {
+        limited = -COUNTS_MAX_Q8;
+    }
+    SIGNALS.integral = shift_left(limited, 8);
+}
+
+// Sets the candidate to I + ki * error. The limits of the integral are -32767
+// and 32767 at most, so a sum that saturates lies beyond them.
+static void integrate(FIXPID_DATA struct fixpid_pid *self,
+                      FIXPID_DATA struct signals *signals)
+{
+    int32_t change = mul16(SELF.ki, SIGNALS.error);
+
+    SIGNALS.fraction = SELF.integral_fraction;
+    if ((SELF.options & KI_COARSE) != 0u) {
+        // within 2^23 + 2^30
+        set_candidate(
+            signals, fixpid_add32(shift_right_floor(SELF.integral, 8), change));
+        SIGNALS.integral += (int32_t)(uint8_t)SELF.integral;
+        return;
+    }
+    if ((SELF.options & KI_FINE) != 0u) {
+        change += (int32_t)SIGNALS.fraction;
+        SIGNALS.fraction = (uint8_t)change;
+        change = shift_right_floor(change, 8);
+    }
+    SIGNALS.integral = add32_sat(SELF.integral, change);
+}
+
+// Sets the candidate that makes the sum equal to the output held. The step
+// keeps it, as if there were no error.
+static void take_over(FIXPID_DATA struct fixpid_pid *self,
+                      FIXPID_DATA struct signals *signals)
+{
+    // within 2^31 - 2^15
+    set_candidate(signals, fixpid_sub32(shift_right_floor(SELF.integral, 8),
+                                        SIGNALS.p_d_ff));
+    SIGNALS.fraction = 0;
+    SIGNALS.error = 0;
+}
+
+// Keeps the candidate within the integral's limits and then the sum within the
+// output's. Anti-windup: a candidate that pushes a limited output further is
+// forgotten.
+// Deviation 40 lines: splitting it would cost 50 cycles on a PIC18.
+static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
+                                  FIXPID_DATA struct signals *signals)
+{
+    const int16_t counts = (int16_t)shift_right_floor(SIGNALS.integral, 16);
+    uint8_t flags = 0;
+    int32_t output;
+
+    if (counts >= SELF.integral_max) {
+        if (!is_just(SELF.integral_max, counts, SIGNALS.integral,
+                     SIGNALS.fraction)) {
+            flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
+        }
+        SIGNALS.integral = shift_left(SELF.integral_max, 16);
+        SIGNALS.fraction = 0;
+    } else if (counts < SELF.integral_min) {
+        flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
+        SIGNALS.integral = shift_left(SELF.integral_min, 16);
+        SIGNALS.fraction = 0;
+    } else {
+        // inside
+    }
+    // within 2^31 - 2^15 + 128
+    output = fixpid_add32(SIGNALS.p_d_ff,
+                          shift_right_floor(SIGNALS.integral, 8) + 128);
+    output = shift_right_floor(output, 8);
+    if (output > SELF.output_max) {
+        output = SELF.output_max;
+        flags |= FIXPID_PID_AT_MAX;
+        if (SIGNALS.error > 0) {
+            SELF.status = flags;
+            return (int16_t)output;
+        }
+    } else if (output < SELF.output_min) {
+        output = SELF.output_min;
+        flags |= FIXPID_PID_AT_MIN;
+        if (SIGNALS.error < 0) {
+            SELF.status = flags;
+            return (int16_t)output;
+        }
+    } else {
+        // inside
+    }
+    SELF.status = flags;
+    SELF.integral = SIGNALS.integral;
+    SELF.integral_fraction = SIGNALS.fraction;
+    return (int16_t)output;
+}
+
+// The output held by hand. set_manual and set_limits keep it within the
+// output's limits, but a flipped bit may move it out. Without the feature there
+// is no function, because SDCC would keep a copy of it.
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
+static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
+{
+    // A machine word, because gcc for an RV32EC would extend 16 bits at each
+    // use.
+    const int_fast16_t output =
+        (int_fast16_t)shift_right_floor(SELF.integral, 16);
+
+    if (output > SELF.output_max) {
+        return SELF.output_max;
+    }
+    if (output < SELF.output_min) {
+        return SELF.output_min;
+    }
+    return (int16_t)output;
+}
+#else
+#define held_output(self) ((int16_t)0)
+#endif
+
+int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
+                        int16_t measurement)
+{
+    LOCAL_SIGNALS;
+    int16_t output;
+
+    FIXPID_ASSERT(VALID(self));
+    if ((SELF.options & PUBLIC_OPTIONS) == 0u) {
+        SIGNALS.error = sub16_sat(setpoint, measurement);
+        SELF.proportional_error = SIGNALS.error;
+        SIGNALS.derivative_input = measurement;
+    } else {
+        special_errors(self, signals, setpoint, measurement);
+    }
+    SIGNALS.p_d_ff = mul16(SELF.kp, SELF.proportional_error);
+    differentiate(self, signals);
+    // within 2^30 - 2^15 + 2^30 - 2^24 + 2^23
+    SIGNALS.p_d_ff =
+        add32_apart(fixpid_add32(SIGNALS.p_d_ff, shift_left(FEEDFORWARD, 8)),
+                    SELF.derivative);
+    if ((SELF.status & HELD) == 0u) {
+        integrate(self, signals);
+    } else if ((SELF.status & FIXPID_PID_MANUAL) == 0u) {
+        take_over(self, signals);
+    } else {
+        SELF.status = FIXPID_PID_MANUAL;
+        output = held_output(self);
+        if (HAS_TRACK) {
+            SELF.output = output;
+        }
+        return output;
+    }
+    output = limit_and_remember(self, signals);
+    if (HAS_TRACK) {
+        SELF.output = output;
+    }
+    return output;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What the sources of fixpid_pid share: how they reach the controller, and its
+// private bits.
+#include "fixpid_pid.h"
+
+#undef OBJECT
+#ifdef FIXPID_PID_OBJECT
+#define OBJECT FIXPID_PID_OBJECT
+#endif
+#include "../common/fixpid_self.h"
+
+#ifndef FIXPID_PID_PRIVATE_H
+#define FIXPID_PID_PRIVATE_H
+
+// SDCC reaches the operands of its assembly for a PIC18 in places that are
+// fixpid_pid's own.
+#if defined(__SDCC_pic16) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_pid_pic18.h"
+#else
+#include "../common/fixpid_signed.h"
+#endif
+
+// The output limits of a refused controller are equal.
+#define REFUSED (SELF.output_min == SELF.output_max)
+
+// The features, as constant conditions. A mask that needs a missing one is 0,
+// and the compiler drops what asks for its bits.
+#define FEATURES ((unsigned)FIXPID_PID_FEATURES)
+#define HAS_FILTER ((FEATURES & FIXPID_PID_HAS_FILTER) != 0u)
+#define HAS_WEIGHT ((FEATURES & FIXPID_PID_HAS_WEIGHT) != 0u)
+#define HAS_REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) != 0u)
+#define HAS_DERIVATIVE_ON_ERROR                                                \
+    ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) != 0u)
+#define HAS_FEEDFORWARD ((FEATURES & FIXPID_PID_HAS_FEEDFORWARD) != 0u)
+#define HAS_MANUAL ((FEATURES & FIXPID_PID_HAS_MANUAL) != 0u)
+#define HAS_COARSE_KI ((FEATURES & FIXPID_PID_HAS_COARSE_KI) != 0u)
+#define HAS_TRACK ((FEATURES & FIXPID_PID_HAS_TRACK) != 0u)
+
+// Bits of `status` under which `integral` holds the output to return instead of
+// an integral.
+#define HELD (HAS_MANUAL ? (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL) : 0u)
+
+// The largest number of counts that 16 bits can hold, in 1/256.
+#define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Random experiments of fixpid_autotune on plants in 32-bit arithmetic, which
+// every chip has. What is recorded is replayed by test/model/autotune.
+#include "calls_autotune.h"
+#include "calls.h"
+#include "numbers.h"
+
+#define DELAY_MAX 16
+#define FULL_SCALE 4095
+
+FIXPID_DATA struct fixpid_autotune tuner;
+
+static struct fixpid_autotune_config config;
+static int16_t setpoint;
+
+// Dead time, then two lags, or a lag and an integrator. Positions are in 1/4096
+// of an output count, below 2^29.
+static struct {
+    int32_t first;
+    int32_t second;
+    int16_t line[DELAY_MAX];
+    uint8_t delay;
+    uint8_t oldest;
+    uint8_t first_shift;
+    uint8_t second_shift;
+    uint8_t noise;
+    bool integrating;
+} plant;
+
+static bool one_in(uint8_t count)
+{
+    return numbers_below(count) == 0u;
+}
+
+static void draw(void)
+{
+    config.output_min = 0;
+    config.output_max = one_in(2) ? 255 : 1000;
+    config.output_rest = one_in(2) ? 0 : config.output_max >> 1;
+    config.measurement_min = -1;
+    config.measurement_max = FULL_SCALE + 1;
+    config.swing = one_in(3) ? 0 : (uint16_t)(8u + numbers_below(600));
+    config.timeout_steps = one_in(8) ? 40 : 4000;
+    config.cycles = (uint8_t)(1u + numbers_below(4));
+    config.options = one_in(3) ? FIXPID_AUTOTUNE_REVERSE : 0;
+    plant.delay = (uint8_t)(1u + numbers_below(DELAY_MAX));
+    plant.oldest = 0;
+    plant.first_shift = (uint8_t)numbers_below(4);
+    plant.second_shift = (uint8_t)(2u + numbers_below(4));
+    plant.noise = (uint8_t)(one_in(8) ? 200 : numbers_below(5));
+    plant.integrating = one_in(3);
+    plant.first = 0;
+    plant.second = 0;
+    for (uint8_t i = 0; i < DELAY_MAX; i++) {
+        plant.line[i] = 0;
+    }
+    setpoint =
+        (int16_t)((config.output_max >> 3) * 3 + (int16_t)numbers_below(100));
+    if (one_in(16)) {
+        config.cycles = 0;
+    }
+}
+
+static int16_t measure(void)
+{
+    int32_t counts = plant.second >> 11;
+
+    if (plant.noise != 0u) {
+        counts += (int32_t)numbers_below(plant.noise * 2u + 1u) - plant.noise;
+    }
+    counts = (counts < 0) ? 0 : counts;
+    counts = (counts > FULL_SCALE) ? FULL_SCALE : counts;
+    return (int16_t)((config.options != 0u) ? FULL_SCALE - counts : counts);
+}
+
+static void move(int16_t output)
+{
+    int32_t driven = plant.line[plant.oldest];
+
+    plant.line[plant.oldest] = output;
+    plant.oldest++;
+    if (plant.oldest >= plant.delay) {
+        plant.oldest = 0;
+    }
+    if (plant.integrating) {
+        driven -= config.output_max >> 1;
+    }
+    plant.first += (driven * 4096 - plant.first) >> plant.first_shift;
+    if (plant.integrating) {
+        plant.second += plant.first >> (plant.second_shift + 2u);
+        plant.second = (plant.second < 0) ? 0 : plant.second;
+        plant.second = (plant.second > 0xFFFFFFL) ? 0xFFFFFFL : plant.second;
+    } else {
+        plant.second += (plant.first - plant.second) >> plant.second_shift;
+    }
+}
+
+static void answer(uint32_t value)
+{
+    calls_answer(value, value);
+}
+
+static void ask_results(void)
+{
+    struct fixpid_autotune_process model = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+
+    answer(fixpid_autotune_status(&tuner));
+    answer(fixpid_autotune_model(&tuner, &model));
+    answer(model.gain_q8);
+    answer(model.lag_q4);
+    answer(model.dead_q4);
+    answer(model.slope_q24);
+    answer(model.ultimate_q8);
+    answer(model.period_q4);
+    answer((uint32_t)(int32_t)model.holding);
+    answer(model.noise_q4);
+    answer(model.hysteresis);
+    for (uint8_t rule = 0; rule < 8u; rule++) {
+        struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0, 0, 0, 0, 0, 0};
+
+        answer(fixpid_autotune_result(
+            &tuner, rule, (uint8_t)(8u + numbers_below(57)), &gains));
+        answer(gains.gains.kp_q8);
+        answer(gains.gains.ki_q24);
+        answer(gains.gains.kd_q8);
+        answer(gains.gains.derivative_filter);
+        answer(gains.setpoint_weight_q8);
+        answer(gains.options);
+    }
+}
+
+#ifdef CALLS_BY_KIND
+static FIXPID_DATA struct fixpid_autotune before;
+
+// SDCC's pic16 port cannot assign a structure.
+static void copy(FIXPID_DATA struct fixpid_autotune *to,
+                 FIXPID_DATA struct fixpid_autotune *from)
+{
+    FIXPID_DATA uint8_t *const target = (FIXPID_DATA uint8_t *)to;
+    FIXPID_DATA uint8_t *const source = (FIXPID_DATA uint8_t *)from;
+
+    for (uint8_t i = 0; i < sizeof(struct fixpid_autotune); i++) {
+        target[i] = source[i];
+    }
+}
+#endif
+
+// One step, through the function that its kind is metered by: which of them it
+// is, a first try on a copy has told.
+static int16_t step(int16_t target, int16_t measurement)
+{
+#ifdef CALLS_BY_KIND
+    const uint8_t seen = tuner.seen;
+    bool ends;
+
+    copy(&before, &tuner);
+    (void)fixpid_autotune_step(&tuner, target, measurement);
+    ends = tuner.seen != seen;
+    copy(&tuner, &before);
+    if (ends) {
+        return autotune_cycle_step(&tuner, target, measurement);
+    }
+    return autotune_ordinary_step(&tuner, target, measurement);
+#else
+    return fixpid_autotune_step(&tuner, target, measurement);
+#endif
+}
+
+void calls_rows(void)
+{
+    // there are none
+}
+
+void calls_random(uint32_t count)
+{
+    uint32_t steps = 0;
+
+    while (steps < count) {
+        int16_t output = 0;
+
+        draw();
+        answer(fixpid_autotune_init(&tuner, &config));
+        do {
+            const int16_t target =
+                (int16_t)((config.options != 0u) ? FULL_SCALE - setpoint
+                                                 : setpoint);
+
+            output = step(target, measure());
+            answer((uint32_t)(int32_t)output);
+            move(output);
+            steps++;
+        } while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING);
+        ask_results();
+    }
+}

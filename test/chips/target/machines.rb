@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'images'
+
+# Programs for machines that can print: this one, an AVR, and those of QEMU.
+class Machine
+  SHARED = %W[-std=c99 -O2 -Wall -Wextra -Werror -Iinclude -Itest/support -I#{HERE}].freeze
+  SHIM = "-I#{HERE}/shim"
+  BARE = ['-ffreestanding', '-nostdlib', "-I#{HERE}/qemu", SHIM].freeze
+
+  attr_reader :name
+
+  # `after` are words of the compiler that come last.
+  def initialize(name, compiler, after = [], &run)
+    @name = name
+    @compiler = compiler
+    @after = after
+    @run = run
+  end
+
+  # A program of these words, which are sources and options.
+  def program(name, words)
+    output = "#{WORK}/#{name}.#{@name}.elf"
+    compiler, *options = @compiler
+    BUILT.command(output, compiler, *SHARED, *options, *words, '-o', output, *@after)
+  end
+
+  # What it prints. Some answer may be wrong: then its exit status says so, and
+  # whoever compares sees it.
+  def printed(program)
+    Open3.capture2e('timeout', '600', *@run.call(program), stdin_data: '').first.lines.grep_v(/^Timer with period zero/).join
+  end
+
+  def self.qemu(name, compiler, folder, *system)
+    new(name, [*compiler, *BARE], ["#{HERE}/#{folder}/start.c", "#{HERE}/qemu/runtime.c", '-T', "#{HERE}/#{folder}/flash.ld", '-lgcc']) do |program|
+      ["qemu-system-#{system.first}", *system.drop(1), '-nographic', '-semihosting', '-kernel', program]
+    end
+  end
+
+  def self.arm(core, board)
+    qemu(core, ['arm-none-eabi-gcc', "-mcpu=#{core}", '-mthumb'], 'arm', 'arm', '-M', board)
+  end
+
+  def self.riscv(core, abi, *options)
+    qemu(core, ['riscv64-unknown-elf-gcc', "-march=#{core}", "-mabi=#{abi}"], 'riscv', 'riscv32', '-M', 'virt', '-bios', 'none', *options)
+  end
+
+  ALL = [
+    arm('cortex-m0', 'microbit'), arm('cortex-m3', 'lm3s6965evb'), arm('cortex-m4', 'mps2-an386'),
+    riscv('rv32imc', 'ilp32'), riscv('rv32ec', 'ilp32e', '-cpu', 'rv32,m=false'),
+    new('avr', %w[avr-gcc -mmcu=atmega2560], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program, 'atmega2560'] },
+    new('host', ['gcc', SHIM]) { |program| [program] },
+    new('sanitized', ['gcc', '-fsanitize=undefined', '-fno-sanitize-recover=all', SHIM]) { |program| [program] }
+  ].to_h { |machine| [machine.name, machine] }.freeze
+end

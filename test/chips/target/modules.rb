@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative '../../../tools/lib/modules'
+require_relative 'machines'
+
+# What stands beside a controller, in the program of test/chips/modules/: all recorded
+# rows and random calls, on this machine against their definitions, and on the others,
+# where the digest of all answers must be this machine's.
+class CalledModule
+  FOLDER = 'test/chips/modules'
+  FLAGS = %W[-I#{WORK} -I#{FOLDER} #{FOLDER}/main.c test/support/numbers.c].freeze
+  MORE_NUMBERS = %w[test/support/numbers_control.c test/support/numbers_pid.c].freeze
+  DEFINITIONS = %w[-DCALLS_DEFINED -Isrc test/support/reference.c test/support/reference_control.c].freeze
+  HOST = Machine::ALL.fetch('host')
+  AVR = Machine.new('atmega1284p', %w[avr-gcc -mmcu=atmega1284p -std=gnu99], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program] }
+  OTHERS = { 'avr' => AVR, 'cortex_m0' => Machine::ALL.fetch('cortex-m0'), 'cortex_m3' => Machine::ALL.fetch('cortex-m3') }.freeze
+
+  # What is metered, if not `step`.
+  FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result] }.freeze
+
+  # The autotuner fills a PIC18 and has no definition in C: test/model/autotune compares
+  # it.
+  def initialize(name)
+    @name = name
+    @functions = FUNCTIONS.fetch(name, %w[step]).map { |verb| "fixpid_#{name}_#{verb}" }
+  end
+
+  # name => what is done
+  def tests
+    { 'host' => -> { compared? ? against_definition('src') : answers }, 'planted' => -> { planted }, 'pic18' => -> { pic18 },
+      **OTHERS.transform_values { |machine| -> { Target.same(answers, digests(machine)) } } }
+      .transform_keys { |test| "#{test} #{@name}" }
+  end
+
+  private
+
+  def compared?
+    @name != 'autotune'
+  end
+
+  def sources(folder = 'src')
+    Modules.sources(@name, File.dirname(folder)).map { |file| Pathname("#{folder}/../#{file}").cleanpath.to_s }
+  end
+
+  # What makes the calls, with its recorded rows.
+  def calls
+    recorded = "test/support/vectors/#{@name}.csv"
+    maker = "#{FOLDER}/rows.rb"
+    rows = "#{WORK}/rows_#{@name}.h"
+    if Modules::ALL[@name].key?(:rows)
+      BUILT.make(rows, [Inputs.digest([maker, 'tools/lib/modules.rb', recorded])]) { written(rows, said('ruby', maker, recorded)) }
+    end
+    [*FLAGS, "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS if compared?)]
+  end
+
+  def digests(machine)
+    machine.printed(machine.program(@name, calls + sources)).sub(/ different.*/, '')
+  end
+
+  def answers
+    digests(HOST)
+  end
+
+  def against_definition(folder)
+    program = HOST.program("defined-#{@name}-#{folder.tr('/', '-')}", [*calls, *DEFINITIONS, "-DCALLS=#{Target.amount.calls}", *sources(folder)])
+    said(program)
+  end
+
+  def planted
+    return 'by test/model/autotune/run' unless compared?
+
+    folder = Broken.module(@name)
+    Target.noticed(/ different (?!0+$)/) { against_definition(folder) }
+  end
+
+  def pic18
+    meters = BUILT.command("#{WORK}/calls", *Programs::CC, "#{FOLDER}/chip.cc", *Programs::SIMULATORS['gpsim'], '-o', "#{WORK}/calls")
+    text = said(meters, Images.program("calls-#{@name}", ['-DCALLS_SILENT', *calls, *sources]), *@functions)
+    Target.same(answers, text.lines.first.sub(/ different.*/, ''))
+    text
+  end
+
+  # All that have a calls_x.c and no driver.
+  def self.all
+    Modules.called.map { |name| new(name) }
+  end
+end

@@ -1,0 +1,412 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# The compiled library on simulated chips, bit for bit: see test/chips/target/run.
+require_relative '../../../tools/lib/measure/subjects'
+require_relative '../../../tools/lib/test/named'
+require_relative 'machines'
+
+ROOT = File.expand_path('../../..', __dir__)
+VECTORS = 'test/support/vectors'
+LOGS = "#{WORK}/logs"
+BOTH = MODES.reverse.freeze
+# Controller and chip of each firmware, and those with members at fixed addresses.
+ON_CHIPS = CONTROLLERS.flat_map { |one| [one.name].product(one.pics) }.uniq.freeze
+PLACED = [%w[an937 pic18f4520], %w[pid pic18f4520]].freeze
+TICKING = %w[an937 pic18f4520].freeze # whose tick an interrupt may call
+PORTS = %w[pic16f684 pic18f4520 pic18f26k22 pic18f4431 atmega328p].freeze
+MACHINES = %w[cortex-m0 cortex-m3 cortex-m4 rv32imc rv32ec avr].freeze
+# Of fixpid_pid: none of its features, and all but one.
+FEATURE_SETS = %w[0x00 0xFE 0xFD 0xFB 0xF7 0xEF 0xDF 0xBF 0x7F].freeze
+EXAMPLES = { 'pendulum' => 'an964', 'pendulum_8bit' => 'an964_8bit', 'motor' => 'an937', 'oven' => 'an937',
+             'motor_pic18f26k22' => 'an937', 'oven_pic18f26k22' => 'an937',
+             'motor_atmega328p' => 'an937', 'oven_atmega328p' => 'an937' }.freeze
+PLAIN = '-DFIXPID_NO_ASSEMBLY'
+NARROW = '-D_PIC14'
+DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
+
+# How much is asked.
+Amount = Struct.new(:random, :machine, :avr, :sanitized, :calls, :rows_apart)
+SHORT = Amount.new(100_000, 200_000, 10_000, 1_000_000, 1_000_000, 31).freeze
+LONG = Amount.new(500_000, 1_000_000, 50_000, 20_000_000, 10_000_000, 1).freeze
+
+# The programs of this machine that ask: test/chips/target/NAME.cc.
+module Programs
+  C = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Itest/support -I#{HERE}].freeze
+  CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Iinclude -I#{HERE}].freeze
+  ASKING = [*%w[cases arith arith_an937 arith_an964 arith_an964_8bit arith_pid].map { |name| "#{HERE}/#{name}.c" },
+            *%w[numbers numbers_pid reference reference_pid].map { |name| "test/support/#{name}.c" }].freeze
+  SIMULATORS = { 'gpsim' => %w[build/gpsim/libchip.a -lgpsim], 'simavr' => %w[build/gpsim/libchip_avr.a -lsimavr] }.freeze
+  # Of examples/kept: all of it is one object, which exports only what is asked.
+  KEPT = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -I. -Iinclude -Isrc -Iport -Iport/pic/pic18f4520 -r
+            #{HERE}/kept_host.c src/pid/fixpid_pid.c src/pid/fixpid_pid_more.c src/record/fixpid_record.c].freeze
+
+  class << self
+    def of(name, simulator = 'gpsim')
+      objects = name == 'kept' ? [kept] : [object(CC, "#{HERE}/driver.cc"), *ASKING.map { |file| object(C, file) }]
+      output = "#{WORK}/#{name}.#{simulator}"
+      BUILT.command(output, 'g++', '-o', output, object(CC, "#{HERE}/#{name}.cc"), *objects, *SIMULATORS.fetch(simulator))
+    end
+
+    private
+
+    def object(compiler, source)
+      output = "#{WORK}/#{File.basename(source)}.o"
+      BUILT.command(output, *compiler, '-c', source, '-o', output)
+    end
+
+    def kept
+      BUILT.command("#{WORK}/kept_host.o", *KEPT, '-o', "#{WORK}/kept_host.o")
+    end
+  end
+end
+
+# What the tests do.
+module Target
+  class << self
+    attr_accessor :amount
+
+    # The command fails, and says so.
+    def noticed(pattern)
+      text = yield
+    rescue Host::Failure => e
+      raise unless e.message.match?(pattern)
+
+      e.message
+    else
+      raise Host::Failure, "#{text}not noticed"
+    end
+
+    # The one comparison of two machines' lines.
+    def same(expected, found)
+      lines = [found, expected].map(&:lines)
+      at = (0...lines.map(&:size).max).find { |line| lines.first[line] != lines.last[line] }
+      return found unless at
+
+      raise Host::Failure, "#{found}line #{at + 1}: #{lines.map { |all| all[at].to_s.chomp.inspect }.join(', expected ')}"
+    end
+
+    # --- on a PIC ---
+
+    def recordings(controller)
+      names = controller == 'pid' ? %w[pid_definition track] : ["#{controller.delete_suffix('_8bit')}_firmware"]
+      names.map { |name| "#{VECTORS}/#{name}.csv" }
+    end
+
+    # Its recordings, then random steps. Each mode has its own: half of what a
+    # controller is to do.
+    def replay(image, controller, steps, mode: 'object', rows: recordings(controller))
+      said(Programs.of('replay'), image, controller, steps.to_s, mode == 'object' ? '1' : '2', *rows)
+    end
+
+    def digests(image, controller, apart = 1)
+      said(Programs.of('digests'), image, controller, apart.to_s)
+    end
+
+    def interrupts(image, controller, *words)
+      said(Programs.of('interrupts'), image, controller, *words)
+    end
+
+    # gpsim has no PIC18F4431: a PIC18F4520 stands in, whose core, timers, PWM and ports
+    # are the same.
+    def port(image, chip, check = nil)
+      return said('ruby', "#{HERE}/port_configuration.rb", chip, image.sub(/cod\z/, 'hex')) if check == 'configuration'
+      return said(Programs.of('port', 'simavr'), image, *check) if chip == 'atmega328p'
+
+      image = written(image.sub(/cod\z/, 'as_4520.cod'), File.binread(image).gsub('18f4431', '18f4520')) if chip == 'pic18f4431'
+      said(Programs.of('port'), image, *check)
+    end
+
+    def on_simulator(name, image, *words)
+      said(Programs.of(name, image.end_with?('.elf') ? 'simavr' : 'gpsim'), image, *words)
+    end
+
+    def kept(chip)
+      Images.firmware
+      on_simulator('kept', chip == 'atmega328p' ? "build/firmware/kept_#{chip}.elf" : 'build/firmware/kept.cod')
+    end
+
+    def firmware(name)
+      Images.firmware
+      on_simulator('firmware', "build/firmware/#{name}.#{name.end_with?('_atmega328p') ? 'elf' : 'cod'}", EXAMPLES.fetch(name), '3000')
+    end
+
+    # A copy of a recording that the block has changed, as answered by the chip.
+    def with_rows(name)
+      lines = File.readlines("#{VECTORS}/an964_firmware.csv")
+      yield lines
+      rows = written("#{WORK}/#{name}.csv", lines.join)
+      replay(Images.driver('an964', 'pic16f684', 'object'), 'an964', 1000, rows: [rows])
+    end
+
+    # --- on machines ---
+
+    # A program of all controllers, with the questions.
+    def questions(machine, mode, source, steps, compared, options)
+      objects = mode == 'object' ? CONTROLLERS.map(&:name).uniq.map { |name| Images.object(name) } : []
+      name = ['questions', mode, source.tr('/', '_'), *options, steps, compared].join('-').gsub(/[^-\w]/, '')
+      machine.program(name, [*options, "-I#{source}", "-DMACHINE_STEPS=#{steps}", "-DMACHINE_COMPARED=#{compared}", "#{HERE}/machine.c",
+                             "#{HERE}/cases.c", *%w[reference reference_pid numbers numbers_pid].map { |file| "test/support/#{file}.c" },
+                             vectors, *Dir.glob("#{source}/**/fixpid_*.c").sort,
+                             *CONTROLLERS.map(&:name).uniq.map { |controller| "#{HERE}/driver_#{controller}.c" }, *objects])
+    end
+
+    # The recorded rows as C, without the firmware's own cycles.
+    def vectors
+      recorded = %w[an937_firmware an964_firmware].map do |name|
+        written("#{WORK}/#{name}.csv", File.readlines("#{VECTORS}/#{name}.csv").map { |line| "#{line.chomp.split(',', -1).first(12).join(',')}\n" }.join)
+      end
+      files = [*recorded, "#{VECTORS}/pid_definition.csv", "#{VECTORS}/track.csv"]
+      maker = 'test/chips/avr/vectors_table.rb'
+      BUILT.make("#{WORK}/vectors_table.c", [Inputs.digest([maker, *files])]) { File.write("#{WORK}/vectors_table.c", said('ruby', maker, *files)) }
+    end
+
+    # A machine prints the same lines as this one, which has the library of src/.
+    def machine(name, mode, *options, source: 'src', steps: nil)
+      compared = steps || (name == 'avr' ? 200 : amount.machine)
+      steps ||= name == 'avr' ? amount.avr : amount.machine
+      host, machine = [[Machine::ALL.fetch('host'), 'src'], [Machine::ALL.fetch(name), source]].map do |one, from|
+        one.printed(questions(one, mode, from, steps, compared, options))
+      end
+      same(host, machine)
+    end
+
+    # Every answer is the definition's, and nothing is undefined on the way.
+    def definition(mode, *options, steps: amount.sanitized)
+      said(questions(Machine::ALL.fetch('sanitized'), mode, 'src', steps, steps, options))
+    end
+
+    # An AVR's arithmetic alone is this machine's.
+    def arithmetic_of_avr(*options)
+      words = [*Images::EVERY_BIT, '-Isrc', *Dir.glob("#{HERE}/arith*.c").sort, *options]
+      same(*%w[host avr].map { |name| Machine::ALL.fetch(name) }.map { |one| one.printed(one.program(['arith', *options].join.delete('='), words)) })
+    end
+
+    def leaves
+      %w[_PIC14 LEAVES_PORTABLE].map do |form|
+        output = "#{WORK}/leaves.#{form}"
+        said(BUILT.command(output, *%w[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude -Isrc -Itest/support], "-D#{form}",
+                           "#{HERE}/leaves.c", 'test/support/numbers.c', '-o', output))
+      end.join
+    end
+  end
+end
+
+require_relative 'modules'
+
+# The table of tests. Each line has the name, which says what differs, the part, and
+# what is done.
+class Table
+  attr_reader :tests
+
+  def initialize(update)
+    @tests = NamedTests.new('test/chips/target/run')
+    @update = update
+    %i[replays arithmetic interrupts ports machines host planted modules].each { |part| send(part) }
+    figures unless Target.amount == LONG
+  end
+
+  private
+
+  # What a test prints is in a file of its own.
+  def test(part, *name, needs: [])
+    name = name.join('-')
+    @tests.add(name, part, needs: needs) do
+      FileUtils.rm_f("#{LOGS}/#{name}.log")
+      text = begin
+        yield
+      rescue Host::Failure => e
+        written("#{LOGS}/#{name}.log", e.message)
+        raise
+      end
+      written("#{LOGS}/#{name}.log", text)
+      nil
+    end
+  end
+
+  # Each controller on each chip in each mode.
+  def in_modes(modes = BOTH, pairs = ON_CHIPS)
+    pairs.product(modes) { |(controller, chip), mode| yield controller, chip, mode }
+  end
+
+  def replays
+    { 'replay' => ['', ON_CHIPS, BOTH, 1], 'replay_plain' => ['plain', ON_CHIPS, BOTH, 4], # which is slower
+      'replay_placed' => ['placed', PLACED, %w[object], 1] }.each do |name, (form, pairs, modes, part)|
+      in_modes(modes, pairs) do |controller, chip, mode|
+        test('replay', name, controller, chip, mode) do
+          Target.replay(Images.driver(controller, chip, mode, form: form), controller, Target.amount.random / part, mode: mode)
+        end
+      end
+    end
+  end
+
+  # Each row of what the chip does in assembly, some of what its compiler makes.
+  def arithmetic
+    { '' => [ON_CHIPS, 1], 'plain' => [ON_CHIPS, nil], 'placed' => [PLACED, 1] }.each do |form, (pairs, apart)|
+      in_modes(%w[object], pairs) do |controller, chip, mode|
+        test('arith', "arith#{form}", controller, chip, mode) do
+          Target.digests(Images.arithmetic(controller, chip, form: form), controller, apart || Target.amount.rows_apart)
+        end
+      end
+    end
+    # As the Arduino IDE compiles, and where no function is inlined.
+    { 'arith_avr' => [], 'arith_avr_plain' => [PLAIN], 'arith_avr_arduino' => %w[-Os -flto -std=gnu11],
+      'arith_avr_unoptimised' => %w[-O0] }.each do |name, options|
+      test('arith', name) { Target.arithmetic_of_avr(*options) }
+    end
+  end
+
+  def interrupts
+    { '' => [ON_CHIPS, BOTH], 'plain' => [ON_CHIPS.select { |_, chip| chip.start_with?('pic18') }, %w[object]],
+      'placed' => [PLACED, %w[object]] }.each do |form, (pairs, modes)|
+      in_modes(modes, pairs) do |controller, chip, mode|
+        test('interrupts', "interrupts_tick#{form}", controller, chip, mode) do
+          Target.interrupts(Images.driver(controller, chip, mode, form: form, asks: :tick), controller)
+        end
+      end
+    end
+    ['', 'plain'].product(BOTH) do |form, mode|
+      test('interrupts', "interrupts_ticking#{form}", *TICKING, mode) do
+        Target.interrupts(Images.driver(*TICKING, mode, form: form, asks: :racy, calls: 'an937_tick'), TICKING.first, 'ticking')
+      end
+    end
+    bad_interrupts
+  end
+
+  # A port that loses ticks; and an interrupt that calls the controller a second time,
+  # which may also leave the chip's memory or stack: gpsim 0.31 crashes where a pointer
+  # of a PIC16 selects banks that the chip has not.
+  def bad_interrupts
+    { 'racy' => /lost [1-9]/,
+      'replying' => /changed [1-9]|access outside the chip's RAM|stack overflow|SIGSEGV/ }.each do |name, pattern|
+      in_modes(%w[object]) do |controller, chip, mode|
+        test('interrupts', "interrupts_#{name}", controller, chip, mode) do
+          image = Images.driver(controller, chip, mode, asks: :racy, calls: ("#{controller}_reply" if name == 'replying'))
+          Target.noticed(pattern) { Target.interrupts(image, controller) }
+        end
+      end
+    end
+  end
+
+  def ports
+    PORTS.each do |chip|
+      test('port', 'port', chip) { Target.port(Images.port(chip), chip) }
+      test('port', 'port_unfed', chip) { Target.port(Images.port(chip), chip, 'unfed') }
+      next if chip == 'atmega328p' # an AVR has fuses
+
+      test('port', 'port_configuration', chip) { Target.port(Images.port(chip), chip, 'configuration') }
+    end
+    %w[pic18f4520 atmega328p].each { |chip| test('port', 'kept', chip) { Target.kept(chip) } }
+    needs = @tests.names.grep(/\Aport(_configuration)?-/)
+    test('port', 'port_page', needs: needs) { said('ruby', "#{HERE}/port_page.rb", WORK, 'docs/ports.md') }
+  end
+
+  def machines
+    BOTH.product(MACHINES) { |mode, name| test('machines', 'machine', name, mode) { Target.machine(name, mode) } }
+    # Where the machine has assembly: without.
+    test('machines', 'machine_plain-avr-object') { Target.machine('avr', 'object', PLAIN) }
+    # Without the features of fixpid_pid.
+    %w[avr cortex-m0].each do |name|
+      test('machines', 'machine_typical', name, 'pointer') { Target.machine(name, 'pointer', '-DFIXPID_PID_FEATURES=0x00') }
+    end
+  end
+
+  def host
+    test('host', 'leaves') { Target.leaves }
+    BOTH.each { |mode| test('host', 'definition', mode) { Target.definition(mode) } }
+    # In the form for the smallest chips.
+    test('host', 'definition_narrow-pointer') { Target.definition('pointer', NARROW) }
+    FEATURE_SETS.each do |features|
+      test('host', 'definition_features', features) do
+        Target.definition('pointer', "-DFIXPID_PID_FEATURES=#{features}", steps: Target.amount.machine)
+      end
+    end
+  end
+
+  # Each goes the way of the test that must notice it.
+  def planted
+    planted_replays
+    in_modes(%w[object]) do |controller, chip, mode|
+      test('planted', 'planted_arith', controller, chip, mode) do
+        image = Images.arithmetic(controller, chip, source: Broken.library)
+        Target.noticed(/different [1-9]/) { Target.digests(image, controller, Target.amount.rows_apart) }
+      end
+    end
+    BOTH.each do |mode|
+      test('planted', 'planted_losing', *TICKING, mode) do
+        image = Images.driver(*TICKING, mode, asks: :racy, calls: 'an937_tick', source: Broken.losing)
+        Target.noticed(/changed [1-9]/) { Target.interrupts(image, TICKING.first, 'ticking') }
+      end
+    end
+    planted_ports
+    planted_machines
+    planted_rows
+  end
+
+  def planted_replays
+    { 'planted_driver' => ['', ON_CHIPS], 'planted_plain' => ['plain', ON_CHIPS], 'planted_placed' => ['placed', PLACED] }.each do |name, (form, pairs)|
+      in_modes(%w[object], pairs) do |controller, chip, mode|
+        test('planted', name, controller, chip, mode) do
+          image = Images.driver(controller, chip, mode, form: form, source: Broken.library)
+          Target.noticed(DIFFERENT) { Target.replay(image, controller, 1000) }
+        end
+      end
+    end
+  end
+
+  def planted_ports
+    Faults.of('port').each do |fault|
+      name, check = fault.words(1)
+      chip = name[/\w+\z/]
+      test('planted', 'planted_port', name) do
+        image = Images.port(chip, Broken.port(fault))
+        Target.noticed(/^#{check}: /) { Target.port(image, chip, check) }
+      end
+    end
+  end
+
+  # Wrong answers to recorded rows, or to random questions.
+  def planted_machines
+    { 'wide' => ['cortex-m0', %w[an937 an964 an964_8bit pid]], 'narrow' => ['host', %w[an937], NARROW],
+      'avr' => ['avr', %w[an937 an964 an964_8bit pid]], 'arm' => ['cortex-m4', %w[pid]] }.each do |form, (machine, controllers, *options)|
+      controllers.each do |controller|
+        test('planted', "planted_#{form}", controller) do
+          Target.noticed(/^#{controller} (rows|random) .*different [1-9]/) do
+            Target.machine(machine, 'object', *options, source: Broken.library, steps: 1000)
+          end
+        end
+      end
+    end
+  end
+
+  # One number of one row, one more than it was; and a row that is missing.
+  def planted_rows
+    test('planted', 'planted_row') do
+      Target.noticed(/rows 2000 different 1 random 1000 different 0/) do
+        Target.with_rows('wrong_row') { |lines| lines[1000] = lines[1000].chomp.split(',').tap { |row| row[8] = row[8].to_i + 1 }.join(',') << "\n" }
+      end
+    end
+    test('planted', 'planted_length') do
+      Target.noticed(/has not 2000 rows/) { Target.with_rows('row_missing') { |lines| lines.delete_at(1000) } }
+    end
+  end
+
+  def modules
+    CalledModule.all.map(&:tests).reduce(:merge).each { |name, done| test('modules', name, &done) }
+  end
+
+  def figures
+    EXAMPLES.each_key { |name| test('figures', 'firmware', name) { Target.firmware(name) } }
+    needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|firmware)-/)
+    test('figures', 'figures', needs: needs) do
+      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update)
+    end
+  end
+end
+
+Dir.chdir(ROOT)
+Host.setup(ROOT)
+Encoding.default_external = Encoding::UTF_8
+update = ARGV.delete('--update')
+Target.amount = ARGV.delete('--long') ? LONG : SHORT
+exit Table.new(update).tests.run(ARGV)

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// What a step costs on an AVR in simavr, in cycles:
+//
+//   meter FIRMWARE.elf MCU CONTROLLER MAIN STEP TURN EXCHANGE RANDOM DIRECTED
+//         OUTPUTS_ONLY QUESTIONS
+//
+// The firmware is test/chips/target/driver_main.c with the controller's driver;
+// MAIN, STEP, TURN and EXCHANGE are the addresses of its symbols, in
+// hexadecimal. Prints the lines of search.h and
+//
+//   stack 12
+//
+// bytes that a call takes: the return address and all that is pushed.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+
+#include "search.h"
+
+#define TURN_CYCLES_MAX 200000u // far more than any takes
+
+static avr_t *chip;
+static const struct controller *controller;
+static unsigned main_address, step_address, turn, exchange;
+static unsigned stack_most;
+
+static void die(const char *why)
+{
+    (void)fprintf(stderr, "meter: %s\n", why);
+    exit(2);
+}
+
+static unsigned stack_pointer(void)
+{
+    return chip->data[R_SPL] | ((unsigned)chip->data[R_SPH] << 8);
+}
+
+static void run_one(void)
+{
+    const int state = avr_run(chip);
+
+    if (state == cpu_Done || state == cpu_Crashed || state == cpu_Sleeping) {
+        die("the firmware has ended");
+    }
+}
+
+// From the first instruction of the step until it has returned.
+static uint32_t meter_step(void)
+{
+    const avr_cycle_count_t start = chip->cycle;
+    const unsigned called = stack_pointer() + 2u;
+
+    while (stack_pointer() < called) {
+        if (called - stack_pointer() > stack_most) {
+            stack_most = called - stack_pointer();
+        }
+        run_one();
+    }
+    return (uint32_t)(chip->cycle - start);
+}
+
+// Until the firmware waits for a question.
+static uint32_t run_turn(void)
+{
+    const avr_cycle_count_t start = chip->cycle;
+    uint32_t cost = 0;
+
+    chip->data[turn] = 1;
+    while (chip->data[turn] != 0u) {
+        if (chip->pc == step_address) {
+            cost = meter_step();
+        } else {
+            run_one();
+        }
+        if (chip->cycle - start > TURN_CYCLES_MAX) {
+            die("no answer");
+        }
+    }
+    return cost;
+}
+
+static uint32_t step(const union question *question, union answer *answer)
+{
+    uint32_t cost;
+
+    memcpy(&chip->data[exchange], question, controller->question_size);
+    cost = run_turn();
+    memcpy(answer, &chip->data[exchange], controller->answer_size);
+    return cost;
+}
+
+static unsigned number(const char *text, int base)
+{
+    return (unsigned)strtoul(text, NULL, base);
+}
+
+static void load(const char *path, const char *mcu)
+{
+    static elf_firmware_t firmware;
+
+    if (elf_read_firmware(path, &firmware) != 0) {
+        die("no firmware");
+    }
+    chip = avr_make_mcu_by_name(mcu);
+    if (chip == NULL) {
+        die("no such chip in simavr");
+    }
+    chip->log = 0;
+    (void)avr_init(chip);
+    chip->frequency = 16000000;
+    avr_load_firmware(chip, &firmware);
+}
+
+int main(int argc, char *argv[])
+{
+    uint32_t different;
+
+    if (argc != 12) {
+        die("wrong use");
+    }
+    load(argv[1], argv[2]);
+    controller = controller_named(argv[3]);
+    if (controller == NULL) {
+        die("no such controller");
+    }
+    main_address = number(argv[4], 16);
+    step_address = number(argv[5], 16);
+    turn = number(argv[6], 16) & 0xFFFFu;
+    exchange = number(argv[7], 16) & 0xFFFFu;
+    while (chip->pc != main_address) {
+        run_one();
+    }
+    (void)run_turn(); // up to the first wait
+    const struct search_plan plan = {controller,
+                                     step,
+                                     number(argv[8], 10),
+                                     number(argv[9], 10),
+                                     (uint8_t)number(argv[10], 10),
+                                     (uint8_t)number(argv[11], 10)};
+    different = search_run(&plan);
+    (void)printf("stack %u\n", stack_most);
+    return different == 0u ? 0 : 1;
+}

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# What a person meets who types the first command: every script that may install
+# something, with no program that one of them asks for, as root and as another user.
+require_relative 'planted'
+require_relative '../bare/outside'
+require "#{PROJECT}/tools/lib/pages/docs/packages"
+
+# A folder with all programs of PATH but those, whose `id` is this user's.
+def programs(folder, hidden, user)
+  FileUtils.mkdir_p(folder)
+  found = ENV.fetch('PATH').split(':').flat_map { |path| Dir.glob("#{path}/*") }
+  found.uniq { |path| File.basename(path) }.each do |path|
+    name = File.basename(path)
+    File.symlink(path, "#{folder}/#{name}") unless hidden.include?(name) || name.match?(/\A(?:apt|dpkg|id\z)/)
+  end
+  Planted.write("#{folder}/id", "#!/bin/sh\necho #{user}\n")
+  Planted.write("#{folder}/apt-get", Outside.apt_get("#{File.dirname(folder)}/asked"))
+  folder
+end
+
+def try(script, path)
+  Outside.run(script, path: path, record: "#{File.dirname(path)}/asked")
+end
+
+# [what, file, text, instead, whom it meets, what is wrong with it]
+FAULTS = [
+  ['announce as it was', 'tools/lib/setup.sh', *Outside::SILENT, :root, 'ends with status 2'],
+  ['nothing announced', 'tools/lib/setup.sh', '    announce "installing$missing', '    : "', :root, 'does not say what it installs'],
+  ['a package more than announced', 'tools/lib/setup.sh', 'recommends $missing;', 'recommends $missing vim;', :root,
+   'asks for other packages than it says'],
+  ['nothing installed', 'tools/lib/setup.sh', 'if ! { apt-get', 'if ! { false', :root, 'asks apt-get for nothing'],
+  ['no sentence at the end', 'tools/lib/setup.sh', 'die "could not install$missing;', 'exit 1 "', :root, 'no sentence at the end'],
+  ['a program before it is asked for', 'tools/site', 'need ruby', "ruby -v || :\nneed ruby", :root, 'the shell says'],
+  ['not said what is missing', 'tools/lib/setup.sh', 'not root, so please run: $how', 'no', :user, 'does not say what is missing'],
+  ['another user who installs', 'tools/lib/setup.sh', '"$(id -u)" -ne 0', '"$(id -u)" -lt 0', :user, 'asks apt-get']
+].freeze
+
+def planted(paths, what, path, text, instead, whom, wrong)
+  before = File.read(path)
+  Planted.plant(path, text, instead)
+  found = Outside.public_send("complaints_of_#{whom}", try('tools/site', paths.fetch(whom)))
+  Planted.refused("planted: #{what}", [found.join("\n"), found.empty?], /#{wrong}/)
+  File.write(path, before)
+end
+
+Dir.mktmpdir do |folder|
+  Planted.copy("#{folder}/tree")
+  Dir.chdir("#{folder}/tree") do
+    hidden = Packages.items.map { |item| item.split(':').first }.reject(&:empty?) + %w[gem npm] - %w[dash]
+    paths = { root: 0, user: 1000 }.to_h { |whom, id| [whom, programs("#{folder}/#{whom}", hidden, id)] }
+    Outside.scripts.each do |script|
+      Planted.expect("#{script} as root", Outside.complaints_of_root(try(script, paths[:root])), [])
+      Planted.expect("#{script} as another user", Outside.complaints_of_user(try(script, paths[:user])), [])
+    end
+    FAULTS.each { |fault| planted(paths, *fault) }
+    FileUtils.rm_rf('build')
+    Planted.refused('no folder for temporary files', Planted.run('env', "TMPDIR=#{folder}/none", 'dash', 'tools/demo'),
+                    %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
+    Planted.expect('and nothing is built', File.exist?('build'), false)
+  end
+end
+Planted.finish

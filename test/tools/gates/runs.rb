@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# What all runners below test/ are asked for in the same words, in shell and in Ruby:
+# --list, --help, names, --failed, and the command behind a FAILED line. And what is
+# built: anew where it is made of something else, and only then.
+require_relative 'planted'
+require "#{PROJECT}/tools/lib/build/built"
+
+SHELL = <<~TEXT
+  #!/bin/sh
+  # SPDX-License-Identifier: MIT
+  # What it does.
+  # shellcheck disable=SC2317
+  set -u
+  root=$PWD
+  work=build/work
+  . tools/lib/setup.sh
+  . tools/lib/test/runs.sh
+  mkdir -p "$work"
+TEXT
+BY_TABLE = <<~TEXT
+  #{SHELL}
+  names() {
+      printf '%s\\n' good bad 'two words'
+  }
+  good() {
+      echo seen
+  }
+  bad() {
+      echo why
+      [ ! -e fault ]
+  }
+  two() {
+      echo why
+      [ ! -e fault ]
+  }
+  asked runner "$@"
+  each attempt
+TEXT
+IN_TURN = <<~TEXT
+  #{SHELL}
+  asked runner "$@"
+  ! wanted good || passed good seen
+  for name in bad 'two words'; do
+      wanted "$name" || continue
+      echo why >"$work/log"
+      if [ -e fault ]; then failed "$name" "$work/log"; else passed "$name"; fi
+  done
+  finish
+TEXT
+RUBY = <<~TEXT
+  #!/usr/bin/env ruby
+  # SPDX-License-Identifier: MIT
+  # What it does.
+
+  require './tools/lib/test/named'
+
+  tests = NamedTests.new('runner')
+  tests.add('good') { 'seen' }
+  ['bad', 'two words'].each { |name| tests.add(name) { raise 'why' if File.exist?('fault') } }
+  exit tests.run(ARGV)
+TEXT
+NEEDS = RUBY.sub("exit tests", "tests.add('last', needs: %w[good bad]) { 'after' }\nexit tests")
+
+LIBRARY = %w[tools/lib/setup.sh tools/lib/test/runs.sh tools/lib/test/named.rb].freeze
+
+# What such a runner says to the last of these commands; one that begins with a dash or
+# a quote is its arguments.
+def said(runner, *commands)
+  files = LIBRARY.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }.merge('runner' => runner, 'fault' => '')
+  commands = commands.map { |command| command.match?(/\A(-|'|\z)/) ? "./runner #{command}" : command }
+  -> { Planted.tree(files) { commands.map { |command| Planted.run('sh', '-c', command) }.last } }
+end
+
+{ 'by a table' => BY_TABLE, 'in turn' => IN_TURN, 'in Ruby' => RUBY }.each do |how, runner|
+  Planted.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
+  Planted.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
+  Planted.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
+                  /^FAILED two words; again: runner 'two words'$/)
+  Planted.passed("#{how}: one", said(runner, "'good'"))
+  Planted.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
+  Planted.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
+  Planted.refused("#{how}: no such option", said(runner, '--every'), /no such test: --every/)
+  Planted.refused("#{how}: what failed last", said(runner, '', '--failed'), /\A(?!.*ok good)/m, /^FAILED bad;/, /^FAILED two words;/)
+  Planted.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
+  Planted.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
+  Planted.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
+                  /\AFAILED two words;/)
+end
+Planted.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
+Planted.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
+Planted.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
+
+# Two programs of three sources and two headers, made by a compiler that is a script, as
+# often as it says in `made`.
+COMPILER = "#!/bin/sh\nout=$1\nshift\necho \"$out\" >>made\n[ ! -e fault ] || exit 1\ncat \"$@\" 2>/dev/null >\"$out\"\nexit 0\n"
+SOURCES = { 'bin/cc' => COMPILER, 'src/a.c' => "#include \"a.h\"\n", 'src/b.c' => "#include <deep/b.h>\n", 'src/a.h' => "#include \"../src/c.h\"\n",
+            'inc/deep/b.h' => "#include \"b.h\" // itself\n", 'src/c.h' => "#include \"a.h\" // in a circle\n", 'src/d.h' => '' }.freeze
+
+def build(*options)
+  built = Built.new { |*command| system('bin/cc', *command.drop(1), exception: true) }
+  built.command('one', 'bin/cc', 'one', 'src/a.c', *options)
+  built.command('two', 'bin/cc', 'two', '-Iinc', 'src/b.c')
+end
+
+# What is made again after the block.
+def made_again(*options)
+  lambda do
+    Planted.tree(SOURCES) do
+      build
+      File.delete('made')
+      yield
+      begin
+        build(*options)
+      rescue RuntimeError
+        FileUtils.rm_f('fault')
+        build(*options)
+      end
+      File.exist?('made') ? File.readlines('made', chomp: true) : []
+    end
+  end
+end
+
+def changed(path)
+  made_again { File.write(path, "// more\n", mode: 'a') }
+end
+
+Planted.expect('nothing changed', made_again {}, [])
+Planted.expect('another time, the same text', made_again { File.write('src/a.c', SOURCES['src/a.c']) }, [])
+Planted.expect('another source', changed('src/a.c'), %w[one])
+Planted.expect('another header', changed('src/a.h'), %w[one])
+Planted.expect('another header of a header', changed('src/c.h'), %w[one])
+Planted.expect('another header of a folder', changed('inc/deep/b.h'), %w[two])
+Planted.expect('a header that nobody includes', changed('src/d.h'), [])
+Planted.expect('a header that is new', made_again { Planted.write('inc/a.h', "\n") || Planted.write('src/deep/b.h', "\n") }, %w[two])
+Planted.expect('another option', made_again('-DMORE') {}, %w[one])
+Planted.expect('another output', changed('two'), %w[two])
+Planted.expect('an output that is gone', made_again { File.delete('one') }, %w[one])
+Planted.expect('one that could not be made', made_again { Planted.write('src/a.c', 'x') || Planted.write('fault', '') }, %w[one one])
+ENV['PATH'] = "bin:#{ENV.fetch('PATH')}"
+Planted.expect('another compiler', changed('bin/cc'), %w[one two])
+Planted.finish

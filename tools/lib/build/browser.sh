@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=sh
+# Sourced by the tests of pages, after setup.sh: Chromium, and what drives it.
+
+browser=${root:?}/build/browser # node_modules in it
+export browser
+
+# Debian's Chromium and Node, and the packages of test/web/browser.
+need_browser() {
+    need node:nodejs npm chromium
+    [ ! -d "$browser/node_modules" ] ||
+        ! cmp -s "$root/test/web/browser/package-lock.json" "$browser/installed" ||
+        return 0
+    mkdir -p "$browser"
+    cp "$root/test/web/browser/package.json" "$root/test/web/browser/package-lock.json" \
+        "$root/test/web/browser/.npmrc" "$browser/"
+    announce "installing playwright-core and axe-core (npm packages)"
+    npm ci --prefix "$browser" --ignore-scripts >"$browser/log" 2>&1 </dev/null ||
+        { tail -n 5 "$browser/log" >&2 && die "could not install npm packages"; }
+    cp "$browser/package-lock.json" "$browser/installed"
+}

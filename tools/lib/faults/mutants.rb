@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: MIT
+# Breaks the sources in src/ and the macros of include/ in every small way, and
+# in the ways of test/faults.txt that are for a unit test, and names the test that
+# notices each break: build/test/mutants.txt. A break that no test notices must stand in
+# test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
+# compiler refuses, what crashes and what does not end counts as neither. With
+# names of files only those are broken.
+# The chips' own folders of src/ are not broken here: their files compile to
+# nothing on this machine. test/chips/target breaks each once (`planted`), and
+# tools/lib/faults/assembly.rb each instruction.
+require 'fileutils'
+require 'open3'
+require_relative 'breaks'
+require_relative 'excuses'
+require_relative 'planted'
+
+ROOT = 'build/mutants'.freeze
+REPORT = 'build/test/mutants.txt'.freeze
+EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
+UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
+WORKERS = 2
+SECONDS_MOST = 1 # of a processor's time: no test takes half of one
+NARROW = %w[-D_PIC14].freeze
+EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
+OF_CHIPS = 'src/*/*_{arm,avr,pic14,pic18,sdcc}.[ch]'.freeze
+FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Itest/tools/cost -Itest/model/autotune].freeze
+COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definition of /.freeze
+
+# fixpid_an964_8bit of fixpid_an964_8bit_more: what has a header.
+def noun(name)
+  File.exist?("include/#{name}.h") ? name : noun(name[/.*(?=_)/])
+end
+
+# A test, what is compiled anew for it, and how.
+Run = Struct.new(:test, :sources, :options) do
+  def objects
+    fresh = sources.map { |source| "#{File.basename(source, '.c')}.o" }
+    Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].reject { |object| fresh.include?(File.basename(object)) }
+  end
+end
+
+def run_of(test, options = [])
+  Run.new(test, ["test/unit/#{test}.c"], options)
+end
+
+# With all that it has of src/ compiled anew, too.
+def whole_run_of(test)
+  objects = Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].map { |object| File.basename(object, '.o') }
+  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }], [])
+end
+
+# Of fixpid_autotune also the recorded experiments.
+def autotune_runs(sources)
+  %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources, []) }
+end
+
+# Of fixpid_pid with all features and with none.
+def pid_runs(sources)
+  [Run.new('test_fixpid_pid', sources, []),
+   Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
+end
+
+# The runs in which a file is compiled, by its name.
+def runs_of(file)
+  name = File.basename(file, '.*')
+  return [run_of('test_fixpid_constants'), whole_run_of("test_#{name}")] if file.start_with?('include/')
+  return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
+  return pid_runs([file]) if file.match?(/fixpid_pid\w*\.c\z/)
+  return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
+
+  case name
+  when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/common/fixpid_signed.h')] # a shift of the second
+  when 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
+  when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
+    pid_runs(Dir['src/pid/fixpid_pid{,_more,_track}.c'])
+  when 'fixpid_autotune_private' then autotune_runs(Dir['src/autotune/*.c'].sort)
+  when 'fixpid_signed_riscv'
+    [run_of('test_fixpid_pid_arith', %w[-D__riscv]), run_of('test_fixpid_pid_arith', %w[-D__riscv -D__riscv_mul])]
+  when /\Afixpid_signed/
+    [run_of('test_fixpid_pid_arith'), run_of('test_fixpid_pid_arith', NARROW), run_of('test_fixpid_pid_arith_portable')]
+  when /_narrow$/ then [run_of("test_#{noun(name)}_arith", NARROW + EVERY_BIT), run_of("test_#{noun(name)}_arith", NARROW)]
+  when /_bytes$/ then [run_of("test_#{noun(name)}_arith_bytes")]
+  else [run_of("test_#{name}")]
+  end
+end
+
+def build_objects
+  FileUtils.mkdir_p('build/test')
+  File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
+             ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
+  system('ceedling', '--mixin=build/test/mutants.yml', 'test:all', out: File::NULL, err: File::NULL) or
+    abort 'FAILED the unit tests do not pass before anything is broken'
+end
+
+# A tree of all sources for each worker, of which one is broken: src/ files
+# include each other by their place.
+def plant_trees
+  WORKERS.times do |worker|
+    FileUtils.rm_rf("#{ROOT}/#{worker}")
+    FileUtils.mkdir_p("#{ROOT}/#{worker}")
+    FileUtils.cp_r(%w[src include], "#{ROOT}/#{worker}")
+  end
+end
+
+def in_tree(source, tree)
+  source.start_with?('src/') ? "#{tree}/#{source}" : source
+end
+
+def compiler(run, tree, *arguments)
+  ['gcc', *FLAGS, *run.options, "-I#{tree}/include", "-I#{tree}/src", "-I#{UNITY}", *arguments,
+   *run.sources.map { |source| in_tree(source, tree) }]
+end
+
+# The program of a run, or nil if the compiler refuses it. A compiler that fails
+# without a word about the code says nothing about a break.
+def build(run, tree)
+  program = "#{tree}/program"
+  output, status = Open3.capture2e(*compiler(run, tree, '-o', program), *run.objects)
+  return program if status.success?
+
+  output.match?(COMPLAINT) && !output.match?(/No space left|internal compiler error|Cannot allocate/) or
+    abort "FAILED the compiler does not work:\n#{output}"
+  nil
+end
+
+# What a test program does: the names of the tests that fail, a symbol for
+# another end, or nil.
+def run_test(program)
+  output, status = Open3.capture2e(program, rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1])
+  return output.scan(/^[^:\n]+:\d+:(\w+):FAIL/).flatten if output =~ /:FAIL/
+  return :endless if status.termsig == Signal.list['XCPU']
+
+  output =~ /^OK$/ ? nil : :crashed
+end
+
+def notice_in(run, tree)
+  program = build(run, tree) or return :refused
+  run_test(program)
+end
+
+# Yields with the text in place of the file.
+def broken(tree, file, text)
+  whole = File.read("#{tree}/#{file}")
+  File.write("#{tree}/#{file}", text)
+  yield
+ensure
+  File.write("#{tree}/#{file}", whole) if whole
+end
+
+def notice(mutant, worker)
+  tree = "#{ROOT}/#{worker}"
+  broken(tree, mutant.file, mutant.source) do
+    caught = nil
+    RUNS.fetch(mutant.file).each { |run| caught ||= notice_in(run, tree) }
+    caught ||= :not_compiled if same_for_the_compiler?(mutant, tree)
+    caught.is_a?(Array) ? caught.first : caught
+  end
+end
+
+def preprocessed(file, tree)
+  RUNS.fetch(file).map { |run| Open3.capture3(*compiler(run, tree, '-E', '-P')).first }
+end
+
+# Whether it is in what no run compiles: it makes no difference after the
+# preprocessor.
+def same_for_the_compiler?(mutant, tree)
+  UNBROKEN.fetch(mutant.file) == preprocessed(mutant.file, tree)
+end
+
+# [mutant, what noticed it] of all, in order.
+def results_of(mutants)
+  queue = Queue.new
+  mutants.each { |mutant| queue << mutant }
+  results = {}
+  lock = Mutex.new
+  workers = (0...WORKERS).map do |worker|
+    Thread.new do
+      until queue.empty?
+        mutant = queue.pop(true)
+        caught = notice(mutant, worker)
+        lock.synchronize { results[mutant] = caught }
+      end
+    rescue ThreadError
+      nil # the queue ran empty between the two calls
+    end
+  end
+  workers.each(&:join)
+  mutants.map { |mutant| [mutant, results.fetch(mutant)] }
+end
+
+# A line for a file: every survivor is excused, and every excuse true.
+def judge(file, results, keys, excuses)
+  survivors = results.select { |_, caught| caught.nil? }.map { |mutant, _| keys.fetch(mutant) }
+  unexplained = survivors.reject { |key| excuses.cover?(key) }
+  stale = excuses.stale(file, survivors)
+  good = unexplained.empty? && stale.empty?
+  puts "#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test"
+  puts unexplained.map { |key| "Nobody notices: #{key}" }
+  puts stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }
+  good
+end
+
+# What a compiler or an operating system ends is no test's merit.
+def tell(results)
+  ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught }.transform_values(&:size)
+  ends.default = 0
+  puts "#{results.size} mutants: #{ends[:named]} noticed by a test, #{ends[nil]} by none; see #{REPORT}"
+  puts "apart: #{ends[:refused]} refused by the compiler, #{ends[:crashed]} crashed, " \
+       "#{ends[:endless]} endless, #{ends[:not_compiled]} not compiled on this machine"
+end
+
+# Whether a fault of the table is noticed by the test that it names.
+def noticed_by_name?(fault, tree)
+  test = fault.words(1).first
+  program = Dir['test/unit/*.c'].find { |path| File.read(path).include?("void #{test}(") } or
+    abort "FAILED #{Faults::FILE}: no #{test}"
+  run = whole_run_of(File.basename(program, '.c'))
+  caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree) }
+  good = caught.is_a?(Array) && caught.include?(test)
+  puts "#{good ? 'ok' : 'FAILED'} #{test} notices #{fault}#{": #{caught.inspect}" unless good}"
+  good
+rescue Faults::Gone => e
+  puts "FAILED #{e.message}"
+end
+
+build_objects
+plant_trees
+RUNS = (Dir['src/*/*.[ch]', 'include/*.h'] - Dir[OF_CHIPS]).sort.reject { |file| Breaks.of(file).empty? }
+                                       .to_h { |file| [file, runs_of(file)] }.freeze
+RUNS.values.flatten.uniq.each do |run|
+  caught = notice_in(run, "#{ROOT}/0")
+  abort "FAILED #{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
+end
+UNBROKEN = RUNS.keys.to_h { |file| [file, preprocessed(file, "#{ROOT}/0")] }.freeze
+excuses = Excuses.new(EQUIVALENT)
+only = ARGV # files
+files = RUNS.keys.select { |file| only.empty? || only.include?(file) }
+mutants = files.to_h { |file| [file, Breaks.of(file)] }
+results = results_of(mutants.values.flatten)
+File.open(REPORT, 'w') do |report|
+  results.each { |mutant, caught| report.puts "#{mutant}: #{caught || 'nobody'}" }
+end
+good = results.group_by { |mutant, _| mutant.file }.map do |file, found|
+  judge(file, found, Excuses.keys(mutants.fetch(file), File.read(file)), excuses)
+end
+good += Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }
+              .map { |fault| noticed_by_name?(fault, "#{ROOT}/0") }
+strangers = excuses.strangers(RUNS.keys)
+puts strangers.map { |key| "FAILED #{EQUIVALENT} names what is not broken: #{key}" }
+tell(results)
+exit(good.all? && strangers.empty? ? 0 : 1)

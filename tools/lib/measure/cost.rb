@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# Measures what the controllers cost. Called by tools/cost:
+# cost.rb MODE ROOT WORD...
+require 'etc'
+
+require_relative 'host'
+require_relative 'subjects'
+require_relative 'meters'
+require_relative 'tables'
+require_relative 'limits'
+require_relative 'documents'
+require_relative 'picture'
+require_relative 'firmware'
+require_relative 'memory'
+require_relative 'modules'
+require_relative 'features'
+
+Encoding.default_external = 'UTF-8'
+
+# What measures a part, or all of it.
+class Cost
+  def initialize(subjects, modules)
+    @subjects = subjects
+    @modules = modules
+    @memory = Memory.new
+    @done = 0
+    @mutex = Mutex.new
+  end
+
+  def print
+    puts Tables.plain(Tables.steps(measured)) if @subjects.any?
+    puts Tables.plain(Tables.modules(called)) if @modules.any?
+  end
+
+  def print_all
+    parts = all_parts
+    parts.each { |_, _, rows| puts Tables.plain(rows), '' }
+    Picture.new(measured).draw
+    puts 'picture: build/cost/cost.png and .svg'
+    limits.all?(&:kept?)
+  end
+
+  # A line for each figure that is kept and for each table.
+  def check
+    good = limits.map { |limit| tell(limit.kept?, limit.what, limit.exceeded) }
+    all_parts.each do |document, name, rows|
+      changes = Document.new(document).replace(name, rows)
+      good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
+    end
+    warn 'cost: tools/cost --update renews the tables' unless good.all?
+    good.all?
+  end
+
+  def update
+    all_parts.group_by(&:first).each do |path, parts|
+      document = Document.new(path)
+      parts.each { |_, name, rows| puts document.replace(name, rows) }
+      document.write
+    end
+    Picture.new(measured).draw
+    FileUtils.cp("#{Host.folder}/cost.png", "#{Host.root}/docs/images/cost.png")
+    limits.reject(&:kept?).each { |limit| tell(false, limit.what, limit.exceeded) }.empty?
+  end
+
+  private
+
+  def tell(good, what, *why)
+    puts good ? "ok #{what}" : "FAILED #{what}"
+    puts(why.map { |line| "    #{line}" }) unless good
+    good
+  end
+
+  def measured
+    @measured ||= begin
+      @subjects.zip(in_parallel(@subjects, &:figures)).to_h
+    end
+  end
+
+  # The figures of the modules' functions.
+  def called
+    @called ||= @modules.zip(Host.in_parallel(@modules) { |one| calls_of(one) }).to_h
+  end
+
+  def calls_of(one)
+    found = @memory.of(one) { ModuleMeter.of(one).figures }
+    found.transform_values { |figures| ModuleFigures.new(**figures.transform_keys(&:to_sym)) }
+  end
+
+  # What each feature of fixpid_pid costs.
+  def prices
+    @prices ||= begin
+      all = Features.all
+      all.zip(Host.in_parallel(all) { |one| @memory.of(one) { Meter.of(one.subject).of_code } }).to_h
+    end
+  end
+
+  def straight
+    @straight ||= begin
+      subjects = @subjects.select(&:has_straight?)
+      subjects.zip(in_parallel(subjects.map(&:straight), &:most)).to_h
+    end
+  end
+
+  def in_parallel(subjects)
+    Host.in_parallel(subjects) do |subject|
+      found = @memory.of(subject) { yield(Meter.of(subject)) }
+      @mutex.synchronize { progress }
+      found
+    end
+  end
+
+  def progress
+    @done += 1
+    warn "cost: #{@done} of #{@total ||= @subjects.size + @subjects.count(&:has_straight?)}" if (@done % 10).zero?
+  end
+
+  def limits
+    @limits ||= Limits.modules(called) + Limits.all(measured, straight, "#{Host.root}/docs/chips.md")
+  end
+
+  def all_parts
+    page = "#{Host.root}/docs/cost.md"
+    [[page, 'steps', Tables.steps(measured)],
+     [page, 'modules', Tables.modules(called)],
+     ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
+     ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
+     [page, 'ratios', Tables.ratios(measured, straight)],
+     [page, 'beside', Tables.beside(measured)],
+     [page, 'pics', Tables.beside_pics(measured)],
+     [page, 'quality', Tables.quality],
+     [page, 'limits', Tables.limits(limits)],
+     ["#{Host.root}/README.md", 'cost', Tables.readme(measured)]]
+  end
+end
+
+# The user's words do not name anything.
+class WrongUse < StandardError; end
+
+def chosen(words)
+  unknown = words.reject { |word| Subject.kind_of_word(word) }
+  raise WrongUse, "nothing is called #{unknown.join(', ')} (see --help)" if unknown.any?
+
+  subjects = Subject.all.select { |one| one.matches?(words) }
+  modules = ModuleSubject.all.select { |one| one.matches?(words) }
+  raise WrongUse, "nothing is #{words.join(' ')} (see --help)" if subjects.empty? && modules.empty?
+
+  [subjects, modules]
+end
+
+# MODE ROOT WORD..., or `words WORD...`: only whether something is called so.
+def main(mode, root = nil, *words)
+  return chosen([root, *words].compact) if mode == 'words'
+
+  Host.setup(root)
+  return UserFirmware.new(*words).print if mode == 'firmware'
+
+  cost = Cost.new(*chosen(words))
+  case mode
+  when 'check' then cost.check
+  when 'update' then cost.update
+  else words.empty? ? cost.print_all : cost.print
+  end
+end
+
+begin
+  $stdout.sync = true
+  exit(main(*ARGV) == false ? 1 : 0)
+rescue WrongUse => e
+  warn "cost: #{e.message}"
+  exit 2
+rescue Host::Failure, SystemCallError => e
+  warn "cost: #{e.message}"
+  exit 1
+rescue SignalException
+  Host.stop_all
+  warn 'cost: interrupted'
+  exit 130
+end

@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'cores'
+require_relative '../bound'
+
+RANDOM_STEPS = 20_000
+DIRECTED_STEPS = 100_000
+QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
+
+# What one subject costs; `most` is over all questions, `mean` over the
+# recorded rows, `bound`, `levels` and `stack` from the code. Flash of the step, of all functions that
+# an application needs, and as the linker takes it; RAM of a controller, besides,
+# and of that the step's own variables on a PIC16, which SDCC keeps in RAM.
+Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :step_variables,
+                     :levels, :stack, keyword_init: true)
+
+# What a run prints, one line for each set of questions.
+class Answers
+  def initialize(text, subject)
+    @sets = text.scan(/^(rows|random|search) (.*)$/).to_h do |name, numbers|
+      [name, numbers.scan(/(\w+) (\d+)/).to_h { |key, value| [key, value.to_i] }]
+    end
+    @stack = text[/^stack (\d+)/, 1]&.to_i
+    raise Host::Failure, "#{subject}: no figures:\n#{text}" if @sets.size != 3
+    return if different.zero?
+
+    raise Host::Failure, "#{subject}: #{different} answers differ from the definition's"
+  end
+
+  # Bytes, of what has a stack in RAM and counts it.
+  attr_reader :stack
+
+  def different
+    @sets.values.sum { |set| set['different'] }
+  end
+
+  def least
+    @sets.values.map { |set| set['least'] }.min
+  end
+
+  def most
+    @sets.values.map { |set| set['most'] }.max
+  end
+
+  def mean
+    @sets['rows']['total'].fdiv(@sets['rows']['steps'])
+  end
+end
+
+# The harness: programs for this machine and objects for the others.
+module Harness
+  SHARED = %w[test/tools/cost/search.c test/chips/target/cases.c test/support/reference.c test/support/reference_pid.c
+              test/support/numbers.c test/support/numbers_pid.c].freeze
+  INCLUDES = %w[include src test/support test/chips/target test/tools/cost].map { |folder| "-I#{folder}" }.freeze
+  WARNINGS = %w[-Wall -Wextra -Werror].freeze
+
+  @mutex = Mutex.new
+  @built = {}
+
+  class << self
+    # The program for a kind of chips, built once.
+    def build(kind)
+      @mutex.synchronize do
+        @built[kind] ||= begin
+          { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table }, riscv: -> { vectors_table } }[kind].call
+          true
+        end
+      end
+    end
+
+    def build_function
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/chip', 'test/tools/cost/function.cc',
+                  'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/function")
+    end
+
+    # Objects that all programs of a core share.
+    def objects_of(core)
+      files = SHARED + CORES.fetch(core).sources + ["#{Host.folder}/vectors_table.c"]
+      files.map do |file|
+        object = "#{Host.folder}/#{core}-#{File.basename(file, '.c')}.o"
+        CORES.fetch(core).compile('-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
+        object
+      end
+    end
+
+    private
+
+    def host_objects
+      @host_objects ||= (SHARED + %w[test/support/vectors_file.c]).map { |file| compile(file) }
+    end
+
+    def compile(file)
+      object = "#{Host.folder}/#{File.basename(file, '.c')}.o"
+      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, '-Itest/tools/cost/host', *INCLUDES, '-c', file, '-o', object)
+      object
+    end
+
+    def avr(objects)
+      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, *INCLUDES, 'test/tools/cost/avr/meter.c', *objects, '-lsimavr',
+                  '-o', "#{Host.folder}/avr")
+    end
+
+    def pic(objects)
+      Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/chip', *INCLUDES, 'test/tools/cost/pic.cc',
+                  'test/chips/target/driver.cc', *objects, 'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/pic")
+    end
+
+    # Without the firmware's own cycles.
+    def vectors_table
+      tables = %w[an937_firmware an964_firmware].map do |name|
+        rows = File.readlines("#{Host.root}/test/support/vectors/#{name}.csv", chomp: true)
+        path = "#{Host.folder}/#{name}.csv"
+        File.write(path, rows.map { |row| "#{row.split(',').take(12).join(',')}\n" }.join)
+        path
+      end
+      tables << 'test/support/vectors/pid_definition.csv' << 'test/support/vectors/track.csv'
+      File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/chips/avr/vectors_table.rb', *tables))
+    end
+  end
+end
+
+# Builds a subject and measures it.
+class Meter
+  def self.of(subject)
+    { pic: PicMeter, avr: AvrMeter, arm: QemuMeter, riscv: QemuMeter }.fetch(subject.chip.kind).new(subject)
+  end
+
+  def initialize(subject)
+    @subject = subject
+    @controller = subject.controller
+    @path = "#{Host.folder}/#{subject.key}"
+    @step = subject.step
+  end
+
+  # Without a run: the longest path of a step, and the flash with init.
+  def of_code
+    Harness.build(@subject.chip.kind)
+    build
+    code = read_code
+    [LongestPath.new(code, @controller.turns || {}).function(code.entry(@step)).cost, needed(code)]
+  end
+
+  # The worst step and no more.
+  def most
+    Harness.build(@subject.chip.kind)
+    build
+    Answers.new(run, @subject).most
+  end
+
+  def figures
+    Harness.build(@subject.chip.kind)
+    build
+    answers = Answers.new(run, @subject)
+    code = read_code
+    longest = LongestPath.new(code, code.turns.merge(@controller.turns || {}))
+    step = longest.function(code.entry(@step))
+    stack = stack(code, longest)
+    check_bound(answers.most, step.cost)
+    check_stack(answers.stack, stack)
+    Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
+                step_flash: code.size_of(step.addresses), needed: needed(code), levels: step.levels + 1,
+                stack: stack, **sizes(code))
+  rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
+    raise Host::Failure, "#{@subject}: #{e.message}"
+  end
+
+  private
+
+  def check_bound(most, bound)
+    raise Host::Failure, "#{@subject}: #{most} measured, but #{bound} is the bound" if most > bound
+  end
+
+  # QEMU's meter does not count it.
+  def check_stack(most, stack)
+    return if most.nil? ? is_a?(QemuMeter) : most <= stack
+
+    raise Host::Failure, "#{@subject}: a stack of #{most || 'no'} bytes measured, but #{stack} are the bound"
+  end
+
+  def driver
+    @subject.driver
+  end
+
+  # A straightforward form has neither flags nor refusals: only the outputs of
+  # the rows are compared.
+  def numbers
+    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
+  end
+
+  def needed(code)
+    entries = @controller.calls.map { |verb| code.entry(@controller.function(verb)) }
+    code.size_of(LongestPath.reached(code, entries))
+  end
+
+  # Bytes, with the return address where that is in RAM.
+  def stack(code, _longest)
+    stack = Stack.new(code)
+    stack.called(stack.function(code.entry(@step))).bytes
+  end
+end
+
+# In gpsim.
+class PicMeter < Meter
+  private
+
+  def build
+    asks = ['test/chips/target/driver_main.c', driver]
+    link(@path, "-DREPLY=#{@controller.name}_reply",
+         *(words? ? [*@subject.all_sources, '--all-banks', *asks] : asks + @subject.all_sources))
+  end
+
+  # Two more for the sizes: one with only the calls that every application has,
+  # and one with none.
+  def build_for_sizes
+    link("#{@path}-bare", *together("test/tools/cost/bare_#{@controller.name}.c", *@subject.sources))
+    link("#{@path}-nothing", *together('test/tools/cost/bare_nothing.c'))
+  end
+
+  # A PIC16's as tools/firmware does it: compiled as one file, functions share
+  # their RAM.
+  def together(*sources)
+    return sources unless words?
+
+    one = "#{@path.tr('-', '_')}_#{sources.size}.c"
+    File.write(one, sources.map { |source| "#include \"#{source}\"\n" }.join)
+    [one]
+  end
+
+  def link(output, *arguments)
+    chip = @subject.chip
+    paths = %W[. include src test/chips/target test/tools/cost port port/pic #{chip.board}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build/build_pic', chip.name, output, *chip.build_pic, *banks, *paths, *@subject.defines, *arguments)
+  end
+
+  # In pointer mode a PIC16's variables fill both; others have four and more.
+  def banks
+    words? && (@subject.build == 'pointer' || @subject.chip.like) ? ['--all-banks'] : []
+  end
+
+  def run
+    Host.output("#{Host.folder}/pic", "#{@path}.cod", @controller.name, @step, *numbers)
+  end
+
+  def read_code
+    @read_code ||= code_of(@path)
+  end
+
+  def code_of(path)
+    PicCode.of(@subject.chip.name).new(path)
+  end
+
+  def words?
+    @subject.chip.flash == 'words'
+  end
+
+  # What a firmware grows by.
+  def sizes(_code)
+    build_for_sizes
+    bare = code_of("#{@path}-bare")
+    nothing = code_of("#{@path}-nothing")
+    instance = bare.object_size("#{@controller.name}_controller")
+    { linked: bare.library_flash - nothing.library_flash, instance: instance,
+      fixed: bare.ram_bytes - nothing.ram_bytes - instance, step_variables: step_variables }
+  end
+
+  # Those that its assembly names.
+  def step_variables
+    return unless words?
+
+    assembly = File.read("#{@path}.d/fixpid_#{@controller.name}.asm")
+    step = assembly[/^_(#{@step}\w*):.*?^; exit point of _\1$/m] or raise Host::Failure, "#{@subject}: no #{@step}"
+    step.scan(/\br0x\h+/).uniq.size
+  end
+end
+
+# In simavr.
+class AvrMeter < Meter
+  FLAGS = %w[-std=c99 -ffreestanding -ffunction-sections -Wl,--gc-sections].freeze
+
+  private
+
+  def build
+    flags = ["-mmcu=#{@subject.chip.name}", @subject.build, *FLAGS, *Harness::WARNINGS, *Harness::INCLUDES,
+             '-Itest/tools/cost/avr', *@subject.defines]
+    objects = @subject.all_sources.map do |file|
+      object = "#{@path}-#{File.basename(file, '.*')}.o"
+      Host.output('avr-gcc', *flags, '-c', file, '-o', object)
+      object
+    end
+    @objects = objects
+    Host.output('avr-gcc', *flags, "-DREPLY=#{@controller.name}_reply", 'test/chips/target/driver_main.c', driver,
+                *objects, '-o', "#{@path}.elf")
+  end
+
+  def run
+    symbols = ['main', @step, 'turn', "#{@controller.name}_exchange"].map { |name| read_code.symbol(name).to_s(16) }
+    Host.output("#{Host.folder}/avr", "#{@path}.elf", @subject.chip.name, @controller.name, *symbols, *numbers)
+  end
+
+  def read_code
+    @read_code ||= AvrCode.new("#{@path}.elf")
+  end
+
+  def sizes(code)
+    { linked: needed(code), instance: code.object_size("#{@controller.name}_controller"),
+      fixed: code.static_bytes(@objects) }
+  end
+end
+
+# In QEMU.
+class QemuMeter < AvrMeter
+  CODES = { 'cortex-m0' => ArmCode, 'cortex-m4' => ArmCode, 'rv32imc' => RiscvCode, 'rv32ec' => Rv32eCode }.freeze
+  SHARED = Hash.new { |all, core| all[core] = Harness.objects_of(core) }
+  MUTEX = Mutex.new
+
+  private
+
+  def core
+    CORES.fetch(@subject.chip.name)
+  end
+
+  def build
+    shared = MUTEX.synchronize { SHARED[@subject.chip.name] }
+    flags = [@subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
+    @objects = @subject.all_sources.map do |file|
+      object = "#{@path}-#{File.basename(file, '.*')}.o"
+      core.compile(*flags, '-c', file, '-o', object)
+      object
+    end
+    core.link("#{@path}.elf", *flags, *definitions, "-Wl,--wrap=#{@step}", 'test/tools/cost/qemu/meter.c', driver,
+              *@objects, *shared)
+  end
+
+  def definitions
+    random, directed, outputs, questions = numbers
+    ["-DCONTROLLER=\"#{@controller.name}\"", "-DREPLY=#{@controller.name}_reply",
+     "-DEXCHANGE=#{@controller.name}_exchange", "-DSTEP=\"#{@step}\"",
+     "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}",
+     "-DQUESTIONS=#{questions}"]
+  end
+
+  def run
+    core.run("#{@path}.elf")
+  end
+
+  def read_code
+    @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
+  end
+
+  def stack(code, longest)
+    code.stack(code.entry(@step), longest)
+  end
+end

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative '../modules'
+require_relative 'meters'
+
+# What stands beside a controller, and its functions that are measured: the
+# program of test/chips/modules makes all recorded and many random calls of them.
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, keyword_init: true) do
+  # Of the library.
+  def files
+    Modules.sources(id, Host.root)
+  end
+
+  # Of its recorded rows.
+  def columns
+    Modules::ALL[id][:rows]
+  end
+
+  # Whether it is measured on such a chip.
+  def on?(kind)
+    kinds.nil? || kinds.include?(kind)
+  end
+
+  # What makes the calls.
+  def callers
+    program || %w[test/support/numbers_control.c]
+  end
+end
+
+CALLED_MODULES = Modules::ALL.flat_map do |id, entry|
+  entry.fetch(:calls, []).map { |call| CalledModule.new(id: id, **call) }
+end.freeze
+
+# One of them in one build on one chip, through a pointer.
+ModuleSubject = Struct.new(:called, :chip, :build) do
+  def key
+    "module-#{called.id}-#{chip.name}-#{build.delete('-')}"
+  end
+
+  def to_s
+    [called.id, chip.title, build].join(', ')
+  end
+
+  def matches?(words)
+    own = [called.id, chip.name, build, chip.kind.to_s]
+    words.empty? || words.group_by { |word| Subject.kind_of_word(word) }
+                         .all? { |_, group| group.any? { |word| own.include?(word) } }
+  end
+
+  def self.all
+    CHIPS.reject { |chip| %w[pic16f684 attiny85].include?(chip.name) || chip.like || chip.kind == :riscv }.flat_map do |chip|
+      builds = chip.kind == :pic ? %w[pointer] : chip.builds
+      CALLED_MODULES.select { |called| called.on?(chip.kind) }.product(builds).map { |called, build| new(called, chip, build) }
+    end
+  end
+end
+
+# Figures of one function; flash is that of the whole module, without the
+# compiler's own routines.
+ModuleFigures = Struct.new(:least, :mean, :most, :flash, :instance, keyword_init: true)
+
+# Builds the program of a module and meters its calls.
+class ModuleMeter
+  INCLUDES = %w[include src test/support test/chips/modules].map { |folder| "-I#{folder}" }.freeze
+  MUTEX = Mutex.new
+
+  def self.of(subject)
+    { pic: ModulePicMeter, avr: ModuleAvrMeter, arm: ModuleArmMeter }.fetch(subject.chip.kind).new(subject)
+  end
+
+  def initialize(subject)
+    @subject = subject
+    @called = subject.called
+    @path = "#{Host.folder}/#{subject.key}"
+    @rows = "#{@path}.rows"
+  end
+
+  # By function.
+  def figures
+    FileUtils.mkdir_p(@rows)
+    if @called.columns
+      File.write("#{@rows}/rows_#{@called.id}.h",
+                 Host.output('ruby', 'test/chips/modules/rows.rb', "test/support/vectors/#{@called.id}.csv"))
+    end
+    build
+    text = run
+    @called.functions.keys.to_h { |name| [name, figures_of(name, text).to_h] }
+  end
+
+  private
+
+  def figures_of(name, text)
+    calls, least, most, total = text.match(/^#{name} calls (\d+) least (\d+) most (\d+) total (\d+)$/)&.captures
+                                    &.map(&:to_i)
+    raise Host::Failure, "#{@subject}: no figures of #{name}:\n#{text}" unless calls&.positive?
+
+    ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, flash: flash, instance: instance)
+  end
+
+  def program
+    ['test/chips/modules/main.c', "test/chips/modules/calls_#{@called.id}.c", 'test/support/numbers.c', *@called.callers]
+  end
+
+  def flags
+    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES, *@called.flags]
+  end
+
+  # The library's objects, compiled alone.
+  def objects(compiler, *options)
+    @called.files.map do |file|
+      "#{@path}_#{File.basename(file, '.c')}.o".tap do |object|
+        Host.output(compiler, *options, '-c', file, '-o', object)
+      end
+    end
+  end
+
+  # Builds what several subjects need, once.
+  def shared(path)
+    MUTEX.synchronize do
+      (@@shared ||= {})[path] ||= yield(path) && path # rubocop:disable Style/ClassVars
+    end
+  end
+end
+
+# In gpsim.
+class ModulePicMeter < ModuleMeter
+  private
+
+  def build
+    paths = %W[port port/pic port/pic/#{@subject.chip.name}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build/build_pic', @subject.chip.name, @path, '-DCALLS_SILENT', *flags, *paths, *program, *@called.files)
+  end
+
+  def run
+    harness = shared("#{Host.folder}/calls_pic") do |path|
+      Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/chip', 'test/chips/modules/chip.cc',
+                  'build/gpsim/libchip.a', '-lgpsim', '-o', path)
+    end
+    Host.output(harness, "#{@path}.cod", *@called.functions.keys)
+  end
+
+  def flash
+    PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/\AS_fixpid_#{@called.id}_/) }
+           .sum(&:bytes)
+  end
+
+  def instance
+    @called.object ? Pic18Code.new(@path).object_size(@called.object) : 0
+  end
+end
+
+# In simavr.
+class ModuleAvrMeter < ModuleMeter
+  private
+
+  def build
+    options = ["-mmcu=#{@subject.chip.name}", @subject.build, *AvrMeter::FLAGS, '-std=gnu99', *Harness::WARNINGS,
+               '-Itest/tools/cost/avr', *flags]
+    @objects = objects('avr-gcc', *options)
+    Host.output('avr-gcc', *options, '-DCALLS_SILENT', *program, *@objects, '-o', "#{@path}.elf")
+  end
+
+  def run
+    meter = shared("#{Host.folder}/calls_avr") do |path|
+      Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, 'test/tools/cost/avr/calls.c', '-lsimavr', '-o', path)
+    end
+    addresses = @called.functions.keys.flat_map { |name| [name, code.symbol(name).to_s(16)] }
+    Host.output(meter, "#{@path}.elf", @subject.chip.name, code.symbol('done').to_s(16), *addresses)
+  end
+
+  def tools
+    'avr'
+  end
+
+  def code
+    @code ||= AvrCode.new("#{@path}.elf")
+  end
+
+  def flash
+    @objects.sum { |object| Host.output("#{tools}-size", object).lines.last.split.first.to_i }
+  end
+
+  def instance
+    @called.object ? code.object_size(@called.object) : 0
+  end
+end
+
+# In QEMU.
+class ModuleArmMeter < ModuleAvrMeter
+  private
+
+  def core
+    CORES.fetch(@subject.chip.name)
+  end
+
+  def build
+    options = [*Harness::WARNINGS, *flags]
+    names = @called.functions.keys.zip(%w[FIRST SECOND])
+    @objects = objects("#{tools}-gcc", *core.options, *Core::OPTIONS, *options, @subject.build)
+    core.link("#{@path}.elf", *options, '-O2', '-DCALLS_METERED',
+              *names.flat_map { |name, which| ["-D#{which}=\"#{name}\"", "-Wl,--wrap=#{name}"] },
+              *program, 'test/tools/cost/qemu/calls.c', *core.sources, *@objects)
+  end
+
+  def run
+    core.run("#{@path}.elf")
+  end
+
+  def tools
+    core.tools
+  end
+
+  def code
+    @code ||= ArmCode.new("#{@path}.elf")
+  end
+end

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'published'
+
+# The figures as tables: rows of cells, the head first.
+module Tables
+  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'flash of the step', 'with init', 'linked',
+          'RAM each', 'RAM once', 'stack'].freeze
+  # Of the comparisons with others.
+  COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
+              'cortex-m0-O2' => 'Cortex-M0 -O2', 'cortex-m4-O2' => 'Cortex-M4 -O2',
+              'rv32imc-O2' => 'RV32IMC -O2' }.freeze
+  PIC_COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520' }.freeze
+  QUALITY_HEAD = ['', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
+                  'sum until then', 'error left, low gains'].freeze
+  # Of README.md: what one would build.
+  BEST = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2',
+           'cortex-m4' => '-O2', 'rv32imc' => '-O2', 'rv32ec' => '-O2' }.freeze
+
+  class << self
+    def steps(measured)
+      [HEAD] + measured.map { |subject, figures| step(subject, figures) }
+    end
+
+    # What stands beside a controller, a row for each function.
+    def modules(called)
+      [['', 'chip', 'built', 'least', 'mean', 'worst', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
+        functions.map do |name, figures|
+          function = subject.called.functions.fetch(name)
+          title = function == 'step' ? subject.called.id : "#{subject.called.id}, #{function}"
+          [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most, figures.flash,
+           figures.instance]
+        end
+      end
+    end
+
+    # How long new gains without a bump keep an interrupt waiting.
+    def masked(called)
+      shown = [%w[pic18f4520 pointer], %w[atmega328p -Os], %w[cortex-m0 -O2]]
+      [['chip', 'built', 'worst', 'of']] + shown.map do |chip, build|
+        subject, functions = called.find { |one, all| one.chip.name == chip && one.build == build && all.key?('pid_change') }
+        [subject.chip.title, build, functions['pid_change'].most, subject.chip.cost]
+      end
+    end
+
+    # Ours, then the others'.
+    def beside(measured)
+      ours = own_rows(measured, COLUMNS).map do |controller, name, cells|
+        small = find(measured, controller.id, 'atmega328p', '-Os', name)
+        [*cells, small&.needed || '-', small&.instance || '-']
+      end
+      others = other_rows(PEERS, COLUMNS).map { |other, cells| [*cells, other.flash || '-', other.ram || '-'] }
+      [['', *COLUMNS.values, 'flash, ATmega328P -Os', 'RAM']] + ours + others
+    end
+
+    # The same on the PICs, with the notes' own programs.
+    def beside_pics(measured)
+      ours = own_rows(measured, PIC_COLUMNS).map(&:last)
+      [['', *PIC_COLUMNS.values]] + ours + other_rows(NOTES + PEERS, PIC_COLUMNS).map(&:last)
+    end
+
+    def quality
+      [QUALITY_HEAD] + QUALITY
+    end
+
+    # Against the straightforward form: { subject => its worst }.
+    def ratios(measured, straight)
+      [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + straight.map do |subject, most|
+        [subject.controller.title, subject.chip.title, subject.build, measured.fetch(subject).most, most,
+         format('%.2f', measured.fetch(subject).most.fdiv(most))]
+      end
+    end
+
+    def limits(limits)
+      [['', 'at most', 'now']] + limits.map { |limit| [limit.what, limit.shown(limit.most), limit.shown(limit.now)] }
+    end
+
+    def readme(measured)
+      head = ['', *BEST.keys.map { |chip| CHIPS.find { |one| one.name == chip }.title }]
+      rows = CONTROLLERS.map do |controller|
+        [controller.title, *BEST.map { |chip, build| short(measured, controller, chip, build) }]
+      end
+      [head] + rows + NOTES.map { |note| [note.title, *BEST.keys.map { |chip| note.costs.fetch(chip, '') }] }
+    end
+
+    def markdown(rows)
+      lines = [rows.first, rows.first.map { '---' }] + rows.drop(1)
+      lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join
+    end
+
+    def plain(rows)
+      widths = rows.transpose.map { |column| column.map { |cell| cell.to_s.size }.max }
+      rows.map { |row| row.zip(widths).map { |cell, width| cell.to_s.ljust(width) }.join('  ').rstrip }
+    end
+
+    def find(measured, controller, chip, build, variant = nil)
+      measured.find do |subject, _|
+        subject.controller.id == controller && subject.chip.name == chip && subject.build == build &&
+          subject.variant&.name == variant
+      end&.last
+    end
+
+    private
+
+    def step(subject, figures)
+      [subject.controller.title, subject.chip.title, subject.built, figures.least, figures.mean.round, figures.most,
+       figures.bound, "#{figures.step_flash} #{subject.chip.flash}", figures.needed, figures.linked,
+       figures.instance, figures.fixed, stack(subject.chip, figures)]
+    end
+
+    def stack(chip, figures)
+      return "#{figures.stack} bytes" unless chip.kind == :pic
+
+      levels = "#{figures.levels} levels"
+      figures.stack.zero? ? levels : "#{levels}, #{figures.stack} bytes"
+    end
+
+    # nil for the plain build, first, and the names of the others.
+    def variants(measured, controller)
+      own = measured.keys.select { |subject| subject.controller == controller }
+      [nil] + own.map { |subject| subject.variant&.name }.compact.uniq
+    end
+
+    # [controller, variant, cells] of what has a cell in these columns.
+    def own_rows(measured, columns)
+      rows = CONTROLLERS.flat_map { |one| variants(measured, one).map { |name| [one, name] } }
+      rows.map { |controller, name| [controller, name, own_cells(measured, controller, name, columns)] }
+          .select { |_, _, cells| (cells.drop(1) - ['-']).any? }
+    end
+
+    def own_cells(measured, controller, name, columns)
+      costs = columns.keys.map do |column|
+        chip, option = column.split(/(?=-O)/)
+        figures = find(measured, controller.id, chip, option || 'object', name)
+        figures ? "#{figures.mean.round} / #{figures.most}" : '-'
+      end
+      ["fixpid #{[controller.title, name].compact.join(', ')}", *costs]
+    end
+
+    def other_rows(others, columns)
+      others.select { |other| (columns.keys & other.costs.keys).any? }
+            .map { |other| [other, [other.title, *columns.keys.map { |column| other.shown(column) }]] }
+    end
+
+    def short(measured, controller, chip, build)
+      figures = find(measured, controller.id, chip, build) or return ''
+      "#{figures.most}; #{figures.needed}"
+    end
+  end
+end

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# The modules of the library, an entry each: whoever wants to know of them looks here, or
+# for files by their names. `ruby tools/lib/modules.rb` says what a module lacks, and so
+# does tools/lib/pages/check_docs.rb. An entry says:
+#
+#   title    in packages
+#   what     one sentence, for packages
+#   fuzz     inputs that test/fuzz/run makes, and most bytes of each
+#   narrow   that it makes them for the arithmetic of an 8-bit chip, too
+#   rows     the columns of its recorded rows, with their types, that its calls_x.c takes
+#   calls    what tools/cost meters of its calls_x.c: CalledModule in tools/lib/measure/
+#   limits   what these may cost at most: function, then chip and build
+#
+# A controller of the notes, and fixpid_pid, has its cost in CONTROLLERS of
+# tools/lib/measure/subjects.rb.
+module Modules
+  ALL = {
+    'slew' => {
+      title: 'Slew', what: 'A value that follows a target at limited speed',
+      fuzz: [20_000, 256],
+      rows: %w[event:uint8_t rise_q16:uint32_t fall_q16:uint32_t seed:int16_t target:int16_t],
+      calls: [{ object: 'slew', calls: 20_000, functions: { 'fixpid_slew_step' => 'step' } }],
+      limits: { 'fixpid_slew_step' => { 'pic18f4520 pointer' => { most: 395, flash: 1850, instance: 12 },
+                                        'atmega328p -Os' => { most: 118, flash: 330, instance: 12 },
+                                        'cortex-m0 -O2' => { most: 31, flash: 127 }, 'cortex-m4 -O2' => { most: 20, flash: 114 } } }
+    },
+    'tpo' => {
+      title: 'Time-proportioned output', what: 'Time-proportioned output for relays and valves',
+      fuzz: [20_000, 256],
+      rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
+      calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }],
+      limits: { 'fixpid_tpo_step' => { 'pic18f4520 pointer' => { most: 1020, flash: 2960, instance: 20 },
+                                       'atmega328p -Os' => { most: 211, flash: 460, instance: 20 },
+                                       'cortex-m0 -O2' => { most: 52, flash: 210 }, 'cortex-m4 -O2' => { most: 46, flash: 255 } } }
+    },
+    'gains' => {
+      title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
+      fuzz: [20_000, 256],
+      rows: %w[kp_milli:uint32_t ki_milli:uint32_t kd_milli:uint32_t rate_milli:uint32_t filter:uint8_t],
+      calls: [{ calls: 2000, functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' } }],
+      limits: { 'fixpid_gains_from_milli' => { 'pic18f4520 pointer' => { most: 16_200, flash: 4860 },
+                                               'atmega328p -Os' => { most: 5700, flash: 1460 },
+                                               'cortex-m0 -O2' => { most: 1340, flash: 455 },
+                                               'cortex-m4 -O2' => { most: 1190, flash: 425 } },
+                'fixpid_gains_to_milli' => { 'pic18f4520 pointer' => { most: 11_100 }, 'atmega328p -Os' => { most: 3800 },
+                                             'cortex-m0 -O2' => { most: 915 }, 'cortex-m4 -O2' => { most: 805 } } }
+    },
+    'record' => {
+      title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',
+      fuzz: [20_000, 256]
+    },
+    'pid' => {
+      title: 'PID', what: 'The general-purpose controller',
+      fuzz: [20_000, 1024], narrow: true,
+      calls: [{ object: 'pid', calls: 5000, functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
+                program: %w[test/chips/modules/steps_pid.c] }],
+      limits: { 'pid_change' => { 'atmega328p -Os' => { most: 225 }, 'cortex-m0 -O2' => { most: 94 },
+                                  'pic18f4520 pointer' => { most: 840 } },
+                'fixpid_pid_track' => { 'atmega328p -Os' => { most: 193 }, 'cortex-m0 -O2' => { most: 70 },
+                                        'pic18f4520 pointer' => { most: 565 } } }
+    },
+    'autotune' => {
+      title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',
+      fuzz: [200, 128],
+      # It fills a PIC18, and so does not tell the kinds of its steps apart there.
+      calls: [{ object: 'tuner', calls: 60_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
+                functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
+                flags: %w[-DCALLS_BY_KIND] },
+              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [],
+                functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' } }],
+      limits: { 'autotune_ordinary_step' => { 'atmega328p -Os' => { most: 523, flash: 7900, instance: 66 } },
+                'autotune_cycle_step' => { 'atmega328p -Os' => { most: 1655 } } }
+    },
+    'relay' => {
+      title: 'Relay', what: 'A shorter experiment, in less room',
+      fuzz: [2000, 512]
+    },
+    'an937' => {
+      title: 'AN937', what: 'The controller of Microchip AN937',
+      fuzz: [20_000, 512], narrow: true
+    },
+    'an964' => {
+      title: 'AN964', what: 'The controller of Microchip AN964',
+      fuzz: [20_000, 512], narrow: true
+    },
+    'an964_8bit' => {
+      title: 'AN964 8-bit', what: 'The arithmetic of AN964 in assembly',
+      fuzz: [20_000, 512], narrow: true
+    }
+  }.freeze
+
+  # What a module has: files of its own, where one of several is enough, and a line in
+  # files that name each.
+  FILES = [%w[include/fixpid_NAME.h], %w[src/NAME/fixpid_NAME.c], %w[test/unit/test_fixpid_NAME.c], %w[test/proof/NAME.c],
+           %w[test/proof/eva/NAME.c],
+           %w[test/chips/modules/calls_NAME.c test/chips/target/driver_NAME.c test/model/NAME/trace.c]].freeze
+  LINES = { /^NAME / => %w[test/proof/proofs.txt], /^fuzz NAME: / => %w[test/faults.txt],
+            /\bfixpid_NAME\b/ => %w[README.md docs/choosing.md CHANGELOG.md] }.freeze
+
+  module_function
+
+  # `fixpid_deadband: no test/unit/test_fixpid_deadband.c`
+  def lacks
+    folders = Dir['src/*/*'].map { |path| path.split('/')[1] } - ['common']
+    headers = Dir['include/fixpid_*.h'].map { |path| path[/fixpid_(\w+)\.h/, 1] }
+    (ALL.keys | folders | headers).flat_map { |name| lacks_of(name).map { |what| "fixpid_#{name}: #{what}" } }
+  end
+
+  def lacks_of(name)
+    files = FILES.map { |paths| paths.map { |path| path.gsub('NAME', name) } }
+    entry = ALL.key?(name) ? [] : ['no entry in tools/lib/modules.rb']
+    entry + files.reject { |paths| paths.any? { |path| File.exist?(path) } }.map { |paths| "no #{paths.join(', nor ')}" } +
+      LINES.flat_map do |form, paths|
+        line = Regexp.new(form.source.sub('NAME', name))
+        paths.reject { |path| File.exist?(path) && File.read(path).match?(line) }.map { |path| "not in #{path}" }
+      end
+  end
+
+  # The modules whose headers a module's header includes.
+  def needs(name)
+    header = "include/fixpid_#{name}.h"
+    File.exist?(header) ? File.read(header).scan(/^#include "fixpid_(\w+)\.h"/).flatten : []
+  end
+
+  # Its sources, with those of chips behind the others, from the project's folder.
+  def sources(name, root = '.')
+    Dir.glob("src/#{name}/*.c", base: root).sort_by { |path| [path.match?(/_pic1[48]\.c\z/) ? 1 : 0, path] }
+  end
+
+  # Those that calls_x.c calls on simulated chips, against the host: all but
+  # controllers, which have a driver for that.
+  def called
+    ALL.keys.select { |name| File.exist?("test/chips/modules/calls_#{name}.c") && !ALL[name][:narrow] }
+  end
+
+  # Those whose controller can be the program's only one, by its name.
+  def with_object
+    ALL.keys.select { |name| File.read("include/fixpid_#{name}.h").include?("FIXPID_#{name.upcase}_OBJECT") }
+  end
+end
+
+if $PROGRAM_NAME == __FILE__
+  puts Modules.lacks
+  exit(Modules.lacks.empty? ? 0 : 1)
+end

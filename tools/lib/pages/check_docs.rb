@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: MIT
+# Checks what the documents say: parts that are made from the code, code blocks, in C
+# and in C++, and what they print, files, functions and tests that they name, links, sums that
+# are written out, in comments of the code too; the Dockerfile's packages; and that the
+# manifests are those that tools/lib/manifests.rb writes. With --update it renews the
+# parts first.
+require 'fileutils'
+require 'open3'
+require_relative 'docs/assurance'
+require_relative 'docs/bounds'
+require_relative 'docs/code_blocks'
+require_relative 'docs/facts'
+require_relative 'docs/forms'
+require_relative 'docs/numbers'
+require_relative 'docs/other_chips'
+require_relative 'docs/packages'
+require_relative 'docs/recipes'
+
+Encoding.default_external = 'UTF-8'
+
+@failures = []
+
+# Replaces what stands between two markers.
+def part(text, name, content)
+  text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" }
+end
+
+def quick_start_output
+  FileUtils.mkdir_p('build/test')
+  program = 'build/test/quick_start'
+  output, status = Open3.capture2e('cc', '-std=c99', '-Wall', '-Wextra', '-Werror', '-Iinclude',
+                                   *Dir['src/**/*.c'], 'examples/quick_start.c', '-o', program)
+  abort output unless status.success?
+  output, status = Open3.capture2e(program)
+  abort "#{program} failed" unless status.success?
+  output
+end
+
+# What tools/test runs and how long each part takes.
+def parts_table
+  rows = File.readlines('test/parts.txt', chomp: true).grep(/^[a-z]/).map { |line| line.split(' ', 4) }
+  lines = rows.map do |name, checks, seconds, what|
+    seconds = seconds.to_i
+    time = seconds < 100 ? "#{seconds} s" : "#{(seconds + 30) / 60} minutes"
+    "| `#{name}` | #{checks} | #{time} | #{what} |\n"
+  end
+  "| part | checks | about | what |\n|---|---|---|---|\n#{lines.join}"
+end
+
+# The packages as a paragraph.
+def packages
+  words = Packages.wanted.map { |name| "`#{name}`" }.join(', ')
+  "#{words}.".gsub(/(.{1,78})(?: |\z)/, "\\1\n")
+end
+
+def check_packages
+  wanted = Packages.wanted
+  found = Packages.of_dockerfile(File.read('Dockerfile'))
+  @failures << "Dockerfile lacks #{(wanted - found).join(', ')}" unless (wanted - found).empty?
+  @failures << "Dockerfile has #{(found - wanted).join(', ')}, which nobody needs" unless (found - wanted).empty?
+  unknown = Packages.without_command.reject { |name| File.read('tools/lib/setup.sh').include?("    #{name})") }
+  @failures << "setup.sh cannot tell whether #{unknown.join(', ')} is there" unless unknown.empty?
+end
+
+def renewed(path, text)
+  case path
+  when 'README.md'
+    # Without the line of the licence.
+    text = part(text, 'quick_start', "```c\n#{File.readlines('examples/quick_start.c').drop(1).join}```\n")
+    text = part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
+    Numbers.renewed(text)
+  when 'CONTRIBUTING.md'
+    part(part(text, 'parts', parts_table), 'packages', packages)
+  when 'docs/assurance.md'
+    part(text, 'claims', Assurance.table)
+  when 'docs/arithmetic.md'
+    part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
+  when 'docs/ports.md'
+    part(text, 'other chips', OtherChips.table)
+  when 'docs/recipes.md'
+    @failures.concat(Recipes.missing(text).map { |name| "#{path} does not show #{name}" })
+    Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }
+  else
+    text
+  end
+end
+
+def check_links(path, text)
+  text.scan(/\]\(([^)#\s]+)[^)]*\)/).flatten.grep_v(/\A[a-z]+:/).each do |link|
+    target = File.expand_path(link, File.dirname(path))
+    @failures << "#{path}: no #{link}" unless File.exist?(target)
+  end
+end
+
+def check_named_tests(path, text, tests)
+  text.scan(/`(test_\w+)`/).flatten.each do |test|
+    @failures << "#{path}: no test #{test}" unless tests.include?(test)
+  end
+end
+
+OPERATORS = { '=' => :==, '<' => :<, '<=' => :<= }.freeze
+NUMBER = /\(?\d+(?:\.\d+)?(?:\^\d+)?\)?/.freeze
+SUM = %r{#{NUMBER}(?: [-+*/] #{NUMBER})*}.freeze
+
+# `117 * 1023 / 16 = 7480 < 2^14` in a comment or a document: every sum that is
+# written out must be right. Integers, so a quotient is rounded toward zero; with
+# a decimal point anywhere, exactly.
+def check_sums(path, text)
+  text.scan(%r{(?<![\w.^(/]|[-+*/] )(?=(#{SUM}) (=|<=|<) (#{SUM}))}).each do |left, operator, right|
+    exact = "#{left}#{right}".include?('.')
+    # Only digits and operators passed the patterns above.
+    values = [left, right].map do |sum|
+      eval((exact ? sum.gsub(/(?<!\^)\b\d+(?:\.\d+)?/) { |number| "#{number}r" } : sum).gsub('^', '**'))
+    end
+    next if values[0].public_send(OPERATORS.fetch(operator), values[1])
+
+    @failures << "#{path}: #{left} #{operator} #{right} is wrong"
+  end
+end
+
+documents = Dir['docs/*.md', '*.md'] # README.md has numbers of docs/
+tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
+documents.each do |path|
+  text = File.read(path)
+  new_text, wrong = CodeBlocks.new(path).renewed(renewed(path, text))
+  @failures.concat(wrong)
+  if ARGV == ['--update']
+    File.write(path, new_text)
+  elsif new_text != text
+    @failures << "#{path} is stale: ruby tools/lib/pages/check_docs.rb --update"
+  end
+  check_links(path, new_text)
+  check_named_tests(path, new_text, tests)
+  check_sums(path, new_text)
+end
+Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
+  check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
+end
+@failures.concat(Facts.failures + Assurance.failures + Numbers.failures)
+check_packages
+lines = File.readlines('examples/quick_start.c').size
+@failures << "the quick start has #{lines} lines" if lines > 24
+puts @failures
+exit(@failures.empty? ? 0 : 1)

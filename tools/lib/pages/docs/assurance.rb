@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: MIT
+# The table of docs/assurance.md: what is claimed, how it is known, of how much, and
+# the command that shows it. What can be counted is counted here.
+require_relative '../../prove/seeded'
+require_relative '../../demo/plot'
+require_relative '../../demo/clouds'
+require_relative '../../demo/faults'
+require_relative '../../faults/instructions'
+
+# A claim; `how` is one of Assurance::HOW.
+Claim = Struct.new(:how, :what, :amount, :command)
+
+# All of them.
+module Assurance
+  HOW = %w[proved exhausted tested measured argued].freeze
+
+  module_function
+
+  def table
+    rows = claims.sort_by.with_index { |claim, i| [HOW.index(claim.how), i] }
+                 .map { |claim| "| #{claim.how} | #{claim.what} | #{claim.amount} | #{claim.command} |\n" }
+    "| | claim | of how much | command |\n|---|---|---|---|\n#{rows.join}"
+  end
+
+  # The commands that do not exist.
+  def failures
+    claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| known?(command) }
+          .map { |command| "docs/assurance.md: no #{command}" }
+  end
+
+  def known?(command)
+    program, *words = command.split
+    return false unless File.executable?(program)
+
+    words.all? do |word|
+      next File.read(program).include?(word) if word.start_with?('--')
+
+      case program
+      when 'tools/test' then parts.key?(word)
+      when 'tools/prove' then groups.key?(word)
+      else File.read(program).match?(/\b#{word}\b/)
+      end
+    end
+  end
+
+  def claims
+    proved + exhausted + tested + measured + argued
+  end
+
+  def proved
+    breaks = Seeded.all(Proofs.all)
+    groups.except(LEAVES).map do |group, proofs|
+      drawn = Seeded.long_functions.count { |place| place.first.split('/')[1] == group && !Seeded.unproved?(*place) }
+      noticed = breaks.count { |broken| broken.proof.group == group } + (drawn * Seeded::BREAKS)
+      forms = proofs.map(&:form).uniq - ['any']
+      Claim.new('proved', of_the_proofs(group, proofs),
+                "#{proofs.size} proofs#{", in the forms #{forms.join(', ')}" if forms.any?}; #{noticed} breaks refuted",
+                "`tools/prove #{group}`")
+    end + beside_the_proofs
+  end
+
+  def beside_the_proofs
+    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
+               '`tools/prove --coverage`'),
+     Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
+               'alarms that are listed with their reasons', '`tools/prove --eva`')]
+  end
+
+  def of_the_proofs(group, proofs)
+    return "the proofs' machines are the ones meant" if group == 'model'
+
+    "`fixpid_#{group}`, as its header says: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
+  end
+
+  def exhausted
+    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[LEAVES].size} forms",
+               "`tools/prove #{LEAVES}`"),
+     Claim.new('exhausted', 'a record with 1, 2 or 3 wrong bits is refused', 'all of them', '`tools/test unit`'),
+     Claim.new('exhausted', "the AN964 forms' products and quotients, as the chips' assembly has them",
+               'all gains; operands of 14 bits in strides', '`test/chips/target/run arith`')]
+  end
+
+  def tested
+    of_the_library + of_the_chips + of_the_loops + of_the_tests
+  end
+
+  def of_the_library
+    [Claim.new('tested', "the same as the notes' own firmware", "#{rows('*_firmware')} recorded steps",
+               '`tools/test unit`'),
+     Claim.new('tested', 'the same as the definition', "#{rows('*') - rows('*_firmware') - rows('autotune')} recorded rows, " \
+               'and a million random calls', '`test/chips/target/run host`'),
+     Claim.new('tested', 'the same as the definition, on inputs that look for new ways through the code',
+               "#{Faults.of('fuzz').size} defects found", '`tools/test fuzz`'),
+     Claim.new('tested', 'the autotuners do what their models in another language do',
+               "#{rows('autotune')} recorded experiments, and thousands of random ones", '`tools/test autotune`'),
+     Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
+               "#{parts['unit']} and #{parts['avr']} checks, every line and branch", '`tools/test unit avr`'),
+     Claim.new('tested', 'nothing that C leaves undefined', "#{parts['sanitize']} checks under clang's sanitizers",
+               '`tools/test sanitize`'),
+     Claim.new('tested', 'no warning, MISRA C:2012 and clang-tidy clean but for named deviations',
+               "#{parts['lint']} checks", '`tools/test lint`'),
+     Claim.new('tested', 'it builds as users build it', "#{parts['consumers']} checks", '`tools/test consumers`')]
+  end
+
+  def of_the_chips
+    [Claim.new('tested', 'the compiled library, and its assembly, the same on every chip as here',
+               "#{parts['target'] + parts['families']} checks on simulated chips", '`tools/test target families`'),
+     Claim.new('tested', 'an interrupt before every instruction changes nothing', 'every instruction of a turn',
+               '`test/chips/target/run interrupts`'),
+     Claim.new('tested', 'a port keeps its promises at its pins and registers',
+               "#{Faults.of('port').size} faults noticed", '`test/chips/target/run port planted`')]
+  end
+
+  def of_the_loops
+    here = FAULT_LOOPS.values.sum(&:runs)
+    there = CHIP_FAULTS.values.sum(&:runs)
+    long = FAULT_LOOPS.values.sum(&:long_runs)
+    [Claim.new('tested', 'the firmware controls its plant, each step the same as the definition',
+               "#{parts['chip']} checks on simulated chips", '`tools/test chip`'),
+     Claim.new('tested', 'with a fault the drive stays inside its limits, and the loop is back in time or off',
+               "#{here} faults here, #{there} on simulated chips; #{long} here in [faults.md](faults.md#many-more)",
+               '`tools/demo faults faults_chip`')]
+  end
+
+  def of_the_tests
+    [Claim.new('tested', 'a small break of the portable C or of a macro is noticed by a named test',
+               "all breaks but #{rows_of('test/tools/mutants/equivalent.txt')} that change nothing; " \
+               "#{Faults.of('unit').size} faults of other kinds", '`tools/test mutants`'),
+     of_the_assembly,
+     Claim.new('tested', 'every checker reports an error that is planted for it', "#{parts['gates']} checks",
+               '`tools/test gates`')]
+  end
+
+  def of_the_assembly
+    files = Instructions.files
+    instructions = files.sum { |file| Instructions.places(File.read(file)).size }
+    breaks = files.sum { |file| Instructions.breaks(file).size }
+    Claim.new('tested', 'a small break of an instruction of the assembly is noticed on simulated chips',
+              "all #{breaks} breaks of the #{instructions} instructions of #{files.size} files, but " \
+              "#{rows_of('test/tools/mutants/assembly.txt')} that change nothing", '`tools/test assembly`')
+  end
+
+  def measured
+    [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
+               "#{parts['cost']} checks: the worst that a search finds, and a bound of the linked code",
+               '`tools/test cost`'),
+     Claim.new('measured', 'how good the gains of the autotuners are', "#{CLOUD_SEEDS.size * CLOUD_PLANTS} random plants",
+               '`tools/demo clouds`'),
+     Claim.new('measured', 'how the loops settle, and beside double precision', "#{parts['demo']} checks",
+               '`tools/demo`')]
+  end
+
+  def argued
+    [Claim.new('argued', 'the recorded steps are those of the notes: they were taken from their firmware', '',
+               '[errata.md](errata.md)'),
+     Claim.new('argued', 'a step takes no longer than its bound: interrupts and what waits for hardware are not in it',
+               '', '[cost.md](cost.md)'),
+     Claim.new('argued', 'a rate that the caller keeps is the rate that the gains are for', '',
+               '[SECURITY.md](../SECURITY.md#time)'),
+     Claim.new('argued', 'silicon does what the simulators do, but for what is known of them', '',
+               '[ports.md](ports.md)')]
+  end
+
+  def groups
+    @groups ||= Proofs.all.group_by(&:group)
+  end
+
+  # The checks of each part of tools/test.
+  def parts
+    @parts ||= File.readlines('test/parts.txt').grep(/^[a-z]/).to_h { |line| [line.split[0], line.split[1].to_i] }
+  end
+
+  # Recorded ones, without the head of each file.
+  def rows(names)
+    Dir["test/support/vectors/#{names}.csv"].sum { |path| File.readlines(path).size - 1 }
+  end
+
+  def rows_of(path)
+    File.readlines(path).grep_v(/\A(?:#|\s*\z)/).size
+  end
+end

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+# The numbers in README.md's sentences. Each stands behind its name, as in
+# `<!-- proofs -->375`, and comes from a table that a tool makes.
+module Numbers
+  NAMED = /<!-- (\w+) -->\K\d+/.freeze
+  README = 'README.md'.freeze
+  AVR = 'ATmega328P'.freeze
+
+  class << self
+    def renewed(text)
+      text.gsub(NAMED) { |old| all.fetch($1, old).to_s }
+    end
+
+    def failures
+      named = File.read(README).scan(NAMED).flatten
+      (named - all.keys).map { |name| "#{README}: no number is called #{name}" } +
+        (all.keys - named).map { |name| "#{README} does not say the number of #{name}" }
+    end
+
+    private
+
+    def all
+      costs.merge(claims, tuner, 'chips' => chips.size, 'minutes' => minutes)
+    end
+
+    # The cells of a table by the names of their columns; the first one has none.
+    def table(page, name)
+      text = File.read(page)[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1]
+      head, _, *rows = text.lines.map { |line| line.split('|')[1...-1].map(&:strip) }
+      rows.map { |cells| head.zip(cells).to_h }
+    end
+
+    # Of the worst step.
+    def costs
+      ours = table(README, 'cost').to_h { |row| [row[''], row[AVR].to_i] }
+      others = table('docs/cost.md', 'beside').to_h { |row| [row[''][/\S+/], row["#{AVR} -O2"][/\d+\z/].to_i] }
+      { 'typical' => ours['PID, typical'], 'full' => ours['PID'], 'fastpid' => others['FastPID'] }
+    end
+
+    def claims
+      rows = table('docs/assurance.md', 'claims')
+      proved = rows.select { |row| row[''] == 'proved' && row['claim'].start_with?('`fixpid_') }
+      amounts = rows.map { |row| row['of how much'] }.join("\n")
+      { 'proofs' => proved.sum { |row| row['of how much'][/\d+(?= proofs)/].to_i },
+        'rows' => amounts[/\d+(?= recorded steps)/].to_i, 'faults' => amounts[/\d+(?= faults here)/].to_i,
+        'plants' => amounts[/\d+(?= random plants)/].to_i }
+    end
+
+    # Of the rule to take first.
+    def tuner
+      row = table('docs/tuning.md', 'clouds').first
+      { 'tuned' => row['plants with gains'].to_i, 'unstable' => row['unstable'].to_i }
+    end
+
+    # A chip may have several rows, one for each memory model.
+    def chips
+      %w[exact families].flat_map { |name| table('docs/chips.md', name) }.map { |row| row[''][/[^,]+/] }.uniq
+    end
+
+    # Of all parts together, on two cores.
+    def minutes
+      seconds = File.readlines('test/parts.txt').grep(/^[a-z]/).grep_v(/ by name: /)
+                    .map { |line| line.split[2].to_i }
+      (seconds.sum + 30) / 60
+    end
+  end
+end

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# Builds the tuner page into a folder: the C of sim/tuner as WebAssembly, and the
+# modules of web/ in one file with it.
+require 'json'
+require_relative 'tuner/costs'
+require_relative 'tuner/modules'
+require_relative 'tuner/names'
+require_relative 'tuner/sources'
+
+Encoding.default_external = 'UTF-8'
+
+folder = ARGV.fetch(0)
+wasm = "#{folder}/tuner.wasm"
+exit 1 unless system(*Sources.wasm(wasm))
+
+# What the modules import from built.js.
+built = { **Names.lists, COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
+          WASM: [File.binread(wasm)].pack('m0') }
+text = built.map { |name, value| "export const #{name} = #{JSON.generate(value)};\n" }.join
+File.write("#{folder}/built.js", text)
+
+page = File.read('web/page.html')
+{ 'page.css' => File.read('web/page.css'), 'page.js' => Modules.joined('web/page.js', "#{folder}/built.js") }
+  .each do |name, content|
+  raise "web/page.html does not name #{name} once" unless page.scan("/* #{name} */").size == 1
+
+  page = page.sub("/* #{name} */") { content }
+end
+File.write("#{folder}/index.html", page)
+puts "Open #{folder}/index.html in a browser: #{page.bytesize} bytes."

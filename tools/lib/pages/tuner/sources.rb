@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# The C that the page computes with, and how it is compiled: to WebAssembly, and
+# natively with the same arithmetic.
+module Sources
+  LIBRARY = (Dir['src/*/*.c'] - Dir['src/*/*_{pic14,pic18}.c']).sort.freeze
+  PLANTS = (Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort + ['sim/plant/plant.c']).freeze
+  TUNER = %w[sim/loops/law.c sim/tuner/params.c sim/tuner/scene.c sim/tuner/twin.c sim/tuner/tuner.c].freeze
+  PATHS = %w[-Isim/tuner/libm -Iinclude -Isrc -Isim/plant -Isim/loops -Isim/tuner].freeze
+  # Without contraction each operation rounds as IEEE 754 says, on every machine.
+  EXACT = %w[-std=c99 -Wall -Wextra -Werror -ffp-contract=off].freeze
+
+  class << self
+    # Its functions are those of tuner.h.
+    def wasm(output)
+      exports = File.read('sim/tuner/tuner.h').scan(/^\S.*?(tuner_\w+)\(/).flatten
+      ['clang', '--target=wasm32', '-O2', *EXACT, '-ffreestanding', '-nostdlib', '-mbulk-memory', *PATHS, *LIBRARY,
+       *PLANTS, *TUNER, '-Wl,--no-entry,--strip-all,--gc-sections',
+       *exports.map { |name| "-Wl,--export=#{name}" }, '-o', output]
+    end
+
+    def native(compiler, level, output)
+      [compiler, level, *EXACT, '-fno-builtin', '-D_DEFAULT_SOURCE', '-D_ISOC11_SOURCE', *PATHS, *LIBRARY, *PLANTS, *TUNER,
+       'sim/tuner/main.c', '-lm', '-o', output]
+    end
+  end
+end
