@@ -77,11 +77,11 @@ static bool integer_16(int which)
 static bool legal(double kp, double ki, double kd)
 {
     const bool kp_legal = (kp >= 0.0) && ((kp - FIXPID_PID_KP_MAX) < 0.5) &&
-                          FIXPID_PID_COUNTS(kp, kp);
+                          FIXPID_PID_COUNTS(kp, kp, 0.5);
     const bool kd_legal = (kd >= 0.0) && ((kd - FIXPID_PID_KD_MAX) < 0.5) &&
-                          FIXPID_PID_COUNTS(kd, kd);
-    const bool ki_legal =
-        ((ki == 0.0) || (ki >= 8.0)) && ((ki - FIXPID_PID_KI_MAX) < 0.5);
+                          FIXPID_PID_COUNTS(kd, kd, 0.5);
+    const bool ki_legal = (ki >= 0.0) && ((ki - FIXPID_PID_KI_MAX) < 0.5) &&
+                          FIXPID_PID_COUNTS(ki, ki, 8.0);
     return kp_legal && ki_legal && kd_legal;
 }
 
@@ -101,9 +101,9 @@ static bool folded(struct fixpid_pid_gains *gains)
     if (!legal(kp, ki, kd) || (filter > FIXPID_PID_FILTER_MAX)) {
         return false;
     }
-    gains->kp_q8 = (uint16_t)FIXPID_PID_FOLDED(kp);
-    gains->ki_q24 = FIXPID_PID_FOLDED(ki);
-    gains->kd_q8 = (uint16_t)FIXPID_PID_FOLDED(kd);
+    gains->kp_q8 = (uint16_t)FIXPID_FOLDED(kp);
+    gains->ki_q24 = FIXPID_FOLDED(ki);
+    gains->kd_q8 = (uint16_t)FIXPID_FOLDED(kd);
     gains->derivative_filter = (uint8_t)filter;
     return true;
 }

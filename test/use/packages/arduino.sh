@@ -66,7 +66,7 @@ arduino_assembly() {
     sketch Heater uno 'compiler.c.extra_flags=-fno-lto -save-temps=obj'
     for noun in pid an937 an964 an964_8bit; do
         found=$(grep -A 1 '#APP' "built/libraries/fixpid/$noun/fixpid_$noun.c.s" |
-            grep -c "src/$noun/fixpid_${noun}_avr.h\"") || true
+            grep -c '/fixpid_[a-z0-9_]*avr.h"') || true
         echo "$noun: $found places of assembly"
         [ "$found" -gt 0 ]
     done

@@ -19,7 +19,7 @@ class SingleHeader
 
   def initialize(noun)
     @noun = noun
-    @seen = {}
+    @seen = []
   end
 
   def text
@@ -53,14 +53,21 @@ class SingleHeader
     Project::PORTABLE_SOURCES.select { |source| SingleHeader.noun_of(source) == @noun }
   end
 
-  # Once is enough for a file with a guard. If that was within an #if that is false, a
-  # compiler misses what is in it.
+  # Once is enough for a file with a guard, unless that once is in a branch of an #if of
+  # the file that includes it: a compiler may skip it there.
   def expanded(path)
-    return '' if @seen[path]
+    return '' if @seen.include?(path)
 
     text = File.read(path).sub(%r{\A/[/*] SPDX.*\n}, '')
-    @seen[path] = text.match?(/^#ifndef FIXPID_\w*H\n/)
-    text.gsub(/^#include "(.*)".*\n/) { included(path, $1) }
+    guard = text[/^#ifndef FIXPID_\w*H$/]
+    @seen += [path] if guard
+    outer = [] # what was seen before each #if that is open
+    text.lines.map do |line|
+      outer.push(@seen) if line =~ /^#if/ && line.chomp != guard
+      @seen = outer.last || @seen if line =~ /^#(elif|else|endif)/
+      outer.pop if line.start_with?('#endif')
+      line =~ /^#include "(.*)"/ ? included(path, $1) : line
+    end.join
   end
 
   # The assembly of a PIC is in sources of its own, and one header is the user's.
