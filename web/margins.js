@@ -186,7 +186,7 @@ export function plantAt(plant, w) {
 
 // What the controller is made of, in output counts per measurement count:
 // kp, ki per step, kd per step, and the derivative's shape.
-export function lawOf(s, results) {
+export function controllerOf(s, results) {
     if (s.CONTROLLER === CONTROLLER.AN937) {
         const q4 = 4 / 16; // of an error that is 4 per count
         return { kp: results.KP * q4, ki: results.KI * q4, kd: results.KD * q4,
@@ -204,24 +204,24 @@ export function lawOf(s, results) {
     };
 }
 
-function derivativeAt(law, w) {
-    if (law.kind === 'three') {
+function derivativeAt(controller, w) {
+    if (controller.kind === 'three') {
         return add(ONE, minus(back(w, 3)));
     }
-    if (law.kind === 'periodic') { // on average: held for its period
+    if (controller.kind === 'periodic') { // on average: held for its period
         let held = [0, 0];
-        for (let i = 0; i < law.period; i++) {
-            held = add(held, times1(1 / law.period, back(w, i)));
+        for (let i = 0; i < controller.period; i++) {
+            held = add(held, times1(1 / controller.period, back(w, i)));
         }
-        return multiply(held, add(ONE, minus(back(w, law.period))));
+        return multiply(held, add(ONE, minus(back(w, controller.period))));
     }
-    return divide(add(ONE, minus(back(w, 1))), add(ONE, times1(-law.keep, back(w, 1))));
+    return divide(add(ONE, minus(back(w, 1))), add(ONE, times1(-controller.keep, back(w, 1))));
 }
 
-export function controllerAt(law, w) {
-    const integral = divide([law.ki, 0], add(ONE, minus(back(w, 1))));
-    const terms = add(add([law.kp, 0], integral), times1(law.kd, derivativeAt(law, w)));
-    return times1(law.sign, terms);
+export function controllerAt(controller, w) {
+    const integral = divide([controller.ki, 0], add(ONE, minus(back(w, 1))));
+    const terms = add(add([controller.kp, 0], integral), times1(controller.kd, derivativeAt(controller, w)));
+    return times1(controller.sign, terms);
 }
 
 // --- In time ----------------------------------------------------------------
@@ -229,7 +229,7 @@ export function controllerAt(law, w) {
 // The closed loop without limits and rounding, its gain times `factor`: the
 // measurement of each step after a count on the first one, and after a step of
 // `driven` output counts before it.
-export function linearResponse(plant, law, factor, n, driven = 0) {
+export function linearResponse(plant, controller, factor, n, driven = 0) {
     let x = plant.now.map((b) => b * driven);
     const outputs = new Float64Array(n + plant.steps + 2);
     const seen = new Float64Array(n);
@@ -238,20 +238,20 @@ export function linearResponse(plant, law, factor, n, driven = 0) {
     const y = (i) => (i < 0 ? 0 : seen[i]);
     for (let i = 0; i < n; i++) {
         seen[i] = plant.out.reduce((sum, c, k) => sum + c * x[k], i === 0 ? 1 : 0);
-        integral += law.ki * seen[i];
-        if (law.kind === 'three') {
-            derivative = law.kd * (y(i) - y(i - 3));
-        } else if (law.kind === 'periodic') {
-            if (i % law.period === 0) {
+        integral += controller.ki * seen[i];
+        if (controller.kind === 'three') {
+            derivative = controller.kd * (y(i) - y(i - 3));
+        } else if (controller.kind === 'periodic') {
+            if (i % controller.period === 0) {
                 periods[1] = y(i) - periods[0];
                 periods[0] = y(i);
             }
-            derivative = law.kd * periods[1];
+            derivative = controller.kd * periods[1];
         } else {
-            derivative = law.keep * derivative + law.kd * (y(i) - y(i - 1));
+            derivative = controller.keep * derivative + controller.kd * (y(i) - y(i - 1));
         }
         const at = i + plant.steps + 1;
-        outputs[at] = -factor * law.sign * (law.kp * seen[i] + integral + derivative);
+        outputs[at] = -factor * controller.sign * (controller.kp * seen[i] + integral + derivative);
         const [u, u1] = [outputs[i + 1], outputs[i]];
         x = plant.phi.map((row, k) => row.reduce((sum, p, j) => sum + p * x[j], 0) +
             plant.now[k] * u + plant.before[k] * u1);
@@ -268,8 +268,8 @@ function largest(seen, from, to) {
 }
 
 // The loop is stable if what is left of a push goes on getting less.
-export function isStable(plant, law, factor, n) {
-    const seen = linearResponse(plant, law, factor, n, 1);
+export function isStable(plant, controller, factor, n) {
+    const seen = linearResponse(plant, controller, factor, n, 1);
     const early = largest(seen, n / 4, n / 2);
     const late = largest(seen, 3 * n / 4, n);
     return Number.isFinite(late) && (late < early * 0.999 || late < 1e-9);
@@ -308,8 +308,8 @@ function peak(at, low, high) {
 // A margin that there is none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
     const plant = sampledPlant(s, results.DEAD_S);
-    const law = lawOf(s, results);
-    const loop = (w) => multiply(controllerAt(law, w), plantAt(plant, w));
+    const controller = controllerOf(s, results);
+    const loop = (w) => multiply(controllerAt(controller, w), plantAt(plant, w));
     const scale = scaleSteps(s);
     const lowest = Math.min(0.01, 0.02 / scale);
     const grid = Array.from({ length: POINTS }, (_, i) => lowest * (Math.PI / lowest) ** ((i + 1) / POINTS));
@@ -362,14 +362,14 @@ export function marginsOf(s, results) {
     return {
         ms: sensitivity(peak(sensitivity, ...around)),
         gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase, delayMargin: delay,
-        stable: isStable(plant, law, 1, responseSteps(s, results)),
+        stable: isStable(plant, controller, 1, responseSteps(s, results)),
         curve,
     };
 }
 
 // How long to look at a loop's answer to a push, in steps.
 export function responseSteps(s, results) {
-    const perStep = lawOf(s, results);
+    const perStep = controllerOf(s, results);
     const reset = perStep.ki > 0 ? perStep.kp / perStep.ki : 0;
     const wanted = 60 * Math.max(scaleSteps(s), Math.min(reset, 20 * scaleSteps(s)));
     return Math.round(Math.min(30000, Math.max(1500, wanted)));

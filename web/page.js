@@ -10,7 +10,7 @@ import { createEventList, createFlags } from './events.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
 import { headerOf } from './header.js';
-import { isStable, lawOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
+import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
 import { createPlots, color } from './plot.js';
@@ -453,7 +453,7 @@ async function startPage() {
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     // What the tests take hold of.
     window.tuner = { PRESETS, RESULT, RULE, change, changeNow, currentState, experiment, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
-        lawOf, marginsOf, presetState, readRecording, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
+        controllerOf, marginsOf, presetState, readRecording, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
     document.body.dataset.ready = 'yes';
 }
 

@@ -77,7 +77,7 @@ static void change_limits(struct loop *loop)
 // the output stays at its limit.
 static int leaves_lowered_limit(void)
 {
-    const struct law_gains gains = {1.0, 0.05, 0.0, 0};
+    const struct pid_double_gains gains = {1.0, 0.05, 0.0, 0};
     const struct fixpid_pid_config config =
         loop_config(&gains, 1.0, 0.0, 255.0);
     struct fixpid_pid pid;
@@ -97,7 +97,7 @@ static int leaves_lowered_limit(void)
 // What a setpoint's step of 100 adds to the output at once.
 static int kick(uint8_t options)
 {
-    const struct law_gains gains = {1.0, 0.01, 2.0, 0};
+    const struct pid_double_gains gains = {1.0, 0.01, 2.0, 0};
     struct fixpid_pid_config config = loop_config(&gains, 1.0, -1000.0, 1000.0);
     struct fixpid_pid pid;
 
@@ -112,7 +112,7 @@ void print_bumps(void)
     struct loop loop;
 
     (void)printf("event;before;first;largest\n");
-    loop_start(&loop, &trials[0], true, LAW_WHOLE);
+    loop_start(&loop, &trials[0], true, PID_DOUBLE_WHOLE);
     rest(&loop, 600);
     change_gains(&loop);
     change_modes(&loop);

@@ -5,7 +5,7 @@
 
 #include "loops.h"
 
-struct fixpid_pid_config loop_config(const struct law_gains *gains,
+struct fixpid_pid_config loop_config(const struct pid_double_gains *gains,
                                      double setpoint_weight, double output_min,
                                      double output_max)
 {
@@ -24,7 +24,7 @@ struct fixpid_pid_config loop_config(const struct law_gains *gains,
 }
 
 void loop_start(struct loop *self, const struct trial *trial, bool fixed,
-                enum law_without without)
+                enum pid_double_without without)
 {
     const struct fixpid_pid_config config =
         loop_config(&trial->gains, trial->setpoint_weight, trial->output_min,
@@ -35,8 +35,9 @@ void loop_start(struct loop *self, const struct trial *trial, bool fixed,
         (void)fprintf(stderr, "%s: refused\n", trial->plant.name);
         exit(EXIT_FAILURE);
     }
-    law_init(&self->law, without, &trial->gains, trial->setpoint_weight,
-             trial->output_min, trial->output_max);
+    pid_double_init(&self->exact, without, &trial->gains,
+                    trial->setpoint_weight, trial->output_min,
+                    trial->output_max);
     motion_start(&self->motion, &trial->plant);
     self->output = 0.0;
 }
@@ -47,8 +48,8 @@ void loop_step(struct loop *self, double setpoint)
     if (self->fixed) {
         self->output = fixpid_pid_step(&self->pid, (int16_t)setpoint, reading);
     } else {
-        self->output =
-            floor(law_step(&self->law, setpoint, (double)reading) + 0.5);
+        self->output = floor(
+            pid_double_step(&self->exact, setpoint, (double)reading) + 0.5);
     }
     motion_move(&self->motion, self->output);
 }
@@ -57,17 +58,17 @@ void loop_set_limits(struct loop *self, double output_min, double output_max)
 {
     (void)fixpid_pid_set_limits(&self->pid, (int16_t)output_min,
                                 (int16_t)output_max);
-    law_set_limits(&self->law, output_min, output_max);
+    pid_double_set_limits(&self->exact, output_min, output_max);
 }
 
 void loop_set_manual(struct loop *self, double output)
 {
     fixpid_pid_set_manual(&self->pid, (int16_t)output);
-    law_set_manual(&self->law, output);
+    pid_double_set_manual(&self->exact, output);
 }
 
 void loop_set_auto(struct loop *self)
 {
     fixpid_pid_set_auto(&self->pid);
-    law_set_auto(&self->law);
+    pid_double_set_auto(&self->exact);
 }

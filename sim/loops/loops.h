@@ -9,20 +9,20 @@
 struct loop {
     bool fixed; // fixpid_pid; else the law
     struct fixpid_pid pid;
-    struct law law;
+    struct pid_double exact;
     struct motion motion;
     double output; // counts, as last given to the plant
 };
 
 // The configuration of fixpid_pid that comes closest to real gains.
-struct fixpid_pid_config loop_config(const struct law_gains *gains,
+struct fixpid_pid_config loop_config(const struct pid_double_gains *gains,
                                      double setpoint_weight, double output_min,
                                      double output_max);
 
 // Both controllers with a trial's gains, its plant at rest. The actuator takes
 // whole counts, of either of them.
 void loop_start(struct loop *self, const struct trial *trial, bool fixed,
-                enum law_without without);
+                enum pid_double_without without);
 
 // One step; self->motion.value is what it led to.
 void loop_step(struct loop *self, double setpoint);
@@ -31,7 +31,8 @@ void loop_set_limits(struct loop *self, double output_min, double output_max);
 void loop_set_manual(struct loop *self, double output);
 void loop_set_auto(struct loop *self);
 
-void print_five(void);      // fixpid_pid against the law on five plants
+void print_comparison(
+    void); // fixpid_pid against it in double precision on five plants
 void print_slow(void);      // where the integral is far too slow
 void print_agreement(void); // step by step, on the same readings
 void print_bumps(void);

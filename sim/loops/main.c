@@ -12,9 +12,9 @@ int main(int count, char **arguments)
         const char *name;
         void (*print)(void);
     } tables[] = {
-        {"five", print_five},           {"slow", print_slow},
-        {"agreement", print_agreement}, {"bumps", print_bumps},
-        {"drift", print_drift},         {"autotune", print_autotune},
+        {"comparison", print_comparison}, {"slow", print_slow},
+        {"agreement", print_agreement},   {"bumps", print_bumps},
+        {"drift", print_drift},           {"autotune", print_autotune},
         {"failures", print_failures},
     };
 

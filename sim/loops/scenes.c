@@ -16,10 +16,10 @@ struct event {
 
 struct scene {
     const char *name;
-    enum law_without without;
+    enum pid_double_without without;
     int trial;
-    struct law_gains gains; // all 0: the trial's own
-    double setpoint_weight; // with those gains
+    struct pid_double_gains gains; // all 0: the trial's own
+    double setpoint_weight;        // with those gains
     int steps;
     struct event events[EVENTS_MAX]; // the first is the setpoint at step 0
     int event_count;
@@ -27,13 +27,13 @@ struct scene {
 
 static const struct scene scenes[] = {
     {.name = "windup",
-     .without = LAW_NO_ANTI_WINDUP,
+     .without = PID_DOUBLE_NO_ANTI_WINDUP,
      .trial = 0,
      .steps = 400,
      .events = {{0, SETPOINT, 700.0}},
      .event_count = 1},
     {.name = "sign_blind",
-     .without = LAW_SIGN_BLIND,
+     .without = PID_DOUBLE_SIGN_BLIND,
      .trial = 0,
      .gains = {0.5, 0.02, 0.0, 0},
      .setpoint_weight = 0.7,
@@ -43,19 +43,19 @@ static const struct scene scenes[] = {
                 {600, SETPOINT, 330.0}},
      .event_count = 3},
     {.name = "clamped",
-     .without = LAW_INTEGRAL_CLAMPED,
+     .without = PID_DOUBLE_INTEGRAL_CLAMPED,
      .trial = 4,
      .steps = 9000,
      .events = {{0, SETPOINT, 600.0}},
      .event_count = 1},
     {.name = "kick",
-     .without = LAW_DERIVATIVE_ON_ERROR,
+     .without = PID_DOUBLE_DERIVATIVE_ON_ERROR,
      .trial = 1,
      .steps = 500,
      .events = {{0, SETPOINT, 400.0}, {300, SETPOINT, 440.0}},
      .event_count = 2},
     {.name = "eight_bits",
-     .without = LAW_EIGHT_FRACTIONAL_BITS,
+     .without = PID_DOUBLE_EIGHT_FRACTIONAL_BITS,
      .trial = 4,
      .gains = {2.0, 0.0015, 0.0, 0},
      .setpoint_weight = 1.0,
@@ -63,7 +63,7 @@ static const struct scene scenes[] = {
      .events = {{0, SETPOINT, 600.0}},
      .event_count = 1},
     {.name = "no_seed",
-     .without = LAW_NO_SEED,
+     .without = PID_DOUBLE_NO_SEED,
      .trial = 0,
      .steps = 800,
      .events = {{0, SETPOINT, 700.0}, {300, MANUAL, 120.0}, {450, AUTO, 0.0}},
@@ -94,10 +94,10 @@ static void print_steps(const struct scene *scene, const struct trial *trial)
     struct loop loops[3];
     double setpoint = 0.0;
 
-    loop_start(&loops[0], trial, true, LAW_WHOLE);
-    loop_start(&loops[1], trial, false, LAW_WHOLE);
+    loop_start(&loops[0], trial, true, PID_DOUBLE_WHOLE);
+    loop_start(&loops[1], trial, false, PID_DOUBLE_WHOLE);
     loop_start(&loops[2], trial, false, scene->without);
-    (void)printf("step,setpoint,fixpid,fixpid_output,law,law_output,"
+    (void)printf("step,setpoint,fixpid,fixpid_output,double,double_output,"
                  "without,without_output\n");
     for (int step = 0; step < scene->steps; step++) {
         (void)printf("%d", step);

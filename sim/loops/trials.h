@@ -5,7 +5,7 @@
 #define TRIALS_H
 #include <stdint.h>
 
-#include "law.h"
+#include "pid_double.h"
 #include "plant_counts.h"
 
 #define TRIALS 5
@@ -16,7 +16,7 @@ struct trial {
     double output_min;
     double output_max;
 
-    struct law_gains gains;
+    struct pid_double_gains gains;
     double setpoint_weight;
 
     // One after the other; the second is out of reach of all but the

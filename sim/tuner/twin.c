@@ -22,35 +22,37 @@ void twin_begin(struct twin *self)
         (options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
     const int on_error = (options & FIXPID_PID_DERIVATIVE_ON_ERROR) != 0u;
     const double rate = param(PARAM_RATE);
-    const struct law_gains gains = {param(PARAM_KP), param(PARAM_KI) / rate,
-                                    param(PARAM_KD) * rate,
-                                    (int)param(PARAM_FILTER) & 7};
+    const struct pid_double_gains gains = {
+        param(PARAM_KP), param(PARAM_KI) / rate, param(PARAM_KD) * rate,
+        (int)param(PARAM_FILTER) & 7};
 
     *self = (struct twin){.kind = (int)param(PARAM_CONTROLLER), .sign = 1.0};
     if ((options & FIXPID_PID_REVERSE) != 0u) {
         self->sign = -1.0;
     }
-    law_init(&self->law, on_error ? LAW_DERIVATIVE_ON_ERROR : LAW_WHOLE, &gains,
-             on_measurement ? 0.0 : param(PARAM_WEIGHT),
-             param(PARAM_OUTPUT_MIN), param(PARAM_OUTPUT_MAX));
-    self->law.integral_min = param(PARAM_INTEGRAL_MIN);
-    self->law.integral_max = param(PARAM_INTEGRAL_MAX);
+    pid_double_init(&self->exact,
+                    on_error ? PID_DOUBLE_DERIVATIVE_ON_ERROR
+                             : PID_DOUBLE_WHOLE,
+                    &gains, on_measurement ? 0.0 : param(PARAM_WEIGHT),
+                    param(PARAM_OUTPUT_MIN), param(PARAM_OUTPUT_MAX));
+    self->exact.integral_min = param(PARAM_INTEGRAL_MIN);
+    self->exact.integral_max = param(PARAM_INTEGRAL_MAX);
 }
 
 void twin_event(struct twin *self, int what, double a, double b)
 {
     switch (what) {
     case EVENT_MANUAL:
-        law_set_manual(&self->law, a);
+        pid_double_set_manual(&self->exact, a);
         break;
     case EVENT_AUTO:
-        law_set_auto(&self->law);
+        pid_double_set_auto(&self->exact);
         break;
     case EVENT_LIMITS:
-        law_set_limits(&self->law, a, b);
+        pid_double_set_limits(&self->exact, a, b);
         break;
     case EVENT_FEEDFORWARD:
-        self->law.feedforward = a;
+        self->exact.feedforward = a;
         break;
     default:
         break;
@@ -97,7 +99,7 @@ double twin_step(struct twin *self, double setpoint, double measurement,
     case TUNER_AN964:
         return an964(self, error);
     default:
-        return law_step(&self->law, self->sign * setpoint,
-                        self->sign * measurement);
+        return pid_double_step(&self->exact, self->sign * setpoint,
+                               self->sign * measurement);
     }
 }

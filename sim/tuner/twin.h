@@ -3,12 +3,12 @@
 // rounding: what the integers cost is the difference.
 #ifndef TUNER_TWIN_H
 #define TUNER_TWIN_H
-#include "law.h"
+#include "pid_double.h"
 
 struct twin {
     int kind;    // enum tuner_controller
     double sign; // -1: reverse acting
-    struct law law;
+    struct pid_double exact;
     double sum;
     double errors[3];
     int ticks; // until the next derivative sample

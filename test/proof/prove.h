@@ -52,7 +52,7 @@ static number trunc_by(number x, unsigned bits)
 // give an equal product, at most `most`, and nothing times zero is zero. Where
 // code and definition agree for whatever function it is, they do so for the
 // true product; that each primitive of src/ computes the true one is shown by
-// trying all its operands (leaves.c), which a solver is slow at.
+// trying all its operands (primitives.c), which a solver is slow at.
 uint32_t __CPROVER_uninterpreted_product(uint16_t a, uint16_t b);
 
 static uint32_t product(uint16_t a, uint16_t b, uint32_t most)

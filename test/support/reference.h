@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The definition of the controllers in 64-bit arithmetic, written from the
-// notes' equations and not from src/. Vectors, fuzzing and leaves compare with
-// it.
+// notes' equations and not from src/. Vectors, fuzzing and primitives compare
+// with it.
 #ifndef REFERENCE_H
 #define REFERENCE_H
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_an937.h"
 #include "numbers.h"
+#include "plain_c_an937.h"
 #include "poison.h"
 #include "reference.h"
-#include "straight_an937.h"
 #include "unity.h"
 #include "vectors.h"
 
@@ -392,7 +392,7 @@ void test_step_random_runs_match_the_reference(void)
 // The form that tools/cost compares with does the same work.
 void test_step_random_runs_match_the_straightforward_form(void)
 {
-    struct straight_an937 straight;
+    struct plain_c_an937 plain;
 
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS / 4; i++) {
         const struct fixpid_an937_config config = {
@@ -403,27 +403,27 @@ void test_step_random_runs_match_the_straightforward_form(void)
 
         if (i % 50 == 0) {
             fixpid_an937_init(&an937_controller, &config);
-            straight_an937_init(&straight, &config);
+            plain_c_an937_init(&plain, &config);
         }
         for (uint32_t ticks = numbers_below(4); ticks > 1; ticks--) {
             fixpid_an937_tick(&an937_controller);
-            straight_an937_tick(&straight);
+            plain_c_an937_tick(&plain);
         }
-        TEST_ASSERT_EQUAL_INT32(straight_an937_step(&straight, error),
+        TEST_ASSERT_EQUAL_INT32(plain_c_an937_step(&plain, error),
                                 fixpid_an937_step(&an937_controller, error));
         TEST_ASSERT_EQUAL_INT32(
-            straight.accumulated_error,
+            plain.accumulated_error,
             fixpid_an937_accumulated_error(&an937_controller));
-        TEST_ASSERT_EQUAL_INT32(straight.config.kd_q4 * straight.delta,
+        TEST_ASSERT_EQUAL_INT32(plain.config.kd_q4 * plain.delta,
                                 fixpid_an937_derivative(&an937_controller));
         TEST_ASSERT_EQUAL_HEX8(
-            (straight.sum_saturated ? FIXPID_AN937_SUM_SATURATED : 0) |
-                (straight.accumulated_error_limited
+            (plain.sum_saturated ? FIXPID_AN937_SUM_SATURATED : 0) |
+                (plain.accumulated_error_limited
                      ? FIXPID_AN937_ACCUMULATED_ERROR_LIMITED
                      : 0) |
-                (straight.tick_overrun ? FIXPID_AN937_TICK_OVERRUN : 0),
+                (plain.tick_overrun ? FIXPID_AN937_TICK_OVERRUN : 0),
             fixpid_an937_flags(&an937_controller));
-        TEST_ASSERT_EQUAL(straight.sum >= 0,
+        TEST_ASSERT_EQUAL(plain.sum >= 0,
                           (fixpid_an937_stat1(&an937_controller) &
                            FIXPID_AN937_PID_SIGN) != 0u);
     }

@@ -20,7 +20,7 @@ require_relative 'demo/thermostat'
 require_relative 'demo/loops'
 require_relative 'demo/autotune'
 require_relative 'demo/others'
-require_relative 'demo/clouds'
+require_relative 'demo/random_plants'
 require_relative 'demo/recipes'
 require_relative 'demo/chip'
 require_relative 'demo/faults'
@@ -41,7 +41,7 @@ LOOPS = {
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
   'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
-  'clouds' => Loop.new('two autotuners on 800 random plants, how good their gains are', -> { clouds }),
+  'random_plants' => Loop.new('two autotuners on 800 random plants, how good their gains are', -> { random_plants }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time',

@@ -3,7 +3,7 @@
 
 # The controllers on chip families that only a simulator's program knows, bit for
 # bit, and what their steps cost there: see test/chips/families/run.
-require_relative '../../../tools/lib/faults/planted'
+require_relative '../../../tools/lib/faults/faults'
 require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
 require_relative 'metered'
@@ -68,7 +68,7 @@ class Families
     @results = {}
     @mutex = Mutex.new
     @tests = NamedTests.new('test/chips/families/run')
-    (exact + refusals + planted).each { |name, step| @tests.add(name, &step) }
+    (exact + refusals + seeded).each { |name, step| @tests.add(name, &step) }
     @tests.add('limits', needs: exact.map(&:first)) { limits }
   end
 
@@ -114,13 +114,13 @@ class Families
   end
 
   # What the harness must notice.
-  def planted
+  def seeded
     wrong = FAMILIES.flat_map do |family|
       family.modes.map do |controller, modes|
-        ["planted #{family.name} #{controller}", -> { notice(family, controller, modes.last) }]
+        ["seeded #{family.name} #{controller}", -> { notice(family, controller, modes.last) }]
       end
     end
-    wrong + [['planted silent', -> { unusable(%w[true]) }], ['planted missing', -> { unusable(%w[no-such-simulator]) }]]
+    wrong + [['seeded silent', -> { unusable(%w[true]) }], ['seeded missing', -> { unusable(%w[no-such-simulator]) }]]
   end
 
   def notice(family, controller, mode)
@@ -167,7 +167,7 @@ class Families
   def break_library
     copy = "#{@folder}/broken"
     FileUtils.cp_r(%w[include src], @folder) # the one looks for the other beside it
-    (Faults.of('forms both') + Faults.of('forms families')).each { |fault| fault.plant(@folder) }
+    (Faults.of('forms both') + Faults.of('forms families')).each { |fault| fault.seed(@folder) }
     File.rename("#{@folder}/src", copy)
     copy
   end

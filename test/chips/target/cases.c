@@ -20,7 +20,7 @@ static uint8_t held_times; // how often it comes again: limits are reached
 // The definitions, at power-on like all-zero controllers.
 static struct reference_an937 an937 = {.countdown = 1, .period = 1};
 static struct an964 {
-    struct reference_an964 law;
+    struct reference_an964 reference;
     bool ready;
 } ten_bits, eight_bits;
 static struct reference_pid pid;
@@ -289,9 +289,9 @@ static bool an964_set(struct an964 *self, const struct gains *gains,
         gains->kd > most) {
         return false;
     }
-    self->law.kp = gains->kp;
-    self->law.ki = gains->ki;
-    self->law.kd = gains->kd;
+    self->reference.kp = gains->kp;
+    self->reference.ki = gains->ki;
+    self->reference.kd = gains->kd;
     return true;
 }
 
@@ -302,8 +302,8 @@ static uint8_t an964_calls(struct an964 *self, uint8_t calls,
     uint8_t accepted = 0;
 
     if ((calls & (CALL_INIT | CALL_RESET)) != 0u) {
-        self->law.sum = 0;
-        memset(self->law.history, 0, sizeof self->law.history);
+        self->reference.sum = 0;
+        memset(self->reference.history, 0, sizeof self->reference.history);
     }
     if ((calls & CALL_INIT) != 0u) {
         self->ready = true;
@@ -311,9 +311,9 @@ static uint8_t an964_calls(struct an964 *self, uint8_t calls,
         if (self->ready) {
             accepted |= CALL_INIT;
         } else {
-            self->law.kp = 0;
-            self->law.ki = 0;
-            self->law.kd = 0;
+            self->reference.kp = 0;
+            self->reference.ki = 0;
+            self->reference.kd = 0;
         }
     }
     if ((calls & CALL_SET_GAINS) != 0u && an964_set(self, gains, most)) {
@@ -325,14 +325,15 @@ static uint8_t an964_calls(struct an964 *self, uint8_t calls,
 static void an964_step(struct an964 *self, int16_t error,
                        struct an964_answer *expected)
 {
-    expected->output = (int16_t)reference_an964_step(&self->law, error);
-    expected->proportional = (int16_t)self->law.proportional;
-    expected->integral = (int16_t)self->law.integral;
-    expected->derivative = (int16_t)self->law.derivative;
+    expected->output = (int16_t)reference_an964_step(&self->reference, error);
+    expected->proportional = (int16_t)self->reference.proportional;
+    expected->integral = (int16_t)self->reference.integral;
+    expected->derivative = (int16_t)self->reference.derivative;
     expected->flags =
-        (uint8_t)((self->law.sum_limited ? FIXPID_AN964_SUM_LIMITED : 0u) |
-                  (self->law.output_limited ? FIXPID_AN964_OUTPUT_LIMITED
-                                            : 0u));
+        (uint8_t)((self->reference.sum_limited ? FIXPID_AN964_SUM_LIMITED
+                                               : 0u) |
+                  (self->reference.output_limited ? FIXPID_AN964_OUTPUT_LIMITED
+                                                  : 0u));
 }
 
 static void an964_ask(union question *question)
@@ -351,7 +352,7 @@ static void an964_define(const union question *question, union answer *answer)
     const struct gains gains = {asked->gains.kp, asked->gains.ki,
                                 asked->gains.kd};
 
-    ten_bits.law.form = reference_an964_10bit();
+    ten_bits.reference.form = reference_an964_10bit();
     answer->an964.accepted = an964_calls(&ten_bits, asked->calls, &gains, 1023);
     an964_step(&ten_bits, asked->error, &answer->an964);
 }
@@ -394,7 +395,7 @@ static void an964_8bit_define(const union question *question,
     const struct gains gains = {asked->gains.kp, asked->gains.ki,
                                 asked->gains.kd};
 
-    eight_bits.law.form = reference_an964_8bit();
+    eight_bits.reference.form = reference_an964_8bit();
     answer->an964.accepted =
         an964_calls(&eight_bits, asked->calls, &gains, 127);
     an964_step(&eight_bits, asked->error, &answer->an964);

@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 require_relative '../../../tools/lib/build/built'
-require_relative '../../../tools/lib/faults/planted'
+require_relative '../../../tools/lib/faults/faults'
 require_relative '../../../tools/lib/measure/host'
 
 HERE = 'test/chips/target'
@@ -61,7 +61,7 @@ module Broken
       FileUtils.rm_rf(folder)
       FileUtils.mkdir_p(folder)
       FileUtils.cp_r(%w[include src port], folder)
-      faults.each { |fault| fault.plant(folder) }
+      faults.each { |fault| fault.seed(folder) }
       folder
     end
   end

@@ -28,7 +28,7 @@ class CalledModule
 
   # name => what is done
   def tests
-    { 'host' => -> { compared? ? against_definition('src') : answers }, 'planted' => -> { planted }, 'pic18' => -> { pic18 },
+    { 'host' => -> { compared? ? against_definition('src') : answers }, 'seeded' => -> { seeded }, 'pic18' => -> { pic18 },
       **OTHERS.transform_values { |machine| -> { Target.same(answers, digests(machine)) } } }
       .transform_keys { |test| "#{test} #{@name}" }
   end
@@ -67,7 +67,7 @@ class CalledModule
     said(program)
   end
 
-  def planted
+  def seeded
     return 'by test/model/autotune/run' unless compared?
 
     folder = Broken.module(@name)

@@ -182,11 +182,11 @@ module Target
       same(*%w[host avr].map { |name| Machine::ALL.fetch(name) }.map { |one| one.printed(one.program(['arith', *options].join.delete('='), words)) })
     end
 
-    def leaves
-      %w[_PIC14 LEAVES_PORTABLE].map do |form|
-        output = "#{WORK}/leaves.#{form}"
+    def primitives
+      %w[_PIC14 PRIMITIVES_PORTABLE].map do |form|
+        output = "#{WORK}/primitives.#{form}"
         said(BUILT.command(output, *%w[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude -Isrc -Itest/support], "-D#{form}",
-                           "#{HERE}/leaves.c", 'test/support/numbers.c', '-o', output))
+                           "#{HERE}/primitives.c", 'test/support/numbers.c', '-o', output))
       end.join
     end
   end
@@ -202,7 +202,7 @@ class Table
   def initialize(update)
     @tests = NamedTests.new('test/chips/target/run')
     @update = update
-    %i[replays arithmetic interrupts ports machines host planted modules].each { |part| send(part) }
+    %i[replays arithmetic interrupts ports machines host seeded modules].each { |part| send(part) }
     figures unless Target.amount == LONG
   end
 
@@ -312,7 +312,7 @@ class Table
   end
 
   def host
-    test('host', 'leaves') { Target.leaves }
+    test('host', 'primitives') { Target.primitives }
     BOTH.each { |mode| test('host', 'definition', mode) { Target.definition(mode) } }
     # In the form for the smallest chips.
     test('host', 'definition_narrow-pointer') { Target.definition('pointer', NARROW) }
@@ -324,29 +324,29 @@ class Table
   end
 
   # Each goes the way of the test that must notice it.
-  def planted
-    planted_replays
+  def seeded
+    seeded_replays
     in_modes(%w[object]) do |controller, chip, mode|
-      test('planted', 'planted_arith', controller, chip, mode) do
+      test('seeded', 'seeded_arith', controller, chip, mode) do
         image = Images.arithmetic(controller, chip, source: Broken.library)
         Target.noticed(/different [1-9]/) { Target.digests(image, controller, Target.amount.rows_apart) }
       end
     end
     BOTH.each do |mode|
-      test('planted', 'planted_losing', *TICKING, mode) do
+      test('seeded', 'seeded_losing', *TICKING, mode) do
         image = Images.driver(*TICKING, mode, asks: :racy, calls: 'an937_tick', source: Broken.losing)
         Target.noticed(/changed [1-9]/) { Target.interrupts(image, TICKING.first, 'ticking') }
       end
     end
-    planted_ports
-    planted_machines
-    planted_rows
+    seeded_ports
+    seeded_machines
+    seeded_rows
   end
 
-  def planted_replays
-    { 'planted_driver' => ['', ON_CHIPS], 'planted_plain' => ['plain', ON_CHIPS], 'planted_placed' => ['placed', PLACED] }.each do |name, (form, pairs)|
+  def seeded_replays
+    { 'seeded_driver' => ['', ON_CHIPS], 'seeded_plain' => ['plain', ON_CHIPS], 'seeded_placed' => ['placed', PLACED] }.each do |name, (form, pairs)|
       in_modes(%w[object], pairs) do |controller, chip, mode|
-        test('planted', name, controller, chip, mode) do
+        test('seeded', name, controller, chip, mode) do
           image = Images.driver(controller, chip, mode, form: form, source: Broken.library)
           Target.noticed(DIFFERENT) { Target.replay(image, controller, 1000) }
         end
@@ -354,11 +354,11 @@ class Table
     end
   end
 
-  def planted_ports
+  def seeded_ports
     Faults.of('port').each do |fault|
       name, check = fault.words(1)
       chip = name[/\w+\z/]
-      test('planted', 'planted_port', name) do
+      test('seeded', 'seeded_port', name) do
         image = Images.port(chip, Broken.port(fault))
         Target.noticed(/^#{check}: /) { Target.port(image, chip, check) }
       end
@@ -366,11 +366,11 @@ class Table
   end
 
   # Wrong answers to recorded rows, or to random questions.
-  def planted_machines
+  def seeded_machines
     { 'wide' => ['cortex-m0', %w[an937 an964 an964_8bit pid]], 'narrow' => ['host', %w[an937], NARROW],
       'avr' => ['avr', %w[an937 an964 an964_8bit pid]], 'arm' => ['cortex-m4', %w[pid]] }.each do |form, (machine, controllers, *options)|
       controllers.each do |controller|
-        test('planted', "planted_#{form}", controller) do
+        test('seeded', "seeded_#{form}", controller) do
           Target.noticed(/^#{controller} (rows|random) .*different [1-9]/) do
             Target.machine(machine, 'object', *options, source: Broken.library, steps: 1000)
           end
@@ -380,13 +380,13 @@ class Table
   end
 
   # One number of one row, one more than it was; and a row that is missing.
-  def planted_rows
-    test('planted', 'planted_row') do
+  def seeded_rows
+    test('seeded', 'seeded_row') do
       Target.noticed(/rows 2000 different 1 random 1000 different 0/) do
         Target.with_rows('wrong_row') { |lines| lines[1000] = lines[1000].chomp.split(',').tap { |row| row[8] = row[8].to_i + 1 }.join(',') << "\n" }
       end
     end
-    test('planted', 'planted_length') do
+    test('seeded', 'seeded_length') do
       Target.noticed(/has not 2000 rows/) { Target.with_rows('row_missing') { |lines| lines.delete_at(1000) } }
     end
   end

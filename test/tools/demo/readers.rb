@@ -15,7 +15,7 @@ require "#{root}/tools/lib/demo/report"
 require "#{root}/tools/lib/demo/regression"
 require "#{root}/tools/lib/demo/loops"
 require "#{root}/tools/lib/demo/plot"
-require "#{root}/tools/lib/demo/clouds"
+require "#{root}/tools/lib/demo/random_plants"
 require "#{root}/tools/lib/demo/faults"
 
 HEAD = "time_s,angle\n"
@@ -84,8 +84,8 @@ def renewed
   end
 end
 
-def cloud_of(rows)
-  Cloud.new(Array.new(rows) { { 'tuner' => 'autotune', 'rule' => 'SIMC_PI', 'result' => '0', 'status' => Cell.new('3') } })
+def batch_of(rows)
+  Batch.new(Array.new(rows) { { 'tuner' => 'autotune', 'rule' => 'SIMC_PI', 'result' => '0', 'status' => Cell.new('3') } })
 end
 
 BEFORE = "loop | settled | 116\n"
@@ -140,13 +140,13 @@ good = [
   expect('infinity above a limit', passes(:>=, Float::INFINITY, 1.0), false),
   expect('a limit that is no number', passes(:<=, 1.0, Float::NAN), false),
   expect('nothing measured', [passes(:<=, nil, 1.0), passes(:==, nil, nil)], [false] * 2),
-  expect('a cloud of no plants', cloud_of(0).then { |cloud| [cloud.robust_percent, cloud.done_percent] }, [nil, nil]),
+  expect('a batch of no plants', batch_of(0).then { |batch| [batch.robust_percent, batch.done_percent] }, [nil, nil]),
   expect('a rule without plants', begin
-    cloud_of(1).only('relay', 'SIMC_PI')
+    batch_of(1).only('relay', 'SIMC_PI')
   rescue Host::Failure => e
     e.message
   end, /no plant tuned/),
-  expect('no errors of no plants', Cloud.quantile([], 0.5), nil),
+  expect('no errors of no plants', Batch.quantile([], 0.5), nil),
   expect('a value as it was', regression('loop', BEFORE) { Report.unchanged('settled', 116) }, true),
   expect('another value', regression('loop', BEFORE) { Report.unchanged('settled', 115) }, false),
   expect('a value that is new', regression('loop') { Report.unchanged('settled', 116) }, false),

@@ -3,7 +3,7 @@
 
 # tools/lib/pages/check_docs.rb on a copy of the project, as it is and with a fault of
 # each kind that it looks for.
-require_relative 'planted'
+require_relative 'harness'
 
 ABSENT = 'not_there' # a whole name would be one that the project has
 
@@ -25,17 +25,17 @@ FAULTS = [
   ['Dockerfile', ' pmccabe', '', /Dockerfile lacks pmccabe/],
   ['examples/quick_start.c', /\z/, "\n" * 20, /the quick start has \d+ lines/],
   ['CMakeLists.txt', '    src/slew/fixpid_slew.c', '', /fixpid_slew/],
-  ['tools/lib/pages/docs/assurance.rb', '`tools/demo clouds`', '`tools/demo sky`', /no tools.demo sky/]
+  ['tools/lib/pages/docs/assurance.rb', '`tools/demo random_plants`', '`tools/demo sky`', /no tools.demo sky/]
 ].freeze
 
 Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
-  Planted.copy(folder)
+  Harness.copy(folder)
   Dir.chdir(folder) do
-    Planted.passed('the documents as they are', Planted.run('ruby', 'tools/lib/pages/check_docs.rb'))
-    FAULTS.each { |path, text, instead| Planted.plant(path, text, instead) }
-    result = Planted.run('ruby', 'tools/lib/pages/check_docs.rb')
-    FAULTS.each { |path, text, instead, *said| Planted.refused("#{path} with #{instead.empty? ? "no #{text}" : instead}".inspect, result, *said) }
+    Harness.passed('the documents as they are', Harness.run('ruby', 'tools/lib/pages/check_docs.rb'))
+    FAULTS.each { |path, text, instead| Harness.seed(path, text, instead) }
+    result = Harness.run('ruby', 'tools/lib/pages/check_docs.rb')
+    FAULTS.each { |path, text, instead, *said| Harness.refused("#{path} with #{instead.empty? ? "no #{text}" : instead}".inspect, result, *said) }
   end
 end
-Planted.finish
+Harness.finish

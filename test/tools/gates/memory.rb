@@ -3,7 +3,7 @@
 
 # What tools/cost remembers: a figure is measured anew when anything that it depends
 # on is another one, here with a compiler that only says where its parts are.
-require_relative 'planted'
+require_relative 'harness'
 require "#{PROJECT}/tools/lib/measure/host"
 require "#{PROJECT}/tools/lib/measure/memory"
 
@@ -51,20 +51,20 @@ def anew_after(path)
   measured
 end
 
-Planted.tree(files) do |folder|
+Harness.tree(files) do |folder|
   FileUtils.ln_s('/bin/sh', 'bin/sh')
   ENV['PATH'] = "#{folder}/bin"
   ENV['SDCC'] = "#{folder}/sdcc/bin/sdcc"
   ENV['SDCC_LIB'] = "#{folder}/sdcc/share/sdcc/lib"
   Host.setup(folder)
-  Planted.expect('the first time', measured, 1)
-  Planted.expect('the second time', measured, 0)
+  Harness.expect('the first time', measured, 1)
+  Harness.expect('the second time', measured, 0)
   (PARTS + SOURCES).each do |path|
-    Planted.expect("another #{path}", anew_after(path) { File.write(path, '# more', mode: 'a') }, 1)
+    Harness.expect("another #{path}", anew_after(path) { File.write(path, '# more', mode: 'a') }, 1)
   end
-  Planted.expect('a file that is new', anew_after('src/fixpid_new.c') { |path| File.write(path, '') }, 1)
-  Planted.expect('a file that is gone', anew_after('src/fixpid_new.c') { |path| File.delete(path) }, 1)
-  Planted.expect('a file of no account', anew_after('notes.txt') { |path| File.write(path, '') }, 0)
-  Planted.expect('a memory that broke off', anew_after('build/cost/memory/toy.json') { |path| File.write(path, '{') }, 1)
+  Harness.expect('a file that is new', anew_after('src/fixpid_new.c') { |path| File.write(path, '') }, 1)
+  Harness.expect('a file that is gone', anew_after('src/fixpid_new.c') { |path| File.delete(path) }, 1)
+  Harness.expect('a file of no account', anew_after('notes.txt') { |path| File.write(path, '') }, 0)
+  Harness.expect('a memory that broke off', anew_after('build/cost/memory/toy.json') { |path| File.write(path, '{') }, 1)
 end
-Planted.finish
+Harness.finish

@@ -4,7 +4,7 @@
 # What all runners below test/ are asked for in the same words, in shell and in Ruby:
 # --list, --help, names, --failed, and the command behind a FAILED line. And what is
 # built: anew where it is made of something else, and only then.
-require_relative 'planted'
+require_relative 'harness'
 require "#{PROJECT}/tools/lib/build/built"
 
 SHELL = <<~TEXT
@@ -70,27 +70,27 @@ LIBRARY = %w[tools/lib/setup.sh tools/lib/test/runs.sh tools/lib/test/named.rb].
 def said(runner, *commands)
   files = LIBRARY.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }.merge('runner' => runner, 'fault' => '')
   commands = commands.map { |command| command.match?(/\A(-|'|\z)/) ? "./runner #{command}" : command }
-  -> { Planted.tree(files) { commands.map { |command| Planted.run('sh', '-c', command) }.last } }
+  -> { Harness.tree(files) { commands.map { |command| Harness.run('sh', '-c', command) }.last } }
 end
 
 { 'by a table' => BY_TABLE, 'in turn' => IN_TURN, 'in Ruby' => RUBY }.each do |how, runner|
-  Planted.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
-  Planted.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
-  Planted.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
+  Harness.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
+  Harness.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
+  Harness.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
                   /^FAILED two words; again: runner 'two words'$/)
-  Planted.passed("#{how}: one", said(runner, "'good'"))
-  Planted.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
-  Planted.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
-  Planted.refused("#{how}: no such option", said(runner, '--every'), /no such test: --every/)
-  Planted.refused("#{how}: what failed last", said(runner, '', '--failed'), /\A(?!.*ok good)/m, /^FAILED bad;/, /^FAILED two words;/)
-  Planted.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
-  Planted.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
-  Planted.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
+  Harness.passed("#{how}: one", said(runner, "'good'"))
+  Harness.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
+  Harness.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
+  Harness.refused("#{how}: no such option", said(runner, '--every'), /no such test: --every/)
+  Harness.refused("#{how}: what failed last", said(runner, '', '--failed'), /\A(?!.*ok good)/m, /^FAILED bad;/, /^FAILED two words;/)
+  Harness.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
+  Harness.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
+  Harness.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
                   /\AFAILED two words;/)
 end
-Planted.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
-Planted.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
-Planted.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
+Harness.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
+Harness.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
+Harness.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
 
 # Two programs of three sources and two headers, made by a compiler that is a script, as
 # often as it says in `made`.
@@ -107,7 +107,7 @@ end
 # What is made again after the block.
 def made_again(*options)
   lambda do
-    Planted.tree(SOURCES) do
+    Harness.tree(SOURCES) do
       build
       File.delete('made')
       yield
@@ -126,18 +126,18 @@ def changed(path)
   made_again { File.write(path, "// more\n", mode: 'a') }
 end
 
-Planted.expect('nothing changed', made_again {}, [])
-Planted.expect('another time, the same text', made_again { File.write('src/a.c', SOURCES['src/a.c']) }, [])
-Planted.expect('another source', changed('src/a.c'), %w[one])
-Planted.expect('another header', changed('src/a.h'), %w[one])
-Planted.expect('another header of a header', changed('src/c.h'), %w[one])
-Planted.expect('another header of a folder', changed('inc/deep/b.h'), %w[two])
-Planted.expect('a header that nobody includes', changed('src/d.h'), [])
-Planted.expect('a header that is new', made_again { Planted.write('inc/a.h', "\n") || Planted.write('src/deep/b.h', "\n") }, %w[two])
-Planted.expect('another option', made_again('-DMORE') {}, %w[one])
-Planted.expect('another output', changed('two'), %w[two])
-Planted.expect('an output that is gone', made_again { File.delete('one') }, %w[one])
-Planted.expect('one that could not be made', made_again { Planted.write('src/a.c', 'x') || Planted.write('fault', '') }, %w[one one])
+Harness.expect('nothing changed', made_again {}, [])
+Harness.expect('another time, the same text', made_again { File.write('src/a.c', SOURCES['src/a.c']) }, [])
+Harness.expect('another source', changed('src/a.c'), %w[one])
+Harness.expect('another header', changed('src/a.h'), %w[one])
+Harness.expect('another header of a header', changed('src/c.h'), %w[one])
+Harness.expect('another header of a folder', changed('inc/deep/b.h'), %w[two])
+Harness.expect('a header that nobody includes', changed('src/d.h'), [])
+Harness.expect('a header that is new', made_again { Harness.write('inc/a.h', "\n") || Harness.write('src/deep/b.h', "\n") }, %w[two])
+Harness.expect('another option', made_again('-DMORE') {}, %w[one])
+Harness.expect('another output', changed('two'), %w[two])
+Harness.expect('an output that is gone', made_again { File.delete('one') }, %w[one])
+Harness.expect('one that could not be made', made_again { Harness.write('src/a.c', 'x') || Harness.write('fault', '') }, %w[one one])
 ENV['PATH'] = "bin:#{ENV.fetch('PATH')}"
-Planted.expect('another compiler', changed('bin/cc'), %w[one two])
-Planted.finish
+Harness.expect('another compiler', changed('bin/cc'), %w[one two])
+Harness.finish

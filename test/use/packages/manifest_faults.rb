@@ -3,7 +3,7 @@
 
 # tools/lib/manifests.rb on a copy of the project with one fault after the other: it
 # must name the manifest that is wrong.
-require_relative '../../tools/gates/planted'
+require_relative '../../tools/gates/seeded'
 
 # [file, text, instead, what must be said]; without a text the file is a new one.
 FAULTS = [
@@ -66,11 +66,11 @@ def copy(folder)
 end
 
 # With the fault while the block runs.
-def planted(path, text, instead)
+def seeded(path, text, instead)
   before = File.read(path) if text
   after = text ? before.sub(text) { instead } : instead
   after == before and abort "FAILED nothing to plant in #{path}: #{text}"
-  Planted.write(path, after)
+  Harness.write(path, after)
   yield
 ensure
   text ? File.write(path, before) : FileUtils.rm(path)
@@ -86,28 +86,28 @@ end
 
 # What is said of a manifest that differs in everything: a few lines of a few words.
 def readable
-  output, = planted('keywords.txt', /.+/m, "nothing\n") { Planted.run('ruby', 'tools/lib/manifests.rb') }
+  output, = seeded('keywords.txt', /.+/m, "nothing\n") { Harness.run('ruby', 'tools/lib/manifests.rb') }
   said = output[/^FAILED keywords.*?(?=^ok|^FAILED|\z)/m].lines(chomp: true)
-  Planted.expect('a difference is at most 12 lines', said.size <= 12, true)
-  Planted.expect('of 130 characters', said.map(&:size).max <= 130, true)
-  Planted.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
-  Planted.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
+  Harness.expect('a difference is at most 12 lines', said.size <= 12, true)
+  Harness.expect('of 130 characters', said.map(&:size).max <= 130, true)
+  Harness.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
+  Harness.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
 end
 
 Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
   copy(folder)
   Dir.chdir(folder) do
-    Planted.passed('the manifests as they are', Planted.run('ruby', 'tools/lib/manifests.rb'))
+    Harness.passed('the manifests as they are', Harness.run('ruby', 'tools/lib/manifests.rb'))
     FAULTS.each do |path, text, instead, *said|
-      planted(path, text, instead) do
-        Planted.refused("#{path} with #{instead.inspect}", Planted.run('ruby', 'tools/lib/manifests.rb'), *said)
+      seeded(path, text, instead) do
+        Harness.refused("#{path} with #{instead.inspect}", Harness.run('ruby', 'tools/lib/manifests.rb'), *said)
       end
     end
     MANIFESTS.each do |path|
-      gone(path) { Planted.refused("#{path} gone", Planted.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
+      gone(path) { Harness.refused("#{path} gone", Harness.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
     end
     readable
   end
 end
-Planted.finish
+Harness.finish

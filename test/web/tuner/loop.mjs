@@ -204,10 +204,10 @@ function timeSide(state) {
     const { results } = tuner.run(state);
     const margins = tuner.marginsOf(state, results);
     const plant = tuner.sampledPlant(state, results.DEAD_S);
-    const law = tuner.lawOf(state, results);
+    const controller = tuner.controllerOf(state, results);
     const n = tuner.responseSteps(state, results);
-    const stable = (factor) => tuner.isStable(plant, law, factor, n);
-    const seen = tuner.linearResponse(plant, law, 1, n);
+    const stable = (factor) => tuner.isStable(plant, controller, factor, n);
+    const seen = tuner.linearResponse(plant, controller, 1, n);
     let ms = 0;
     for (let k = 1; k <= 1500; k++) {
         const w = 0.002 * (Math.PI / 0.002) ** (k / 1500);
@@ -219,7 +219,7 @@ function timeSide(state) {
         ms = Math.max(ms, Math.hypot(re, im));
     }
     const { gainMargin, lowerGainMargin, delayMargin } = margins;
-    const later = (part) => tuner.isStable(tuner.sampledPlant(state, results.DEAD_S + part * delayMargin), law, 1, 2 * n);
+    const later = (part) => tuner.isStable(tuner.sampledPlant(state, results.DEAD_S + part * delayMargin), controller, 1, 2 * n);
     return { margins: { ...margins, curve: 0 }, ms, early: later(0.97), late: later(1.03),
         below: gainMargin === null || stable(0.97 * gainMargin), above: gainMargin !== null && stable(1.03 * gainMargin),
         inside: lowerGainMargin === null || stable(1.03 * lowerGainMargin),

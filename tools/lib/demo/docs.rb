@@ -5,15 +5,15 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune clouds others recipes chip
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others recipes chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
   # Document, its parts between markers, and what makes each of them.
   PARTS = {
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
-                          'autotune' => :autotune, 'clouds' => :clouds,
+                          'autotune' => :autotune, 'random_plants' => :random_plants,
                           'holding' => :holding, 'dangers' => :dangers },
-    'docs/behaviour.md' => { 'five' => :five, 'slow' => :slow,
+    'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow,
                              'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }

@@ -60,8 +60,8 @@ BUMP_LIMITS = {
 }.freeze
 
 def others
-  five = Loops.table('five', 25).group_by { |row| row['plant'] }
-  SETTLED_LIMITS.each_key { |plant| check_plant(plant, five.fetch(plant)) }
+  comparison = Loops.table('comparison', 25).group_by { |row| row['plant'] }
+  SETTLED_LIMITS.each_key { |plant| check_plant(plant, comparison.fetch(plant)) }
   check_slow(Loops.table('slow', 10))
   Loops.table('agreement', 5).each { |row| check_agreement(row) }
   check_bumps(Loops.table('bumps', 11))
@@ -73,11 +73,11 @@ end
 
 def check_plant(plant, rows)
   Report.number(plant, rows)
-  ours, law = rows
+  ours, double = rows
   Report.at_most("#{plant}: overshoot", ours['overshoot'].to_f, OVERSHOOT_LIMIT, '%')
   Report.at_most("#{plant}: #{WHAT['settled']}", ours['settled'].to_i, SETTLED_LIMITS.fetch(plant))
   tell_values(plant, ours)
-  check_precision(plant, ours, law)
+  check_precision(plant, ours, double)
 end
 
 # Of a row of a table.
@@ -89,12 +89,12 @@ end
 # A loop may be 1 % worse than in double precision: one count of 8 bits is 0.4 %
 # of a range, and both see the readings that their own outputs make. Sooner is no
 # fault.
-def check_precision(plant, ours, law)
+def check_precision(plant, ours, double)
   percent = WHAT.keys.to_h do |name|
-    [name, 100.0 * (ours[name].to_f / law[name].to_f - 1.0)]
+    [name, 100.0 * (ours[name].to_f / double[name].to_f - 1.0)]
   end
   Report.at_most("#{plant}: overshoot, more than in double precision",
-                 ours['overshoot'].to_f - law['overshoot'].to_f, 1.0, '%')
+                 ours['overshoot'].to_f - double['overshoot'].to_f, 1.0, '%')
   Report.at_most("#{plant}: settles later than in double precision",
                  percent['settled'], 1.0, '%')
   %w[iae iae_after].each do |name|
@@ -111,8 +111,8 @@ CLAMPED_LIMITS = { 'lag 3000, reset time 10000' => 1.5, 'lag 3000, reset time 30
 def check_slow(rows)
   Report.number('slow', rows)
   rows.group_by { |row| row['plant'] }.each do |plant, own|
-    ours, law, *, clamped = own.map { |row| row['iae'].to_f }
-    Report.at_most("#{plant}: sum of errors, off double precision by", 100.0 * (ours / law - 1.0).abs, 1.0, '%')
+    ours, double, *, clamped = own.map { |row| row['iae'].to_f }
+    Report.at_most("#{plant}: sum of errors, off double precision by", 100.0 * (ours / double - 1.0).abs, 1.0, '%')
     Report.at_most("#{plant}: sum of errors, by that of a clamped integral", ours / clamped, CLAMPED_LIMITS.fetch(plant))
     tell_values(plant, own.first)
   end
@@ -158,7 +158,7 @@ end
 # must not.
 def check_scenes(scenes)
   scenes.each do |name, run|
-    difference = %w[fixpid law].map { |who| run.values(who) }.transpose
+    difference = %w[fixpid double].map { |who| run.values(who) }.transpose
                                .map { |a, b| (a - b).abs }.max
     Report.at_most("#{name}: fixpid_pid and the whole law differ by",
                    difference, 1.0, 'counts')

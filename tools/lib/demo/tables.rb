@@ -30,8 +30,8 @@ module Tables
             'settled after', rows)
     end
 
-    def clouds
-      rows = Report.numbers['clouds']['rules'].map do |row|
+    def random_plants
+      rows = Report.numbers['random_plants']['rules'].map do |row|
         low, middle, high = row['ms'].map { |ms| format('%.2f', ms) }
         ["`#{row['tuner']}`", row['rule'], row['results'], "#{low}, #{middle}, #{high}",
          format('%.1f %%', row['robust']), row['thin'] - row['unstable'], row['unstable'],
@@ -44,7 +44,7 @@ module Tables
 
     # Plants of one kind, of which a rule may be no good.
     def dangers
-      numbers = Report.numbers['clouds']
+      numbers = Report.numbers['random_plants']
       rows = numbers[DANGERS.values[0]].zip(numbers[DANGERS.values[1]]).map do |pair|
         ["`#{pair[0]['tuner']}`", pair[0]['rule'],
          *pair.flat_map do |row|
@@ -91,7 +91,7 @@ module Tables
     end
 
     def holding
-      rows = Report.numbers['clouds']['holding'].map do |row|
+      rows = Report.numbers['random_plants']['holding'].map do |row|
         ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
          row['relay'], row['relay_thin']]
       end
@@ -116,7 +116,7 @@ module Tables
       table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
     end
 
-    def five
+    def comparison
       numbers = Report.numbers['others']
       rows = SETTLED_LIMITS.keys.flat_map do |plant|
         numbers[plant].map { |row| loop_row(row) }
@@ -177,7 +177,7 @@ module Tables
 
     def loop_row(row)
       name = row['controller']
-      shown = { 'fixpid_pid' => '`fixpid_pid`', 'law' => 'double precision' }
+      shown = { 'fixpid_pid' => '`fixpid_pid`', 'double' => 'double precision' }
               .fetch(name, "double, #{name}")
       [row['plant'], shown, format('%.1f %%', row['overshoot']),
        row['settled'], row['iae'].to_f.round, row['iae_after'].to_f.round]

@@ -9,7 +9,7 @@
 # environment; with names of files only those are broken.
 require 'fileutils'
 require 'open3'
-require_relative 'excuses'
+require_relative 'equivalents'
 require_relative 'instructions'
 
 # A chip's program with a broken source, and what it answers: in a folder of its
@@ -219,9 +219,9 @@ class Broken
   ROOT = 'build/assembly'
   WORKERS = 2
 
-  def initialize(file, excuses, report)
+  def initialize(file, equivalents, report)
     @file = file
-    @excuses = excuses
+    @equivalents = equivalents
     @report = report
     @text = File.read(file)
     @breaks = Instructions.breaks(file, @text)
@@ -230,8 +230,8 @@ class Broken
   def judge
     caught = results
     survivors = @breaks.reject { |mutant| caught[mutant] }.map { |mutant| keys.fetch(mutant) }
-    unexplained = survivors.reject { |key| @excuses.cover?(key) }
-    stale = @excuses.stale(@file, survivors)
+    unexplained = survivors.reject { |key| @equivalents.cover?(key) }
+    stale = @equivalents.stale(@file, survivors)
     held = unexplained.empty? && stale.empty?
     ends = caught.values.tally
     ends.default = 0
@@ -245,7 +245,7 @@ class Broken
   private
 
   def keys
-    @keys ||= Excuses.keys(@breaks, @text)
+    @keys ||= EquivalentMutants.keys(@breaks, @text)
   end
 
   def results
@@ -278,13 +278,13 @@ end
 if $PROGRAM_NAME == __FILE__
   $stdout.sync = true
   Thread.abort_on_exception = true
-  excuses = Excuses.new('test/tools/mutants/assembly.txt')
+  equivalents = EquivalentMutants.new('test/tools/mutants/assembly.txt')
   files = Instructions.files
   files.empty? and abort 'FAILED no assembly to break'
-  strangers = excuses.strangers(files)
+  strangers = equivalents.strangers(files)
   puts strangers.map { |key| "FAILED test/tools/mutants/assembly.txt names what is not broken: #{key}" }
   FileUtils.mkdir_p('build/test')
   report = File.open('build/test/assembly.txt', 'w')
-  good = (ARGV.empty? ? files : files & ARGV).map { |file| Broken.new(file, excuses, report).judge }
+  good = (ARGV.empty? ? files : files & ARGV).map { |file| Broken.new(file, equivalents, report).judge }
   exit(good.all? && strangers.empty? ? 0 : 1)
 end

@@ -6,13 +6,13 @@
 # compiler refuses, what crashes and what does not end counts as neither. With
 # names of files only those are broken.
 # The chips' own folders of src/ are not broken here: their files compile to
-# nothing on this machine. test/chips/target breaks each once (`planted`), and
+# nothing on this machine. test/chips/target breaks each once (`seeded`), and
 # tools/lib/faults/assembly.rb each instruction.
 require 'fileutils'
 require 'open3'
 require_relative 'breaks'
-require_relative 'excuses'
-require_relative 'planted'
+require_relative 'equivalents'
+require_relative 'faults'
 
 ROOT = 'build/mutants'.freeze
 REPORT = 'build/test/mutants.txt'.freeze
@@ -188,11 +188,11 @@ def results_of(mutants)
   mutants.map { |mutant| [mutant, results.fetch(mutant)] }
 end
 
-# A line for a file: every survivor is excused, and every excuse true.
-def judge(file, results, keys, excuses)
+# A line for a file: every survivor is named there, and survives.
+def judge(file, results, keys, equivalents)
   survivors = results.select { |_, caught| caught.nil? }.map { |mutant, _| keys.fetch(mutant) }
-  unexplained = survivors.reject { |key| excuses.cover?(key) }
-  stale = excuses.stale(file, survivors)
+  unexplained = survivors.reject { |key| equivalents.cover?(key) }
+  stale = equivalents.stale(file, survivors)
   good = unexplained.empty? && stale.empty?
   puts "#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test"
   puts unexplained.map { |key| "Nobody notices: #{key}" }
@@ -232,7 +232,7 @@ RUNS.values.flatten.uniq.each do |run|
   abort "FAILED #{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
 end
 UNBROKEN = RUNS.keys.to_h { |file| [file, preprocessed(file, "#{ROOT}/0")] }.freeze
-excuses = Excuses.new(EQUIVALENT)
+equivalents = EquivalentMutants.new(EQUIVALENT)
 only = ARGV # files
 files = RUNS.keys.select { |file| only.empty? || only.include?(file) }
 mutants = files.to_h { |file| [file, Breaks.of(file)] }
@@ -241,11 +241,11 @@ File.open(REPORT, 'w') do |report|
   results.each { |mutant, caught| report.puts "#{mutant}: #{caught || 'nobody'}" }
 end
 good = results.group_by { |mutant, _| mutant.file }.map do |file, found|
-  judge(file, found, Excuses.keys(mutants.fetch(file), File.read(file)), excuses)
+  judge(file, found, EquivalentMutants.keys(mutants.fetch(file), File.read(file)), equivalents)
 end
 good += Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }
               .map { |fault| noticed_by_name?(fault, "#{ROOT}/0") }
-strangers = excuses.strangers(RUNS.keys)
+strangers = equivalents.strangers(RUNS.keys)
 puts strangers.map { |key| "FAILED #{EQUIVALENT} names what is not broken: #{key}" }
 tell(results)
 exit(good.all? && strangers.empty? ? 0 : 1)

@@ -96,10 +96,10 @@ class Cost
     end
   end
 
-  def straight
-    @straight ||= begin
-      subjects = @subjects.select(&:has_straight?)
-      subjects.zip(in_parallel(subjects.map(&:straight), &:most)).to_h
+  def plain_c
+    @plain_c ||= begin
+      subjects = @subjects.select(&:has_plain_c?)
+      subjects.zip(in_parallel(subjects.map(&:plain_c), &:most)).to_h
     end
   end
 
@@ -113,11 +113,11 @@ class Cost
 
   def progress
     @done += 1
-    warn "cost: #{@done} of #{@total ||= @subjects.size + @subjects.count(&:has_straight?)}" if (@done % 10).zero?
+    warn "cost: #{@done} of #{@total ||= @subjects.size + @subjects.count(&:has_plain_c?)}" if (@done % 10).zero?
   end
 
   def limits
-    @limits ||= Limits.modules(called) + Limits.all(measured, straight, "#{Host.root}/docs/chips.md")
+    @limits ||= Limits.modules(called) + Limits.all(measured, plain_c, "#{Host.root}/docs/chips.md")
   end
 
   def all_parts
@@ -126,7 +126,7 @@ class Cost
      [page, 'modules', Tables.modules(called)],
      ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
      ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
-     [page, 'ratios', Tables.ratios(measured, straight)],
+     [page, 'ratios', Tables.ratios(measured, plain_c)],
      [page, 'beside', Tables.beside(measured)],
      [page, 'pics', Tables.beside_pics(measured)],
      [page, 'quality', Tables.quality],

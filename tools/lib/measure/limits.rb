@@ -120,8 +120,8 @@ module Limits
       end
     end
 
-    def all(measured, straight, chips_document)
-      steps(measured) + bounds(measured) + ratios(measured, straight) + firmware(chips_document)
+    def all(measured, plain_c, chips_document)
+      steps(measured) + bounds(measured) + ratios(measured, plain_c) + firmware(chips_document)
     end
 
     # Of the worst found; the largest is in the table of limits. What plain
@@ -159,8 +159,8 @@ module Limits
       Limit.new("#{subject}, #{WORDS.fetch(figure)}", most, now, unit)
     end
 
-    def ratios(measured, straight)
-      straight.map do |subject, most|
+    def ratios(measured, plain_c)
+      plain_c.map do |subject, most|
         Limit.new("#{subject}, by the straightforward form", RATIOS.fetch(subject.chip.title),
                   measured.fetch(subject).most.fdiv(most).round(2))
       end

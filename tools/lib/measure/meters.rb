@@ -185,7 +185,7 @@ class Meter
   # A straightforward form has neither flags nor refusals: only the outputs of
   # the rows are compared.
   def numbers
-    [RANDOM_STEPS, DIRECTED_STEPS, @subject.straight? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
+    [RANDOM_STEPS, DIRECTED_STEPS, @subject.plain_c? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
   end
 
   def needed(code)

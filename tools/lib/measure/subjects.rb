@@ -9,9 +9,9 @@ require_relative '../modules'
 
 # `calls` are the functions that every application has; `questions` says that
 # only some are measured, as in search.h, and `defines` how all of it is built.
-# `straight` says that there is test/tools/cost/straight_NAME.c. `turns` are those of
+# `plain_c` says that there is test/tools/cost/plain_c_NAME.c. `turns` are those of
 # loops that count no constant down, by function.
-Controller = Struct.new(:id, :name, :title, :pics, :calls, :questions, :defines, :straight, :turns,
+Controller = Struct.new(:id, :name, :title, :pics, :calls, :questions, :defines, :plain_c, :turns,
                         keyword_init: true) do
   def function(verb)
     "fixpid_#{name}_#{verb}"
@@ -28,11 +28,11 @@ BYTE_TURNS = { '__mulsi3_helper' => 9 }.freeze
 
 CONTROLLERS = [
   Controller.new(id: 'an937', name: 'an937', title: 'AN937', pics: %w[pic18f4520], calls: %w[init tick step],
-                 straight: true, turns: BYTE_TURNS),
+                 plain_c: true, turns: BYTE_TURNS),
   Controller.new(id: 'an964', name: 'an964', title: 'AN964', pics: %w[pic16f684 pic18f4520], calls: %w[init step],
-                 straight: true),
+                 plain_c: true),
   Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
-                 calls: %w[init step], straight: true),
+                 calls: %w[init step], plain_c: true),
   Controller.new(id: 'pid_typical', name: 'pid', title: 'PID, typical', pics: %w[pic18f4520], calls: %w[init step],
                  questions: 'TYPICAL', turns: GAIN_TURNS, defines: %w[FIXPID_PID_FEATURES=0x00]),
   Controller.new(id: 'pid_plain', name: 'pid', title: 'PID, plain', pics: %w[pic18f4520], calls: %w[init step],
@@ -101,7 +101,7 @@ CHIPS = [
 CHIP_FOLDERS = 'pic14,pic18'
 
 # One controller in one build on one chip: a row of the table. `form` is the
-# library's or :straight, test/tools/cost/straight_NAME.c: the same law as one writes
+# library's or :plain_c, test/tools/cost/plain_c_NAME.c: the same law as one writes
 # it for a 32-bit machine.
 Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   def key
@@ -109,20 +109,20 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   end
 
   # A PIC and an ATtiny are not compared: nobody writes 32-bit products for them.
-  def has_straight?
-    controller.straight && %i[avr arm].include?(chip.kind) && chip.name != 'attiny85' && variant.nil?
+  def has_plain_c?
+    controller.plain_c && %i[avr arm].include?(chip.kind) && chip.name != 'attiny85' && variant.nil?
   end
 
-  def straight
-    Subject.new(controller, chip, build, nil, :straight)
+  def plain_c
+    Subject.new(controller, chip, build, nil, :plain_c)
   end
 
-  def straight?
-    form == :straight
+  def plain_c?
+    form == :plain_c
   end
 
   def step
-    straight? ? "straight_#{controller.name}_step" : "#{controller.function('step')}#{features}"
+    plain_c? ? "plain_c_#{controller.name}_step" : "#{controller.function('step')}#{features}"
   end
 
   # The mark of the step's name: FIXPID_MARKED in include/fixpid.h.
@@ -131,7 +131,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
   end
 
   def driver
-    straight? ? "test/tools/cost/driver_straight_#{controller.name}.c" : "test/chips/target/driver_#{controller.name}.c"
+    plain_c? ? "test/tools/cost/driver_plain_c_#{controller.name}.c" : "test/chips/target/driver_#{controller.name}.c"
   end
 
   def built
@@ -161,13 +161,13 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
 
   # What every application needs, and with what only some do.
   def sources
-    return ["test/tools/cost/straight_#{controller.name}.c"] if straight?
+    return ["test/tools/cost/plain_c_#{controller.name}.c"] if plain_c?
 
     ["src/#{controller.name}/fixpid_#{controller.name}.c"] + Dir.glob("src/*/fixpid_#{controller.name}_{#{CHIP_FOLDERS}}.c", base: Host.root)
   end
 
   def all_sources
-    straight? ? sources : sources + Dir.glob("src/*/fixpid_#{controller.name}_{more,track}.c", base: Host.root).sort
+    plain_c? ? sources : sources + Dir.glob("src/*/fixpid_#{controller.name}_{more,track}.c", base: Host.root).sort
   end
 
   class << self

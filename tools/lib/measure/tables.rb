@@ -65,8 +65,8 @@ module Tables
     end
 
     # Against the straightforward form: { subject => its worst }.
-    def ratios(measured, straight)
-      [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + straight.map do |subject, most|
+    def ratios(measured, plain_c)
+      [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + plain_c.map do |subject, most|
         [subject.controller.title, subject.chip.title, subject.build, measured.fetch(subject).most, most,
          format('%.2f', measured.fetch(subject).most.fdiv(most))]
       end

@@ -9,7 +9,7 @@ require 'open3'
 require_relative 'docs/assurance'
 require_relative 'docs/bounds'
 require_relative 'docs/code_blocks'
-require_relative 'docs/facts'
+require_relative 'docs/names'
 require_relative 'docs/forms'
 require_relative 'docs/numbers'
 require_relative 'docs/other_chips'
@@ -136,7 +136,7 @@ end
 Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
 end
-@failures.concat(Facts.failures + Assurance.failures + Numbers.failures)
+@failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

@@ -2,7 +2,7 @@
 # Whether the proofs notice what a machine breaks.
 require 'open3'
 require_relative '../faults/breaks'
-require_relative '../faults/excuses'
+require_relative '../faults/equivalents'
 require_relative 'equivalents'
 require_relative 'exhaustion'
 require_relative 'seeded'
@@ -26,7 +26,7 @@ class Choice
     asked = @proofs.select { |proof| (Proofs.sources(proof) & files).any? }
     @reached = Hash[asked.each_slice([asked.size / 2, 1].max).map { |some| Thread.new { some.map { |proof| [proof, reaches(proof)] } } }
                          .flat_map(&:value)]
-    @excuses = Excuses.new(Equivalents::FILE)
+    @equivalents = EquivalentMutants.new(Equivalents::FILE)
   end
 
   attr_reader :places
@@ -112,8 +112,8 @@ class Choice
 
   # [mutant, its name] in the order in which they are tried.
   def candidates(file, function)
-    keys = Excuses.keys(Breaks.of(file), Seeded.lines(file).join)
-    named = keys.select { |mutant, key| Seeded.functions(file)[mutant.line - 1] == function && !@excuses.cover?(key) }
+    keys = EquivalentMutants.keys(Breaks.of(file), Seeded.lines(file).join)
+    named = keys.select { |mutant, key| Seeded.functions(file)[mutant.line - 1] == function && !@equivalents.cover?(key) }
     shuffled = named.sort_by { |_, key| Digest::SHA256.hexdigest(key) }
     shuffled.group_by { |mutant, _| mutant.line }.values.flat_map { |of_line| of_line.each_with_index.to_a }
             .sort_by { |(_, key), round| [round, Digest::SHA256.hexdigest(key)] }.map(&:first)

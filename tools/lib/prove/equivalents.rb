@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Whether what test/tools/mutants/equivalent.txt says to change nothing is proved to.
 require_relative '../faults/breaks'
-require_relative '../faults/excuses'
+require_relative '../faults/equivalents'
 require_relative 'exhaustion'
 require_relative 'seeded'
 
@@ -19,8 +19,8 @@ class Equivalents
   def initialize(proofs, build)
     @build = build
     @proofs = proofs.select { |proof| proof.exhausted? || proof.word == WORD }
-    @excuses = Excuses.new(FILE)
-    @argued = Excuses.new(ARGUED)
+    @equivalents = EquivalentMutants.new(FILE)
+    @argued = EquivalentMutants.new(ARGUED)
     @programs = {}
     @reached = {}
     @lock = Mutex.new
@@ -28,12 +28,12 @@ class Equivalents
 
   # The mutants that are asked about, by their lines.
   def chosen(words)
-    @excuses.known.select { |key| words.all? { |word| key.include?(word) } }
+    @equivalents.known.select { |key| words.all? { |word| key.include?(word) } }
   end
 
   # Lines of `argued.txt` that nothing else has.
   def complaints
-    (@argued.known - @excuses.known).map { |key| "#{ARGUED}: not in #{FILE}: #{key}" }
+    (@argued.known - @equivalents.known).map { |key| "#{ARGUED}: not in #{FILE}: #{key}" }
   end
 
   # Whether what is said of a line is true, and what to print.
@@ -71,7 +71,7 @@ class Equivalents
   def mutants(file)
     @lock.synchronize do
       @mutants ||= {}
-      @mutants[file] ||= Excuses.keys(Breaks.of(file), File.read(file)).invert
+      @mutants[file] ||= EquivalentMutants.keys(Breaks.of(file), File.read(file)).invert
     end
   end
 

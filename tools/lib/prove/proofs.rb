@@ -5,7 +5,7 @@ require 'pathname'
 
 FOLDER = 'test/proof'.freeze
 WORDS = [16, 32, 64].freeze
-LEAVES = 'leaves'.freeze # the harness that tries all cases, on this machine
+PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this machine
 HOST = 64
 SLOW = %w[composed differentiate].freeze # they take more than ten seconds
 
@@ -25,7 +25,7 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
   end
 
   def exhausted?
-    group == LEAVES
+    group == PRIMITIVES
   end
 
   def harness
@@ -68,7 +68,7 @@ module Proofs
       group, form, *options = left.split
       first = !groups.include?(group)
       groups << group
-      words = group == LEAVES ? [HOST] : WORDS
+      words = group == PRIMITIVES ? [HOST] : WORDS
       right.split.flat_map { |what| words.map { |word| Proof.new(group, form, options, what, word, first) } }
     end
   end

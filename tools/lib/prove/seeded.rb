@@ -4,7 +4,7 @@
 require 'digest'
 require 'fileutils'
 require_relative '../c_functions'
-require_relative '../faults/planted'
+require_relative '../faults/faults'
 require_relative 'proofs'
 
 # A break for a proof: `source` is its file's text with it, `words` names it.

@@ -59,7 +59,7 @@ part_quick() {
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
-    check 'planted faults' ruby tools/lib/faults/plant.rb
+    check 'seeded faults' ruby tools/lib/faults/seed.rb
     part_docs
 }
 
@@ -248,7 +248,7 @@ part_gates() {
         avr-g++:gcc-avr :avr-libc gpasm:gputils dash
     need_ceedling
     for gate in test/tools/gates/*.rb; do
-        [ "${gate##*/}" = planted.rb ] || # which they share
+        [ "${gate##*/}" = seeded.rb ] || # which they share
             count "$gate" '^ok ' '^FAILED ' ruby "$gate"
     done
 }
@@ -270,7 +270,7 @@ part_mutants() {
 
 # The runner, and what it runs in a minute.
 part_proofs() {
-    count 'test/proof/judge' '^ok ' '^FAILED ' test/proof/judge
+    count 'test/proof/run' '^ok ' '^FAILED ' test/proof/run
     count 'tools/prove --quick' '^ok ' '^FAILED ' tools/prove --quick
 }
 

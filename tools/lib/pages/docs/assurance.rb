@@ -3,7 +3,7 @@
 # the command that shows it. What can be counted is counted here.
 require_relative '../../prove/seeded'
 require_relative '../../demo/plot'
-require_relative '../../demo/clouds'
+require_relative '../../demo/random_plants'
 require_relative '../../demo/faults'
 require_relative '../../faults/instructions'
 
@@ -49,7 +49,7 @@ module Assurance
 
   def proved
     breaks = Seeded.all(Proofs.all)
-    groups.except(LEAVES).map do |group, proofs|
+    groups.except(PRIMITIVES).map do |group, proofs|
       drawn = Seeded.long_functions.count { |place| place.first.split('/')[1] == group && !Seeded.unproved?(*place) }
       noticed = breaks.count { |broken| broken.proof.group == group } + (drawn * Seeded::BREAKS)
       forms = proofs.map(&:form).uniq - ['any']
@@ -60,7 +60,7 @@ module Assurance
   end
 
   def beside_the_proofs
-    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
+    [Claim.new('proved', 'no assumption of a proof primitives out a place of what is proved', 'each form',
                '`tools/prove --coverage`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`')]
@@ -73,8 +73,8 @@ module Assurance
   end
 
   def exhausted
-    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[LEAVES].size} forms",
-               "`tools/prove #{LEAVES}`"),
+    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[PRIMITIVES].size} forms",
+               "`tools/prove #{PRIMITIVES}`"),
      Claim.new('exhausted', 'a record with 1, 2 or 3 wrong bits is refused', 'all of them', '`tools/test unit`'),
      Claim.new('exhausted', "the AN964 forms' products and quotients, as the chips' assembly has them",
                'all gains; operands of 14 bits in strides', '`test/chips/target/run arith`')]
@@ -108,7 +108,7 @@ module Assurance
      Claim.new('tested', 'an interrupt before every instruction changes nothing', 'every instruction of a turn',
                '`test/chips/target/run interrupts`'),
      Claim.new('tested', 'a port keeps its promises at its pins and registers',
-               "#{Faults.of('port').size} faults noticed", '`test/chips/target/run port planted`')]
+               "#{Faults.of('port').size} faults noticed", '`test/chips/target/run port seeded`')]
   end
 
   def of_the_loops
@@ -127,7 +127,7 @@ module Assurance
                "all breaks but #{rows_of('test/tools/mutants/equivalent.txt')} that change nothing; " \
                "#{Faults.of('unit').size} faults of other kinds", '`tools/test mutants`'),
      of_the_assembly,
-     Claim.new('tested', 'every checker reports an error that is planted for it', "#{parts['gates']} checks",
+     Claim.new('tested', 'every checker reports an error that is seeded for it', "#{parts['gates']} checks",
                '`tools/test gates`')]
   end
 
@@ -144,8 +144,8 @@ module Assurance
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
                "#{parts['cost']} checks: the worst that a search finds, and a bound of the linked code",
                '`tools/test cost`'),
-     Claim.new('measured', 'how good the gains of the autotuners are', "#{CLOUD_SEEDS.size * CLOUD_PLANTS} random plants",
-               '`tools/demo clouds`'),
+     Claim.new('measured', 'how good the gains of the autotuners are', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants",
+               '`tools/demo random_plants`'),
      Claim.new('measured', 'how the loops settle, and beside double precision', "#{parts['demo']} checks",
                '`tools/demo`')]
   end

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#ifdef LEAVES_INT_16 // the form for an int of 16 bits
+#ifdef PRIMITIVES_INT_16 // the form for an int of 16 bits
 #undef INT_MAX
 #define INT_MAX 32767
 #endif

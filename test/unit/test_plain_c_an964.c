@@ -4,8 +4,8 @@
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 #include "numbers.h"
-#include "straight_an964.h"
-#include "straight_an964_8bit.h"
+#include "plain_c_an964.h"
+#include "plain_c_an964_8bit.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/an964/fixpid_an964.c")
@@ -40,9 +40,9 @@ static uint16_t any_gain(uint16_t most)
     return kind == 1u ? most : (uint16_t)numbers_below(most + 1u);
 }
 
-void test_straight_an964_step_gives_the_library_s_answers(void)
+void test_plain_c_an964_step_gives_the_library_s_answers(void)
 {
-    struct straight_an964 straight = {.sum = 0};
+    struct plain_c_an964 plain = {.sum = 0};
 
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
         const int16_t error =
@@ -53,22 +53,22 @@ void test_straight_an964_step_gives_the_library_s_answers(void)
                 any_gain(1023), any_gain(1023), any_gain(1023)};
 
             TEST_ASSERT_TRUE(fixpid_an964_init(&an964_controller, &gains));
-            straight = (struct straight_an964){.gains = gains};
+            plain = (struct plain_c_an964){.gains = gains};
         }
         TEST_ASSERT_EQUAL_INT32(fixpid_an964_step(&an964_controller, error),
-                                straight_an964_step(&straight, error));
+                                plain_c_an964_step(&plain, error));
         TEST_ASSERT_EQUAL_INT16(fixpid_an964_integral(&an964_controller),
-                                straight.integral);
+                                plain.integral);
         TEST_ASSERT_EQUAL_INT16(fixpid_an964_derivative(&an964_controller),
-                                straight.derivative);
+                                plain.derivative);
         TEST_ASSERT_EQUAL_HEX8(fixpid_an964_flags(&an964_controller),
-                               straight.flags);
+                               plain.flags);
     }
 }
 
-void test_straight_an964_8bit_step_gives_the_library_s_answers(void)
+void test_plain_c_an964_8bit_step_gives_the_library_s_answers(void)
 {
-    struct straight_an964_8bit straight = {.sum = 0};
+    struct plain_c_an964_8bit plain = {.sum = 0};
 
     for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
         const int8_t error = (int8_t)(((int16_t)numbers_below(256) - 128) /
@@ -81,18 +81,17 @@ void test_straight_an964_8bit_step_gives_the_library_s_answers(void)
 
             TEST_ASSERT_TRUE(
                 fixpid_an964_8bit_init(&an964_8bit_controller, &gains));
-            straight = (struct straight_an964_8bit){.gains = gains};
+            plain = (struct plain_c_an964_8bit){.gains = gains};
         }
         TEST_ASSERT_EQUAL_INT32(
             fixpid_an964_8bit_step(&an964_8bit_controller, error),
-            straight_an964_8bit_step(&straight, error));
+            plain_c_an964_8bit_step(&plain, error));
         TEST_ASSERT_EQUAL_INT16(
-            fixpid_an964_8bit_integral(&an964_8bit_controller),
-            straight.integral);
+            fixpid_an964_8bit_integral(&an964_8bit_controller), plain.integral);
         TEST_ASSERT_EQUAL_INT16(
             fixpid_an964_8bit_derivative(&an964_8bit_controller),
-            straight.derivative);
+            plain.derivative);
         TEST_ASSERT_EQUAL_HEX8(fixpid_an964_8bit_flags(&an964_8bit_controller),
-                               straight.flags);
+                               plain.flags);
     }
 }

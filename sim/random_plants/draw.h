@@ -6,7 +6,7 @@
 
 #include "plant_lags.h"
 
-// A whole cloud is drawn from the first five kinds by turns, or from one of the
+// A whole batch is drawn from the first five kinds by turns, or from one of the
 // others alone.
 enum kind {
     KIND_LAG, // with dead time of 0.05 to 10 lags

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The clouds of tools/demo: autotuners on random plants. A row for each plant,
-// tuner and rule, of semicolon-separated values.
+// The random_plants of tools/demo: autotuners on random plants. A row for each
+// plant, tuner and rule, of semicolon-separated values.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "evaluation.h"
 #include "experiment.h"
-#include "judge.h"
 
 #define DONE 2 // of both tuners
 
@@ -16,7 +16,8 @@ static const char *const kinds[] = {"lag",        "two lags", "lags",
                                     "servo",      "dead time"};
 
 static void print_rows(const struct task *task, int number,
-                       const struct judge *judge, bool is_relay, int most_rules)
+                       const struct evaluation *evaluation, bool is_relay,
+                       int most_rules)
 {
     struct experiment experiment;
     const char *const *rules;
@@ -34,8 +35,9 @@ static void print_rows(const struct task *task, int number,
                      (double)experiment.steps / lags_scale_steps(&task->plant),
                      experiment.outside, found ? 1 : 0);
         if (found) {
-            (void)printf(";%.5g;%.5g\n", judge_sensitivity(judge, &gains),
-                         judge_load(judge, &gains));
+            (void)printf(";%.5g;%.5g\n",
+                         evaluation_sensitivity(evaluation, &gains),
+                         evaluation_load(evaluation, &gains));
         } else {
             (void)printf(";0;0\n");
         }
@@ -44,7 +46,7 @@ static void print_rows(const struct task *task, int number,
 
 static int usage(void)
 {
-    (void)fprintf(stderr, "usage: clouds SEED PLANTS [KIND [LOAD_SHARE "
+    (void)fprintf(stderr, "usage: random_plants SEED PLANTS [KIND [LOAD_SHARE "
                           "[RULES [HOLDING_SHARE]]]]\n");
     return EXIT_FAILURE;
 }
@@ -83,10 +85,10 @@ int main(int count, char **arguments)
                  "iae\n");
     for (int number = 0; number < plants; number++) {
         const struct task task = draw_task(&draw, number);
-        struct judge judge;
-        judge_start(&judge, &task.plant);
-        print_rows(&task, number, &judge, false, rules);
-        print_rows(&task, number, &judge, true, rules);
+        struct evaluation evaluation;
+        evaluation_start(&evaluation, &task.plant);
+        print_rows(&task, number, &evaluation, false, rules);
+        print_rows(&task, number, &evaluation, true, rules);
     }
     return EXIT_SUCCESS;
 }

@@ -11,7 +11,7 @@ require 'tmpdir'
 PROJECT = File.expand_path('../../..', __dir__)
 require "#{PROJECT}/tools/lib/test/named"
 
-module Planted
+module Harness
   @tests = NamedTests.new(File.expand_path($PROGRAM_NAME).delete_prefix("#{PROJECT}/"), 1)
 
   class << self
@@ -31,10 +31,10 @@ module Planted
     end
 
     # Another text in a file.
-    def plant(path, text, instead)
+    def seed(path, text, instead)
       before = File.read(path)
       after = before.sub(text) { instead }
-      after == before and abort "FAILED nothing to plant in #{path}: #{text}"
+      after == before and abort "FAILED nothing to seed in #{path}: #{text}"
       File.write(path, after)
     end
 

@@ -2,14 +2,14 @@
 // AN937's controller as one writes it for a 32-bit machine: signed numbers of
 // 32 bits, clamps, and `/ 16`. It gives the library's answers and is what the
 // library's cost is compared with where a chip has a multiplier.
-#ifndef STRAIGHT_AN937_H
-#define STRAIGHT_AN937_H
+#ifndef PLAIN_C_AN937_H
+#define PLAIN_C_AN937_H
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_an937.h"
 
-struct straight_an937 {
+struct plain_c_an937 {
     struct fixpid_an937_config config;
     int32_t accumulated_error;
     int32_t delta;
@@ -23,9 +23,9 @@ struct straight_an937 {
     bool accumulated_error_limited;
 };
 
-void straight_an937_init(struct straight_an937 *self,
-                         const struct fixpid_an937_config *config);
-void straight_an937_tick(struct straight_an937 *self);
-int32_t straight_an937_step(struct straight_an937 *self, int16_t error);
+void plain_c_an937_init(struct plain_c_an937 *self,
+                        const struct fixpid_an937_config *config);
+void plain_c_an937_tick(struct plain_c_an937 *self);
+int32_t plain_c_an937_step(struct plain_c_an937 *self, int16_t error);
 
 #endif

@@ -5,14 +5,14 @@
 #
 #   Faults.of('port')            those whose check begins with these whole words
 #   fault.check, fault.words(1)  its check, and the words of it after so many
-#   fault.plant(tree)            plants it in a copy of the project, which needs to
+#   fault.seed(tree)            plants it in a copy of the project, which needs to
 #                                have the fault's files and may have other faults
 #   fault.sources                { file => its whole text with the fault }
-#   Faults.misplaced             a sentence for each that can no longer be planted
+#   Faults.misplaced             a sentence for each that can no longer be seeded
 #
 # A fault whose text does not stand in its function as often as its row says is an
 # error, Faults::Gone, which names the nearest line.
-# tools/lib/faults/plant.rb does this for scripts.
+# tools/lib/faults/seed.rb does this for scripts.
 require_relative '../c_functions'
 
 module Faults
@@ -94,7 +94,7 @@ module Faults
       end
     end
 
-    def plant(tree)
+    def seed(tree)
       sources(tree).each { |file, text| File.write("#{tree}/#{file}", text) }
     end
 

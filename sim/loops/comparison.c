@@ -30,7 +30,7 @@ static void judge_first(struct quality *quality, const struct trial *trial,
 }
 
 static struct quality run(const struct trial *trial, bool fixed,
-                          enum law_without without)
+                          enum pid_double_without without)
 {
     struct quality quality = {0.0, 0, 0.0, 0.0, 0.0};
     struct loop loop;
@@ -64,23 +64,23 @@ static void print_row(const struct trial *trial, const char *controller,
 static void print_all(const struct trial *trial)
 {
     static const char *const names[] = {
-        "law",
+        "double",
         "no anti-windup",
         "sign-blind",
         "integral clamped",
     };
-    static const enum law_without withouts[] = {
-        LAW_WHOLE,
-        LAW_NO_ANTI_WINDUP,
-        LAW_SIGN_BLIND,
-        LAW_INTEGRAL_CLAMPED,
+    static const enum pid_double_without withouts[] = {
+        PID_DOUBLE_WHOLE,
+        PID_DOUBLE_NO_ANTI_WINDUP,
+        PID_DOUBLE_SIGN_BLIND,
+        PID_DOUBLE_INTEGRAL_CLAMPED,
     };
-    const struct quality fixed = run(trial, true, LAW_WHOLE);
+    const struct quality fixed = run(trial, true, PID_DOUBLE_WHOLE);
 
     print_row(trial, "fixpid_pid", &fixed);
     for (size_t i = 0; i < sizeof(withouts) / sizeof(withouts[0]); i++) {
-        const struct quality law = run(trial, false, withouts[i]);
-        print_row(trial, names[i], &law);
+        const struct quality exact = run(trial, false, withouts[i]);
+        print_row(trial, names[i], &exact);
     }
 }
 
@@ -89,7 +89,7 @@ static void print_head(void)
     (void)printf("plant;controller;overshoot;settled;steady;iae;iae_after\n");
 }
 
-void print_five(void)
+void print_comparison(void)
 {
     print_head();
     for (int i = 0; i < TRIALS; i++) {
@@ -136,17 +136,18 @@ static double allowed(const struct trial *trial)
 static double largest_difference(const struct trial *trial)
 {
     struct loop loop;
-    struct law law;
+    struct pid_double exact;
     double largest = 0.0;
 
-    loop_start(&loop, trial, true, LAW_WHOLE);
-    law = loop.law;
+    loop_start(&loop, trial, true, PID_DOUBLE_WHOLE);
+    exact = loop.exact;
     for (int step = 0; step < TRIAL_SETPOINTS * trial->steps; step++) {
         const double setpoint = trial->setpoints[step / trial->steps];
         const int16_t reading = motion_read(&loop.motion);
         const double output =
             fixpid_pid_step(&loop.pid, (int16_t)setpoint, reading);
-        const double wanted = law_step(&law, setpoint, (double)reading);
+        const double wanted =
+            pid_double_step(&exact, setpoint, (double)reading);
         largest = fmax(largest, fabs(output - wanted));
         motion_move(&loop.motion, output);
     }

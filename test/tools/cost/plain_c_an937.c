@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "straight_an937.h"
+#include "plain_c_an937.h"
 
 #define SUM_MAX INT32_C(0xFFFFFF)
 
-void straight_an937_init(struct straight_an937 *self,
-                         const struct fixpid_an937_config *config)
+void plain_c_an937_init(struct plain_c_an937 *self,
+                        const struct fixpid_an937_config *config)
 {
     self->config = *config;
     self->accumulated_error = 0;
@@ -19,7 +19,7 @@ void straight_an937_init(struct straight_an937 *self,
     self->accumulated_error_limited = false;
 }
 
-void straight_an937_tick(struct straight_an937 *self)
+void plain_c_an937_tick(struct plain_c_an937 *self)
 {
     if (self->tick_pending) {
         self->tick_overrun = true;
@@ -27,7 +27,7 @@ void straight_an937_tick(struct straight_an937 *self)
     self->tick_pending = true;
 }
 
-static void accumulate(struct straight_an937 *self, int16_t error)
+static void accumulate(struct plain_c_an937 *self, int16_t error)
 {
     const int32_t limit = self->config.accumulated_error_limit;
     int32_t accumulated = self->accumulated_error + error;
@@ -42,7 +42,7 @@ static void accumulate(struct straight_an937 *self, int16_t error)
     self->accumulated_error = accumulated;
 }
 
-static void differentiate(struct straight_an937 *self, int16_t error)
+static void differentiate(struct plain_c_an937 *self, int16_t error)
 {
     self->derivative_countdown--;
     if (self->derivative_countdown == 0) {
@@ -52,7 +52,7 @@ static void differentiate(struct straight_an937 *self, int16_t error)
     }
 }
 
-int32_t straight_an937_step(struct straight_an937 *self, int16_t error)
+int32_t plain_c_an937_step(struct plain_c_an937 *self, int16_t error)
 {
     int32_t sum;
 

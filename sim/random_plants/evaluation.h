@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // How good gains are for a plant that is known exactly.
-#ifndef JUDGE_H
-#define JUDGE_H
+#ifndef EVALUATION_H
+#define EVALUATION_H
 #include "fixpid_pid.h"
 #include "response.h"
 
 #define JUDGE_POINTS 701
 
 // A plant with what its judgements need.
-struct judge {
+struct evaluation {
     const struct plant_lags *plant;
     double radians[JUDGE_POINTS]; // per step, up to pi
     double complex response[JUDGE_POINTS];
@@ -17,17 +17,17 @@ struct judge {
     double best; // sum of the errors with the gains that knowledge gives
 };
 
-void judge_start(struct judge *self, const struct plant_lags *plant);
+void evaluation_start(struct evaluation *self, const struct plant_lags *plant);
 
 // Ms: the largest factor by which the loop makes a disturbance greater than it
 // is without a controller.
-double judge_sensitivity(const struct judge *self,
-                         const struct fixpid_pid_gains *gains);
+double evaluation_sensitivity(const struct evaluation *self,
+                              const struct fixpid_pid_gains *gains);
 
 // Sum of the magnitude of the error after a step of the load, in a loop of
 // fixpid_pid itself, over the sum with SIMC's gains for the true plant in
 // double precision. A loop that does not come to rest has none: -1.
-double judge_load(const struct judge *self,
-                  const struct fixpid_pid_gains *gains);
+double evaluation_load(const struct evaluation *self,
+                       const struct fixpid_pid_gains *gains);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "straight_an964_8bit.h"
+#include "plain_c_an964_8bit.h"
 
 static int32_t clamp(int32_t value, int32_t low, int32_t high)
 {
@@ -12,8 +12,7 @@ static int32_t clamp(int32_t value, int32_t low, int32_t high)
     return value;
 }
 
-int32_t straight_an964_8bit_step(struct straight_an964_8bit *self,
-                                 int32_t error)
+int32_t plain_c_an964_8bit_step(struct plain_c_an964_8bit *self, int32_t error)
 {
     int32_t sum = self->sum + error;
     int32_t integral, change, derivative, total;

@@ -4,14 +4,14 @@
 #include <string.h>
 
 #include "exchange.h"
-#include "straight_an937.h"
+#include "plain_c_an937.h"
 
 #define QUESTION an937_exchange.question
 #define ANSWER an937_exchange.answer
 
 union an937_exchange an937_exchange;
 
-static struct straight_an937 straight;
+static struct plain_c_an937 plain;
 
 static void start(void)
 {
@@ -21,22 +21,22 @@ static void start(void)
 
     if (config.accumulated_error_limit != 0u &&
         config.derivative_period_ticks != 0u) {
-        straight_an937_init(&straight, &config);
+        plain_c_an937_init(&plain, &config);
     }
 }
 
 static void set(void)
 {
     if ((QUESTION.calls & CALL_SET_GAINS) != 0u) {
-        straight.config.kp_q4 = QUESTION.kp_q4;
-        straight.config.ki_q4 = QUESTION.ki_q4;
-        straight.config.kd_q4 = QUESTION.kd_q4;
+        plain.config.kp_q4 = QUESTION.kp_q4;
+        plain.config.ki_q4 = QUESTION.ki_q4;
+        plain.config.kd_q4 = QUESTION.kd_q4;
     }
     if ((QUESTION.calls & CALL_SET_LIMIT) != 0u && QUESTION.limit != 0u) {
-        straight.config.accumulated_error_limit = QUESTION.limit;
+        plain.config.accumulated_error_limit = QUESTION.limit;
     }
     if ((QUESTION.calls & CALL_SET_PERIOD) != 0u && QUESTION.period != 0u) {
-        straight.config.derivative_period_ticks = QUESTION.period;
+        plain.config.derivative_period_ticks = QUESTION.period;
     }
 }
 
@@ -49,9 +49,9 @@ void an937_reply(void)
     }
     set();
     for (uint8_t tick = 0; tick < QUESTION.ticks; tick++) {
-        straight_an937_tick(&straight);
+        plain_c_an937_tick(&plain);
     }
-    output = straight_an937_step(&straight, QUESTION.error);
+    output = plain_c_an937_step(&plain, QUESTION.error);
     memset(&ANSWER, 0, sizeof ANSWER);
     ANSWER.output = output;
 }

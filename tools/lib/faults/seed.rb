@@ -3,10 +3,10 @@
 
 # Plants the faults of test/faults.txt whose check begins with these words in a copy of
 # the project, TREE, or only the one of that NUMBER. Without TREE it prints them, a line
-# each; without anything it says which of the table can no longer be planted.
+# each; without anything it says which of the table can no longer be seeded.
 #
-#   ruby tools/lib/faults/plant.rb [CHECK [TREE [NUMBER]]]
-require_relative 'planted'
+#   ruby tools/lib/faults/seed.rb [CHECK [TREE [NUMBER]]]
+require_relative 'faults'
 
 check, tree, number = ARGV
 tree &&= File.expand_path(tree)
@@ -16,7 +16,7 @@ begin
   faults = check.nil? ? [] : Faults.of(check)
   faults = faults[number.to_i - 1, 1] if number
   abort "#{Faults::FILE}: nothing for #{check}" if check && faults.empty?
-  tree ? faults.each { |fault| fault.plant(tree) } : faults.each { |fault| puts "#{fault.check}: #{fault}" }
+  tree ? faults.each { |fault| fault.seed(tree) } : faults.each { |fault| puts "#{fault.check}: #{fault}" }
 rescue Faults::Gone => e
   abort e.message
 end

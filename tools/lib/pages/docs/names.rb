@@ -2,7 +2,7 @@
 require_relative '../../manifests'
 
 # What is written down more than once, and what the documents name.
-module Facts
+module DocumentNames
   FOLDERS = %w[docs examples include port sim src test tools].freeze
   DOCUMENTS = Dir['*.md', 'docs/*.md', '*.yml', 'test/**/*.yml'].sort.freeze
   FILES = Dir["{#{FOLDERS.join(',')}}/**/*", '*'].sort.freeze

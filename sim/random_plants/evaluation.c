@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "judge.h"
+#include "evaluation.h"
 
 #include <math.h>
 
-#include "law.h"
+#include "pid_double.h"
 
 #define HALF_TURN 3.141592653589793
 #define STEPS_MAX 60000
@@ -17,9 +17,9 @@
 // Skogestad's rules for PI with tau_c equal to the dead time: the largest lag
 // is the lag, half of the next one is added to it and half to the dead time,
 // and so are the others. plant_lags has the largest lag first.
-static struct law_gains simc(const struct plant_lags *plant)
+static struct pid_double_gains simc(const struct plant_lags *plant)
 {
-    struct law_gains gains = {0.0, 0.0, 0.0, 0};
+    struct pid_double_gains gains = {0.0, 0.0, 0.0, 0};
     double dead = plant->dead_steps + 0.5; // of the held output
     double lag = plant->lag_steps[0];
     double reset;
@@ -44,19 +44,20 @@ static struct law_gains simc(const struct plant_lags *plant)
 }
 
 // Error and output of this loop with a load of 1 say how large it may be.
-static void run_best(struct judge *self)
+static void run_best(struct evaluation *self)
 {
-    const struct law_gains gains = simc(self->plant);
+    const struct pid_double_gains gains = simc(self->plant);
     struct lags_motion motion;
-    struct law law;
+    struct pid_double exact;
     double peak = 0.0;
     double sum = 0.0;
 
-    law_init(&law, LAW_WHOLE, &gains, 1.0, -OUTPUT_MOST, OUTPUT_MOST);
+    pid_double_init(&exact, PID_DOUBLE_WHOLE, &gains, 1.0, -OUTPUT_MOST,
+                    OUTPUT_MOST);
     lags_start(&motion, self->plant, 0.0);
     for (int step = 0; step < self->steps; step++) {
         const double value = lags_value(&motion);
-        lags_move(&motion, law_step(&law, 0.0, value) + 1.0);
+        lags_move(&motion, pid_double_step(&exact, 0.0, value) + 1.0);
         sum += fabs(value);
         peak = fmax(peak, fabs(value));
     }
@@ -64,7 +65,7 @@ static void run_best(struct judge *self)
     self->best = sum * self->load;
 }
 
-void judge_start(struct judge *self, const struct plant_lags *plant)
+void evaluation_start(struct evaluation *self, const struct plant_lags *plant)
 {
     const double scale = lags_scale_steps(plant);
     const double least = 1e-3 / (scale + 1.0);
@@ -91,8 +92,8 @@ static double complex controller(const struct fixpid_pid_gains *gains,
            (gains->kd_q8 / 256.0 * (1.0 - before) / (1.0 - (kept * before)));
 }
 
-double judge_sensitivity(const struct judge *self,
-                         const struct fixpid_pid_gains *gains)
+double evaluation_sensitivity(const struct evaluation *self,
+                              const struct fixpid_pid_gains *gains)
 {
     double largest = 0.0;
 
@@ -110,8 +111,8 @@ static int16_t counts(double value)
 }
 
 // The last fifth of a loop that comes to rest is far below its peak.
-double judge_load(const struct judge *self,
-                  const struct fixpid_pid_gains *gains)
+double evaluation_load(const struct evaluation *self,
+                       const struct fixpid_pid_gains *gains)
 {
     const struct fixpid_pid_config config = {
         .gains = *gains, .output_min = -32767, .output_max = 32767};

@@ -5,7 +5,7 @@ require_relative '../c_functions'
 # The mutants that nobody need notice. Each line of the file names one:
 #   FILE, FUNCTION: TEXT OF THE LINE: `from` -> `to` (2 of 3)
 # A macro has no function, and what is alike otherwise is counted from above.
-class Excuses
+class EquivalentMutants
   attr_reader :known
 
   def initialize(path)
@@ -13,7 +13,7 @@ class Excuses
     lines = File.readlines(path, chomp: true)
     @known = lines.grep(%r{\A(?:src|include)/})
     strange = lines.grep_v(%r{\A(?:src/|include/|#|\z)})
-    strange.empty? or abort "#{path}: not an excuse: #{strange.first}"
+    strange.empty? or abort "#{path}: not an equivalent: #{strange.first}"
     twice = @known.tally.select { |_, times| times > 1 }.keys
     twice.empty? or abort "#{path}: named twice: #{twice.first}"
   end
@@ -22,12 +22,12 @@ class Excuses
     @known.include?(key)
   end
 
-  # The excuses for a file that none of these keys is.
+  # The equivalents for a file that none of these keys is.
   def stale(file, keys)
     @known.select { |line| line.start_with?("#{file}:", "#{file},") } - keys
   end
 
-  # Excuses for files that are not broken.
+  # EquivalentMutants for files that are not broken.
   def strangers(files)
     @known.grep_v(/\A(?:#{Regexp.union(files).source})[:,]/)
   end

@@ -3,14 +3,14 @@
 // machine does not take by itself: differences of all 2^32 pairs, products of
 // all 2^31, the floor of a fifth of 2^32 values, and a hundred million sums,
 // each end of whose range comes up. Prints a line for each; exit status 1 if
-// one is wrong. -D_PIC14 chooses the narrow product, -DLEAVES_PORTABLE all else
-// that is plain C.
+// one is wrong. -D_PIC14 chooses the narrow product, -DPRIMITIVES_PORTABLE all
+// else that is plain C.
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "numbers.h"
 
-#ifdef LEAVES_PORTABLE
+#ifdef PRIMITIVES_PORTABLE
 #include "another_compiler.h"
 #endif
 
@@ -25,7 +25,7 @@ static void report(const char *leaf, uint64_t cases, uint64_t wrong)
     failed |= wrong != 0;
 }
 
-#ifdef LEAVES_PORTABLE
+#ifdef PRIMITIVES_PORTABLE
 
 static void differences(void)
 {

@@ -4,30 +4,30 @@
 #include <string.h>
 
 #include "exchange.h"
-#include "straight_an964_8bit.h"
+#include "plain_c_an964.h"
 
-#define GAIN_MAX 127u
-#define QUESTION an964_8bit_exchange.question
-#define ANSWER an964_8bit_exchange.answer
+#define GAIN_MAX 1023u
+#define QUESTION an964_exchange.question
+#define ANSWER an964_exchange.answer
 
-union an964_8bit_exchange an964_8bit_exchange;
+union an964_exchange an964_exchange;
 
-static struct straight_an964_8bit straight;
+static struct plain_c_an964 plain;
 
-void an964_8bit_reply(void)
+void an964_reply(void)
 {
-    const uint8_t gains =
+    const uint16_t gains =
         QUESTION.gains.kp | QUESTION.gains.ki | QUESTION.gains.kd;
     int32_t output;
 
     if ((QUESTION.calls & CALL_INIT) != 0u) {
-        memset(&straight, 0, sizeof straight);
+        memset(&plain, 0, sizeof plain);
     }
     if ((QUESTION.calls & (CALL_INIT | CALL_SET_GAINS)) != 0u &&
         gains <= GAIN_MAX) {
-        straight.gains = QUESTION.gains;
+        plain.gains = QUESTION.gains;
     }
-    output = straight_an964_8bit_step(&straight, QUESTION.error);
+    output = plain_c_an964_step(&plain, QUESTION.error);
     memset(&ANSWER, 0, sizeof ANSWER);
     ANSWER.output = (int16_t)output;
 }

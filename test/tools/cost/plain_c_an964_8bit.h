@@ -2,13 +2,13 @@
 // AN964's 8-bit form as one writes it for a 32-bit machine: signed numbers of
 // 32 bits, clamps, divisions. It gives the library's answers and is what the
 // library's cost is compared with where a chip has a multiplier.
-#ifndef STRAIGHT_AN964_8BIT_H
-#define STRAIGHT_AN964_8BIT_H
+#ifndef PLAIN_C_AN964_8BIT_H
+#define PLAIN_C_AN964_8BIT_H
 #include <stdint.h>
 
 #include "fixpid_an964_8bit.h"
 
-struct straight_an964_8bit {
+struct plain_c_an964_8bit {
     struct fixpid_an964_8bit_gains gains;
     int8_t error[3]; // the newest first
     int16_t sum;
@@ -17,7 +17,6 @@ struct straight_an964_8bit {
     uint8_t flags;
 };
 
-int32_t straight_an964_8bit_step(struct straight_an964_8bit *self,
-                                 int32_t error);
+int32_t plain_c_an964_8bit_step(struct plain_c_an964_8bit *self, int32_t error);
 
 #endif

@@ -2,9 +2,9 @@
 # frozen_string_literal: true
 
 # Both autotuners on random plants: how good the gains are that they find. The
-# program `clouds` prints a row for each plant, tuner and rule.
-CLOUD_SEEDS = [31, 77].freeze
-CLOUD_PLANTS = 400
+# program `random_plants` prints a row for each plant, tuner and rule.
+BATCH_SEEDS = [31, 77].freeze
+BATCH_PLANTS = 400
 HOLDING_PERCENTS = [3, 10, 15, 50, 85, 95].freeze
 HOLDING_PLANTS = 150
 DANGERS = { 'servo' => 'position servos', 'dead time' => 'dead times' }.freeze
@@ -12,7 +12,7 @@ DANGER_PLANTS = 150
 ALL_RULES = 9 # rows of a plant: a tuner and a rule in each
 
 TUNERS = { 'autotune' => 'fixpid_autotune', 'relay' => 'fixpid_relay' }.freeze
-CLOUD_RULES = {
+BATCH_RULES = {
   'SIMC_PI' => 'SIMC PI', 'AMIGO_PI' => 'AMIGO PI', 'AMIGO_PID' => 'AMIGO PID',
   'TYREUS_LUYBEN_PI' => 'Tyreus-Luyben PI', 'TYREUS_LUYBEN_PID' => 'Tyreus-Luyben PID',
   'ZIEGLER_NICHOLS_PI' => 'Ziegler-Nichols PI', 'ZIEGLER_NICHOLS_PID' => 'Ziegler-Nichols PID'
@@ -21,8 +21,8 @@ CLOUD_RULES = {
 ROBUST = (1.2..1.8).freeze # Ms of a loop with a margin that is not too calm
 THIN = 2.2 # Ms of one with too little
 
-# What one tuner and rule did on a cloud.
-class Cloud
+# What one tuner and rule did on a batch.
+class Batch
   attr_reader :rows, :results
 
   def initialize(rows)
@@ -33,11 +33,11 @@ class Cloud
   def only(tuner, rule)
     rows = @rows.select { |row| row['tuner'] == tuner && row['rule'] == rule }
     rows.empty? and raise Host::Failure, "no plant tuned by #{tuner}, #{rule}"
-    Cloud.new(rows)
+    Batch.new(rows)
   end
 
   def +(other)
-    Cloud.new(@rows + other.rows)
+    Batch.new(@rows + other.rows)
   end
 
   # Plants for which a tuner has gains by any rule.
@@ -106,18 +106,18 @@ class Cloud
 end
 
 # There are fewer rows where only the first rules of each tuner are asked for.
-def cloud(name, seed, plants, *arguments, rows: ALL_RULES)
-  path = Host.print('clouds', "clouds-#{name}.txt", *[seed, plants, *arguments].map(&:to_s))
-  Cloud.new(Loops.read(path, plants * rows))
+def batch(name, seed, plants, *arguments, rows: ALL_RULES)
+  path = Host.print('random_plants', "random_plants-#{name}.txt", *[seed, plants, *arguments].map(&:to_s))
+  Batch.new(Loops.read(path, plants * rows))
 end
 
-def clouds
-  drawn = CLOUD_SEEDS.to_h { |seed| [seed, cloud(seed, seed, CLOUD_PLANTS)] }
-  loaded = CLOUD_SEEDS.to_h do |seed|
-    [seed, cloud("#{seed}-loaded", seed, CLOUD_PLANTS, 'mixed', 1, 1, rows: 2)]
+def random_plants
+  drawn = BATCH_SEEDS.to_h { |seed| [seed, batch(seed, seed, BATCH_PLANTS)] }
+  loaded = BATCH_SEEDS.to_h do |seed|
+    [seed, batch("#{seed}-loaded", seed, BATCH_PLANTS, 'mixed', 1, 1, rows: 2)]
   end
   dangers = DANGERS.keys.to_h do |kind|
-    [kind, cloud(kind.tr(' ', '-'), CLOUD_SEEDS[0], DANGER_PLANTS, kind)]
+    [kind, batch(kind.tr(' ', '-'), BATCH_SEEDS[0], DANGER_PLANTS, kind)]
   end
   drawn.each { |seed, all| check_autotune(seed, all.only('autotune', 'SIMC_PI')) }
   loaded.each { |seed, all| check_loaded(seed, all.only('autotune', 'SIMC_PI')) }
@@ -126,35 +126,35 @@ def clouds
   tell_rules('rules', both)
   dangers.each { |kind, all| tell_rules(DANGERS.fetch(kind), all) }
   tell_holding
-  draw_clouds(both)
+  draw_random_plants(both)
 end
 
 # Each seed alone, with the rule that the header calls the default. A user who
 # takes it unseen must have a loop with a margin, 19 times of 20, and an experiment
 # that ends well as often; its errors may be half as large again as those with the
 # gains of a plant that is known.
-def check_autotune(seed, cloud)
+def check_autotune(seed, batch)
   what = "seed #{seed}, SIMC PI"
-  Report.at_least("#{what}: experiments DONE", cloud.done_percent, 96.0, '%')
-  Report.at_least("#{what}: Ms within 1.2 to 1.8", cloud.robust_percent, 95.0, '%')
-  Report.at_most("#{what}: Ms above 2.2", cloud.thin, 2)
-  Report.exactly("#{what}: unstable", cloud.unstable, 0)
+  Report.at_least("#{what}: experiments DONE", batch.done_percent, 96.0, '%')
+  Report.at_least("#{what}: Ms within 1.2 to 1.8", batch.robust_percent, 95.0, '%')
+  Report.at_most("#{what}: Ms above 2.2", batch.thin, 2)
+  Report.exactly("#{what}: unstable", batch.unstable, 0)
   Report.at_most("#{what}: sum of errors over the best, median",
-                 Cloud.quantile(cloud.errors, 0.5), 1.05)
-  Report.at_most("#{what}: and of 90 %", Cloud.quantile(cloud.errors, 0.9), 1.5)
-  check_conduct(what, cloud)
+                 Batch.quantile(batch.errors, 0.5), 1.05)
+  Report.at_most("#{what}: and of 90 %", Batch.quantile(batch.errors, 0.9), 1.5)
+  check_conduct(what, batch)
 end
 
-def check_loaded(seed, cloud)
+def check_loaded(seed, batch)
   what = "seed #{seed}, a load during each experiment"
-  Report.at_least("#{what}: Ms within 1.2 to 1.8", cloud.robust_percent, 90.0, '%')
-  Report.exactly("#{what}: unstable", cloud.unstable, 0)
-  check_conduct(what, cloud)
+  Report.at_least("#{what}: Ms within 1.2 to 1.8", batch.robust_percent, 90.0, '%')
+  Report.exactly("#{what}: unstable", batch.unstable, 0)
+  check_conduct(what, batch)
 end
 
-def check_conduct(what, cloud)
-  Report.exactly("#{what}: outputs outside their range", cloud.outside, 0)
-  Report.exactly("#{what}: experiments without an end", cloud.hanging, 0)
+def check_conduct(what, batch)
+  Report.exactly("#{what}: outputs outside their range", batch.outside, 0)
+  Report.exactly("#{what}: experiments without an end", batch.hanging, 0)
 end
 
 # The relay may refuse what it cannot tune, and must refuse what is dangerous: by
@@ -164,7 +164,7 @@ def check_relay(drawn, dangers)
        .each do |name, all|
     %w[TYREUS_LUYBEN_PI TYREUS_LUYBEN_PID].each do |rule|
       found = all.only('relay', rule)
-      what = "#{name}, relay, #{CLOUD_RULES.fetch(rule)}"
+      what = "#{name}, relay, #{BATCH_RULES.fetch(rule)}"
       Report.exactly("#{what}: unstable", found.unstable, 0)
       Report.at_most("#{what}: Ms above 2.2, of those DONE", found.thin_percent, 2.0, '%')
       check_conduct(what, found)
@@ -188,17 +188,17 @@ end
 
 def rule_numbers(found, tuner, rule)
   ms = found.sensitivities
-  { 'tuner' => TUNERS.fetch(tuner), 'rule' => CLOUD_RULES.fetch(rule),
+  { 'tuner' => TUNERS.fetch(tuner), 'rule' => BATCH_RULES.fetch(rule),
     'done' => found.done, 'results' => found.results.size, 'of' => found.rows.size,
-    'ms' => [0.05, 0.5, 0.95].map { |share| Cloud.quantile(ms, share) },
+    'ms' => [0.05, 0.5, 0.95].map { |share| Batch.quantile(ms, share) },
     'robust' => found.robust_percent, 'thin' => found.thin, 'unstable' => found.unstable,
-    'iae' => [0.5, 0.9].map { |share| Cloud.quantile(found.errors, share) },
-    'lasts' => [0.5, 0.9].map { |share| Cloud.quantile(found.lasts, share) } }
+    'iae' => [0.5, 0.9].map { |share| Batch.quantile(found.errors, share) },
+    'lasts' => [0.5, 0.9].map { |share| Batch.quantile(found.lasts, share) } }
 end
 
 def tell_holding
   rows = HOLDING_PERCENTS.map do |percent|
-    all = cloud("holding-#{percent}", CLOUD_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 2,
+    all = batch("holding-#{percent}", BATCH_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 2,
                 percent / 100.0, rows: 4)
     autotune = all.only('autotune', 'SIMC_PI')
     relay = all.only('relay', 'TYREUS_LUYBEN_PI') + all.only('relay', 'TYREUS_LUYBEN_PID')
@@ -213,22 +213,22 @@ end
 # What is beyond the picture is drawn at its edge.
 MS_DRAWN = 3.0
 ERRORS_DRAWN = (0.1..12.0).freeze
-CLOUD_PANELS = { 'relay' => 'TYREUS_LUYBEN_PI', 'autotune' => 'SIMC_PI' }.freeze
-CLOUD_COLORS = { 'relay' => Plot::RED, 'autotune' => Plot::BLUE }.freeze
+BATCH_PANELS = { 'relay' => 'TYREUS_LUYBEN_PI', 'autotune' => 'SIMC_PI' }.freeze
+BATCH_COLORS = { 'relay' => Plot::RED, 'autotune' => Plot::BLUE }.freeze
 
-def draw_clouds(all)
-  plot = Plot.new('clouds', "#{CLOUD_SEEDS.size * CLOUD_PLANTS} random plants, each tuned by an " \
+def draw_random_plants(all)
+  plot = Plot.new('random_plants', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants, each tuned by an " \
                             'experiment of its own: a dot is a plant',
                   height: 560, columns: [1.0, 1.0], gap_x: 0.05,
                   margins: { left: 0.075, top: 0.83, bottom: 0.11 })
-  CLOUD_PANELS.each_with_index do |(tuner, rule), column|
-    cloud_panel(plot, column, tuner, all.only(tuner, rule))
+  BATCH_PANELS.each_with_index do |(tuner, rule), column|
+    batch_panel(plot, column, tuner, all.only(tuner, rule))
   end
   plot.draw
 end
 
-def cloud_dots(tuner, found)
-  path = "#{Host.folder}/clouds-#{tuner}.csv"
+def batch_dots(tuner, found)
+  path = "#{Host.folder}/random_plants-#{tuner}.csv"
   lines = found.results.map do |row|
     ms, errors = row.values_at('ms', 'iae').map(&:to_f)
     ms, errors = MS_DRAWN, ERRORS_DRAWN.max if errors.negative?
@@ -238,18 +238,18 @@ def cloud_dots(tuner, found)
   path
 end
 
-def cloud_panel(plot, column, tuner, found)
-  dots = "'#{cloud_dots(tuner, found)}' using 1:2 with points pointtype 7 " \
-         "pointsize 0.45 linecolor '#{CLOUD_COLORS.fetch(tuner).sub('#', '#80')}' notitle"
+def batch_panel(plot, column, tuner, found)
+  dots = "'#{batch_dots(tuner, found)}' using 1:2 with points pointtype 7 " \
+         "pointsize 0.45 linecolor '#{BATCH_COLORS.fetch(tuner).sub('#', '#80')}' notitle"
   title = "set title \"{/:Bold #{TUNERS.fetch(tuner).gsub('_', '\\\\\\_')}}, " \
-          "#{CLOUD_RULES.fetch(CLOUD_PANELS.fetch(tuner))}\\n" \
+          "#{BATCH_RULES.fetch(BATCH_PANELS.fetch(tuner))}\\n" \
           "gains for #{found.results.size} plants, none for " \
           "#{found.rows.size - found.results.size}\""
   plot.panel(0, column, [dots, '1 with lines linecolor \'#444444\' dashtype 2 notitle'],
-             [title, 'set key off', *cloud_marks, *cloud_axes(column)])
+             [title, 'set key off', *batch_marks, *batch_axes(column)])
 end
 
-def cloud_marks
+def batch_marks
   low, high = ROBUST.minmax
   ["set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind " \
    "fillcolor '#DDF0E4' fillstyle solid noborder",
@@ -260,7 +260,7 @@ def cloud_marks
    "set label 'slower' at 1.03, 1.22", "set label 'quicker' at 1.03, 0.83"]
 end
 
-def cloud_axes(column)
+def batch_axes(column)
   ['set logscale y', "set xrange [1:#{MS_DRAWN}]",
    "set yrange [#{ERRORS_DRAWN.minmax.join(':')}]",
    'set xtics 0.2', 'set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10)',
