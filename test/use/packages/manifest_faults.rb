@@ -3,7 +3,7 @@
 
 # tools/lib/manifests.rb on a copy of the project with one fault after the other: it
 # must name the manifest that is wrong.
-require_relative '../../tools/gates/seeded'
+require_relative '../../tools/gates/harness'
 
 # [file, text, instead, what must be said]; without a text the file is a new one.
 FAULTS = [
