@@ -73,6 +73,9 @@ class Header
     type = declared.find { |kind, _| Names::TYPES.include?(kind) }
     return anchored("#{type[0]} `#{type[1]}`", type, declared) if type
 
+    function = declared.find { |kind, _| kind == :function }
+    return anchored("`#{function[1]}`", function, declared) if function
+
     macros = declared.select { |kind, _| kind == :macro }
     return '' if macros.empty?
     return anchored("`#{macros[0][1]}`", macros[0], declared) if macros.size == 1
