@@ -135,7 +135,7 @@ table.each do |row, *cells|
   end
 end
 
-pic16, pic18, _, _, avr = measured.values
+pic16, pic18, avr = %w[pic16f684 pic18f4520 atmega328p].map { |name| measured.find { |chip, _| chip.name == name }[1] }
 map = File.read("#{build}/port-pic18f4520.map")
 bytes = map[/^\s*S_port__tick\s+code\s+0x000008\s+program\s+0x(\h+)/, 1].hex
 sentences = [
