@@ -3,7 +3,7 @@
 
 # tools/lib/manifests.rb on a copy of the project with one fault after the other: it
 # must name the manifest that is wrong.
-require_relative '../../tools/gates/seeded'
+require_relative '../../tools/gates/harness'
 
 # [file, text, instead, what must be said]; without a text the file is a new one.
 FAULTS = [
@@ -17,6 +17,10 @@ FAULTS = [
    %r{FAILED keywords.txt: \+ fixpid_new KEYWORD2; ruby tools/lib/manifests.rb --update$}, %r{FAILED tools/lib/modules.rb: fixpid_new: no entry}],
   ['src/new/fixpid_new.c', nil, '', %r{fixpid_new: no entry in tools/lib/modules.rb},
    %r{fixpid_new: no include/fixpid_new.h}],
+  ['include/fixpid_slew.h', 'define FIXPID_SLEW_RATE(', 'define FIXPID_SLEW_SPEED(', /FAILED keywords.txt: - FIXPID_SLEW_RATE KEYWORD2$/,
+   /\+ FIXPID_SLEW_SPEED KEYWORD2$/],
+  ['include/fixpid.h', 'write FIXPID_PERIOD_MS(100)', 'divide 1000 by it', /FAILED keywords.txt: - FIXPID_PERIOD_MS KEYWORD2; /],
+  ['include/fixpid_slew.h', 'macro above, and private.', 'macro above.', /FAILED keywords.txt: \+ FIXPID_SLEW_Q16 KEYWORD2; /],
   ['src/fixpid_new.h', nil, '', %r{FAILED src/fixpid_new.h: not in include}],
   ['src/fixpid_pid.h', '../include/', '', %r{FAILED src/fixpid_pid.h}],
   ['library.properties', 'fixpid_autotune.h', 'fixpid_tuner.h', /FAILED library.properties: - includes=.*fixpid_tuner.h/],
