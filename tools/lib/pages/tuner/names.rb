@@ -15,7 +15,7 @@ module Names
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
-        PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_status', 'FIXPID_AUTOTUNE_'),
+        PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'),
         RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
         OPTION: bits(pid[%r{^// Bits of options\.$(.*?)\n\n}m, 1], ''), FEATURE: bits(pid, 'HAS_'),
         LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid) } }
