@@ -3,13 +3,13 @@
 
 # What tools/demo reads must be numbers, and all of them: a run that recorded none, or
 # none at the time that a check is about, does not pass, nor does one that breaks off or
-# misses a row. Prints `ok` or `FAILED` for each case:
+# misses a row. And what it prints at the end. Prints `ok` or `FAILED` for each case:
 #
 #   ruby test/tools/demo/readers.rb [NAME]... | --failed | --list
 require 'json'
 require 'stringio'
 require_relative '../gates/harness'
-%w[host report regression loops plot random_plants faults].each { |name| require "#{PROJECT}/tools/lib/demo/#{name}" }
+require "#{PROJECT}/tools/lib/demo"
 
 HEAD = "time_s,angle\n"
 
@@ -58,15 +58,32 @@ rescue Host::Failure => e
   e.message
 end
 
+# What is printed meanwhile.
+def printed
+  before, $stdout = $stdout, StringIO.new
+  yield
+  $stdout.string
+ensure
+  $stdout = before
+end
+
+# The last line, where these pictures were drawn.
+def told(loops, *pictures)
+  Dir.mktmpdir do |folder|
+    Host.setup(folder)
+    pictures.each { |name| Harness.write("#{Host.folder}/#{name}.png", '') }
+    Report.checks.clear
+    printed { tell(loops, false) }.lines(chomp: true).last
+  end
+end
+
 def renewed
   Dir.mktmpdir do |folder|
     FileUtils.mkdir_p("#{folder}/test/tools/demo")
     File.write("#{folder}/#{Regression::FILE}", "# head\na | x | 1\na | y | 2\nb | z | 3\n")
     Regression.setup(folder)
     Regression.of('a', 'x', 4)
-    told, $stdout = $stdout, StringIO.new
-    Regression.renew(['a'])
-    said, $stdout = $stdout.string, told
+    said = printed { Regression.renew(['a']) }
     [said.lines.first(2).sort, File.readlines("#{folder}/#{Regression::FILE}").last(2)]
   end
 end
@@ -157,4 +174,10 @@ Harness.expect('one noticed too late', fault({ kind: 'open', for_s: 1, off_first
 Harness.expect('one that is whole before it can be noticed', fault({ kind: 'open', for_s: 0.002, off_first_s: -1 }), '')
 Harness.expect('a fault with no number', fault({ worst: 'nan' }), /no number worst/)
 Harness.expect('a row of a fault that breaks off', fault({ end: "\n" }), /not a row of a fault/)
+Harness.expect('dots while a loop takes long', -> { printed { with_dots(0.02) { sleep 0.2 } } }, /\A(\. ){2,10}\z/)
+Harness.expect('none of a short loop', -> { printed { with_dots { nil } } }, '')
+Harness.expect('the picture to look at first', -> { told(%w[oven thermostat], 'oven', 'thermostat') },
+               'Look at build/demo/thermostat.png first; the numbers are in build/demo/results.json.')
+Harness.expect('that of the only loop', -> { told(%w[oven], 'oven', 'thermostat') }, %r{^Look at build/demo/oven.png first})
+Harness.expect('none where none was drawn', -> { told(%w[oven]) }, /\A\d+ checks held, 0 failed\.\z/)
 Harness.finish
