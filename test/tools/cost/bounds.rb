@@ -63,9 +63,9 @@ KINDS.each do |name, kind|
   code = nil
   assembled = -> { code ||= assemble(source).then { |path| kind.new(path, labels(path)) } }
   known = lengths(source)
-  known.each { |routine, length| Harness.expect("bound of #{name} #{routine}", -> { bound(assembled.call, routine) }, REFUSED[routine] || length) }
-  Harness.expect("bound of #{name} turns, as stated", -> { bound(assembled.call, 'turns', { 'turns' => 5 }) }, known.fetch('turns'))
-  Harness.expect("lengths of #{name}", known.size, 8..99)
+  known.each { |routine, length| Gate.expect("bound of #{name} #{routine}", -> { bound(assembled.call, routine) }, REFUSED[routine] || length) }
+  Gate.expect("bound of #{name} turns, as stated", -> { bound(assembled.call, 'turns', { 'turns' => 5 }) }, known.fetch('turns'))
+  Gate.expect("lengths of #{name}", known.size, 8..99)
 end
 
 # A routine of bounds/ says what it takes, or a part of why it is refused.
@@ -79,10 +79,10 @@ end
 
 def judge(chip, program, expected)
   found = -> { bound(program.code, expected.name) }
-  return Harness.expect("#{chip} #{expected.name} is refused", found, expected.refusal) if expected.refusal
+  return Gate.expect("#{chip} #{expected.name} is refused", found, expected.refusal) if expected.refusal
 
-  Harness.expect("#{chip} #{expected.name} measured", -> { program.most(expected.name) }, expected.cost)
-  Harness.expect("bound of #{chip} #{expected.name}", found, expected.cost)
+  Gate.expect("#{chip} #{expected.name} measured", -> { program.most(expected.name) }, expected.cost)
+  Gate.expect("bound of #{chip} #{expected.name}", found, expected.cost)
 end
 
 Programs.all('bounds').each do |chip, program|
@@ -91,5 +91,5 @@ end
 
 CORES_OF_CHIPS = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,
                    'p12lf1822' => Pic14EnhancedCode, 'p18f26k22' => Pic18Code, 'p12f509' => nil, 'p10f200' => nil }.freeze
-CORES_OF_CHIPS.each { |chip, core| Harness.expect("core of #{chip}", [PicCode.of(chip)], [core]) }
-Harness.finish
+CORES_OF_CHIPS.each { |chip, core| Gate.expect("core of #{chip}", [PicCode.of(chip)], [core]) }
+Gate.finish

@@ -5,7 +5,7 @@
 # `FAILED` for each case:
 #
 #   ruby test/tools/cost/changes.rb [NAME]... | --failed | --list
-require_relative '../gates/harness'
+require_relative '../gates/gate'
 
 module Host
   class Failure < StandardError; end
@@ -29,7 +29,7 @@ end
 # A pattern is of the only thing that is said.
 def expect(what, text, wanted)
   found = changes(text)
-  Harness.expect(what, wanted.is_a?(Regexp) && found.size == 1 ? found.first : found, wanted)
+  Gate.expect(what, wanted.is_a?(Regexp) && found.size == 1 ? found.first : found, wanted)
 end
 
 same = Tables.markdown(ROWS)
@@ -41,7 +41,7 @@ expect('a row that is new', same.lines[0..-2].join, /Cortex-M0, -O2: new/)
 expect('a row that is gone', "#{same}#{same.lines.last.sub('M0', 'M3')}", /Cortex-M3, -O2: gone/)
 expect('another order', (same.lines[0, 2] + same.lines[2, 2].reverse).join, /places/)
 expect('no table', '', /new/)
-Harness.expect('a limit kept', Limit.new('', 410, 410, '').kept?, true)
-Harness.expect('a limit exceeded', Limit.new('', 410, 411, '').kept?, false)
-Harness.expect('a limit of nothing', Limit.new('', 410, nil, '').kept?, false)
-Harness.finish
+Gate.expect('a limit kept', Limit.new('', 410, 410, '').kept?, true)
+Gate.expect('a limit exceeded', Limit.new('', 410, 411, '').kept?, false)
+Gate.expect('a limit of nothing', Limit.new('', 410, nil, '').kept?, false)
+Gate.finish

@@ -4,7 +4,7 @@
 # What the tests of the static bounds share: programs in assembly, each of a
 # folder beside this file, on simulated chips. They are assembled when they are needed.
 require 'fileutils'
-require_relative '../gates/harness'
+require_relative '../gates/gate'
 %w[host meters].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
 Host.setup(PROJECT)
 

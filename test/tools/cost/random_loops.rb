@@ -200,7 +200,7 @@ def reached
   found.count { |_, (bound, seen)| bound.cost > 40 && seen.any? { |one| one.cycles == bound.cost } }
 end
 
-Harness.expect('random programs are bounded', -> { found.size }, 800..)
-Harness.expect('none takes longer or more levels', -> { longer.keys }, [])
-Harness.expect('loops take as long as their bound', -> { reached }, 200..)
-Harness.finish
+Gate.expect('random programs are bounded', -> { found.size }, 800..)
+Gate.expect('none takes longer or more levels', -> { longer.keys }, [])
+Gate.expect('loops take as long as their bound', -> { reached }, 200..)
+Gate.finish

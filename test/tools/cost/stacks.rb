@@ -29,14 +29,14 @@ end
 def judge(chip, program)
   expected(program.source).each do |name, text|
     wanted = text.start_with?('refused: ') ? /#{Regexp.escape(text.delete_prefix('refused: '))}/ : text
-    Harness.expect("stack of #{chip} #{name}", -> { depth_of(program.code, name) }, wanted)
+    Gate.expect("stack of #{chip} #{name}", -> { depth_of(program.code, name) }, wanted)
   end
 end
 
 # The deepest routine is `third`; what is seen of all, if it is not the same.
 def measured(chip, program)
   main = File.read(program.source)[/^main:.*/]
-  Harness.expect("stack of #{chip} measured", -> { program.depth('third') }, (main[/(\d+) seen/, 1] || main[/\d+/]).to_i)
+  Gate.expect("stack of #{chip} measured", -> { program.depth('third') }, (main[/(\d+) seen/, 1] || main[/\d+/]).to_i)
 end
 
 Programs.all('stacks').each do |chip, program|
@@ -46,6 +46,6 @@ end
 %w[LETS_IN LETS_ALL_IN].each do |how|
   all = Programs.all('stacks', "-D#{how}")
   all.delete('avr') if how == 'LETS_ALL_IN' # it restores SREG so
-  all.each { |chip, program| Harness.expect("stack of #{chip} with #{how}", -> { depth_of(program.code, 'main') }, /an interrupt lets others in/) }
+  all.each { |chip, program| Gate.expect("stack of #{chip} with #{how}", -> { depth_of(program.code, 'main') }, /an interrupt lets others in/) }
 end
-Harness.finish
+Gate.finish

@@ -3,7 +3,7 @@
 
 # tools/lib/manifests.rb on a copy of the project with one fault after the other: it
 # must name the manifest that is wrong.
-require_relative '../../tools/gates/harness'
+require_relative '../../tools/gates/gate'
 
 # [file, text, instead, what must be said]; without a text the file is a new one.
 FAULTS = [
@@ -74,7 +74,7 @@ def seeded(path, text, instead)
   before = File.read(path) if text
   after = text ? before.sub(text) { instead } : instead
   after == before and abort "FAILED nothing to plant in #{path}: #{text}"
-  Harness.write(path, after)
+  Gate.write(path, after)
   yield
 ensure
   text ? File.write(path, before) : FileUtils.rm(path)
@@ -90,28 +90,28 @@ end
 
 # What is said of a manifest that differs in everything: a few lines of a few words.
 def readable
-  output, = seeded('keywords.txt', /.+/m, "nothing\n") { Harness.run('ruby', 'tools/lib/manifests.rb') }
+  output, = seeded('keywords.txt', /.+/m, "nothing\n") { Gate.run('ruby', 'tools/lib/manifests.rb') }
   said = output[/^FAILED keywords.*?(?=^ok|^FAILED|\z)/m].lines(chomp: true)
-  Harness.expect('a difference is at most 12 lines', said.size <= 12, true)
-  Harness.expect('of 130 characters', said.map(&:size).max <= 130, true)
-  Harness.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
-  Harness.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
+  Gate.expect('a difference is at most 12 lines', said.size <= 12, true)
+  Gate.expect('of 130 characters', said.map(&:size).max <= 130, true)
+  Gate.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
+  Gate.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
 end
 
 Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
   copy(folder)
   Dir.chdir(folder) do
-    Harness.passed('the manifests as they are', Harness.run('ruby', 'tools/lib/manifests.rb'))
+    Gate.passed('the manifests as they are', Gate.run('ruby', 'tools/lib/manifests.rb'))
     FAULTS.each do |path, text, instead, *said|
       seeded(path, text, instead) do
-        Harness.refused("#{path} with #{instead.inspect}", Harness.run('ruby', 'tools/lib/manifests.rb'), *said)
+        Gate.refused("#{path} with #{instead.inspect}", Gate.run('ruby', 'tools/lib/manifests.rb'), *said)
       end
     end
     MANIFESTS.each do |path|
-      gone(path) { Harness.refused("#{path} gone", Harness.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
+      gone(path) { Gate.refused("#{path} gone", Gate.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
     end
     readable
   end
 end
-Harness.finish
+Gate.finish

@@ -12,7 +12,7 @@ require 'tmpdir'
 PROJECT = File.expand_path('../../..', __dir__)
 require "#{PROJECT}/tools/lib/test/named"
 
-module Harness
+module Gate
   @tests = NamedTests.new(File.expand_path($PROGRAM_NAME).delete_prefix("#{PROJECT}/"), 1)
 
   class << self
