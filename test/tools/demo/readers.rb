@@ -177,7 +177,7 @@ Gate.expect('a row of a fault that breaks off', fault({ end: "\n" }), /not a row
 Gate.expect('dots while a loop takes long', -> { printed { with_dots(0.02) { sleep 0.2 } } }, /\A(\. ){2,10}\z/)
 Gate.expect('none of a short loop', -> { printed { with_dots { nil } } }, '')
 Gate.expect('the picture to look at first', -> { told(%w[oven thermostat], 'oven', 'thermostat') },
-               'Look at build/demo/thermostat.png first; the numbers are in build/demo/results.json.')
+            'Look at build/demo/thermostat.png first; the numbers are in build/demo/results.json.')
 Gate.expect('that of the only loop', -> { told(%w[oven], 'oven', 'thermostat') }, %r{^Look at build/demo/oven.png first})
 Gate.expect('none where none was drawn', -> { told(%w[oven]) }, /\A\d+ checks held, 0 failed\.\z/)
 Gate.finish

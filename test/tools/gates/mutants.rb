@@ -57,21 +57,21 @@ end
 
 Gate.passed('tests that notice every break', mutants)
 Gate.refused('a bound that nobody asks about', mutants(high: HIGH.lines.last, faults: ''),
-                /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_high: if .value > 9. \{: `>` -> `>=`/, /^FAILED src.toy.fixpid_toy.c/)
+             /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_high: if .value > 9. \{: `>` -> `>=`/, /^FAILED src.toy.fixpid_toy.c/)
 # `value = 0;` is in both functions, and a test notices one of them.
 Gate.refused('an equivalent for the same line of another function',
-                mutants(low: LOW.lines.last, equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_high: value = 0;: `0` -> `1`']),
-                /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_low: value = 0;: `0` -> `1`/,
-                /No longer true .*: src.toy.fixpid_toy.c, fixpid_toy_high: value = 0;/)
+             mutants(low: LOW.lines.last, equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_high: value = 0;: `0` -> `1`']),
+             /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_low: value = 0;: `0` -> `1`/,
+             /No longer true .*: src.toy.fixpid_toy.c, fixpid_toy_high: value = 0;/)
 Gate.refused('an equivalent for a line that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
-                /No longer true .*value--/)
+             /No longer true .*value--/)
 Gate.refused('an equivalent for a file that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
 Gate.refused('an equivalent twice', mutants(equivalents: SAME + SAME), /named twice/)
 Gate.refused('a line that is no equivalent', mutants(equivalents: SAME + ['And all others.']), /not an equivalent/)
 Gate.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)
 Gate.refused('a fault that no test notices', mutants(faults: FAULT.sub('x == 10', 'x == 11')), /^FAILED test_high/)
 Gate.refused('a fault whose text is gone', mutants(faults: FAULT.sub('value > 9', 'value > 10')),
-                /^FAILED test.faults.txt:1: `value > 10` stands 0 times in fixpid_toy_high .* nearest is src.toy.fixpid_toy.c:17: `if .value > 9. \{`$/)
+             /^FAILED test.faults.txt:1: `value > 10` stands 0 times in fixpid_toy_high .* nearest is src.toy.fixpid_toy.c:17: `if .value > 9. \{`$/)
 Gate.refused('a fault whose text is there twice', mutants(faults: FAULT.sub('`value > 9`', '`value`')), /stands 4 times in fixpid_toy_high/)
 Gate.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/)
 Gate.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
@@ -91,16 +91,16 @@ Gate.expect('a bound that is a number', breaks('if (a >= 5u) {'), [['>=', '>'], 
 Gate.expect('a call that is left out', breaks('reset(self);'), [['reset(self);', '']])
 Gate.expect('an assignment that is left out', breaks('a -= b;'), [['-=', '+='], ['a -= b;', '']])
 Gate.expect('exclusive or, not and complement', breaks('return (a ^ ~b) & !c;'),
-               [['^', '|'], ['~', ''], ['&', '|'], ['!', '']])
+            [['^', '|'], ['~', ''], ['&', '|'], ['!', '']])
 Gate.expect('an assertion, a comment and an address', breaks('FIXPID_ASSERT(a < b); // a < b') + breaks('return &a; // 7'), [])
 Gate.expect('a macro of a header for users', Breaks.of('include/x.h', "#define LIMIT 5u\n#define F(x) \\\n    ((x) < 0.5)\nint f(int a[5]);\n")
-                                                   .map { |mutant| [mutant.line, mutant.from, mutant.to] },
-               [[3, '<', '<='], [3, '<', '>'], [3, '0.5', '-0.5'], [3, '0.5', '1.5']])
+                                                .map { |mutant| [mutant.line, mutant.from, mutant.to] },
+            [[3, '<', '<='], [3, '<', '>'], [3, '0.5', '-0.5'], [3, '0.5', '1.5']])
 alike = "int f(void)\n{\n    a = 0u & 0u;\n    a = 0u & 0u;\n}\n"
 keys = EquivalentMutants.keys(Breaks.of('src/x/x.c', alike), alike)
 Gate.expect('an equivalent names one break', keys.values.uniq.size, keys.size)
 Gate.expect('and counts from above', keys.values.grep(/0u` -> `1u/).map { |key| key[/\(.*\)/] },
-               ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
+            ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
 
 # tools/lib/faults/assembly.rb with a chip that answers right while it adds.
 TOY = "// add %0, %1\nstatic int f(int a, int b)\n{\n    __asm__(\"add %0, %1\\n\\t\"\n            \"andi %0, 1\"\n            : ...);\n}\n"

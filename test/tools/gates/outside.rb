@@ -57,7 +57,7 @@ Dir.mktmpdir do |folder|
     FAULTS.each { |fault| seeded(paths, *fault) }
     FileUtils.rm_rf('build')
     Gate.refused('no folder for temporary files', Gate.run('env', "TMPDIR=#{folder}/none", 'dash', 'tools/demo'),
-                    %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
+                 %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
     Gate.expect('and nothing is built', File.exist?('build'), false)
   end
 end

@@ -44,7 +44,7 @@ Gate.refused('a part that breaks off', toy(three, 'false'), /FAILED toy: it coul
 Gate.refused('a command that fails', toy('exit 1', "check a ./runner; check b true; check c true"), /FAILED a/, /2 passed, 1 failed/)
 Gate.passed('a part that is skipped', toy('echo "skipped toy: not root"'))
 Gate.refused('a part that is skipped where all must run', toy('echo "skipped toy: not root"', with: %w[env CI=true]),
-                /skipped toy: not root/, /FAILED toy: 1 skipped, with CI=true/, /0 passed, 1 failed, 1 skipped/)
+             /skipped toy: not root/, /FAILED toy: 1 skipped, with CI=true/, /0 passed, 1 failed, 1 skipped/)
 Gate.refused('a part that is skipped, and fails', toy('echo "skipped a: why"; exit 1'), /0 passed, 1 failed, 1 skipped/)
 Gate.refused('another run in the same folder', toy(three, lock: Process.pid), /another tools.test runs in this folder, as process #{Process.pid}/)
 Gate.passed('after a run that was killed', toy(three, lock: Process.spawn('true').tap { |gone| Process.wait(gone) }))

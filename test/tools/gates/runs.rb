@@ -77,7 +77,7 @@ end
   Gate.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
   Gate.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
   Gate.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
-                  /^FAILED two words; again: runner 'two words'$/)
+               /^FAILED two words; again: runner 'two words'$/)
   Gate.passed("#{how}: one", said(runner, "'good'"))
   Gate.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
   Gate.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
@@ -86,7 +86,7 @@ end
   Gate.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
   Gate.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
   Gate.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
-                  /\AFAILED two words;/)
+               /\AFAILED two words;/)
 end
 Gate.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
 Gate.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
