@@ -19,7 +19,10 @@ uint32_t numbers_below(uint32_t count);
 // Any int16_t; every other one is a nasty one.
 int16_t numbers_int16(void);
 
-// Any bytes, as a memory may hold.
+// Any bytes, as a memory may hold, and how many such memories a test tries.
+#ifndef TEST_MEMORIES
+#define TEST_MEMORIES 20000u
+#endif
 void numbers_fill(void *object, size_t size);
 
 #endif

@@ -761,7 +761,7 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
 void test_step_of_any_bytes_stays_within_its_limits(void)
 {
     numbers_seed(937);
-    for (unsigned turn = 0; turn < 20000u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
         int32_t output;
 
         numbers_fill(&an937_controller, sizeof(an937_controller));

@@ -435,7 +435,7 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
 void test_step_of_any_bytes_stays_within_its_limits(void)
 {
     numbers_seed(964);
-    for (unsigned turn = 0; turn < 20000u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
         numbers_fill(&an964_controller, sizeof(an964_controller));
         TEST_ASSERT_INT16_WITHIN(
             FIXPID_AN964_OUTPUT_LIMIT, 0,

@@ -399,7 +399,7 @@ void test_step_a_flipped_bit_of_kp_keeps_the_output_within_its_limits(void)
 void test_step_of_any_bytes_stays_within_its_limits(void)
 {
     numbers_seed(8);
-    for (unsigned turn = 0; turn < 20000u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
         numbers_fill(&an964_8bit_controller, sizeof(an964_8bit_controller));
         TEST_ASSERT_INT16_WITHIN(
             504, 0,

@@ -1993,7 +1993,7 @@ void test_step_each_flipped_bit_keeps_the_output_within_its_limits(void)
 void test_step_of_any_bytes_stays_within_its_limits(void)
 {
     numbers_seed(35);
-    for (unsigned turn = 0; turn < 20000u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
         numbers_fill(&pid_controller, sizeof pid_controller);
         within_limits(plain_step());
         numbers_fill(&pid_controller, sizeof pid_controller);

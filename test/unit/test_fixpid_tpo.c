@@ -378,7 +378,7 @@ void test_init_whatever_the_memory_held_sets_every_member(void)
 void test_step_of_any_bytes_a_reset_makes_good(void)
 {
     numbers_seed(20);
-    for (unsigned turn = 0; turn < 20000u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
         numbers_fill(&tpo, sizeof tpo);
         tpo.window >>= 1;
         (void)fixpid_tpo_step(&tpo, numbers_int16());

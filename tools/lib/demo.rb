@@ -61,8 +61,8 @@ def remove_results(loops)
 end
 
 # A dot each ten seconds, while a loop takes long.
-def with_dots
-  dots = Thread.new { loop { sleep(10) && print('. ') } }
+def with_dots(seconds = 10)
+  dots = Thread.new { loop { sleep(seconds) && print('. ') } }
   yield
 ensure
   dots.kill
@@ -113,13 +113,15 @@ def main(mode, root, *words)
   exit(Docs.update(mode, root) ? 0 : 1)
 end
 
-begin
-  $stdout.sync = true
-  main(*ARGV)
-rescue Host::Failure, SystemCallError => e
-  warn "demo: #{e.message}"
-  exit 1
-rescue SignalException
-  warn 'demo: interrupted'
-  exit 130
+if $PROGRAM_NAME == __FILE__
+  begin
+    $stdout.sync = true
+    main(*ARGV)
+  rescue Host::Failure, SystemCallError => e
+    warn "demo: #{e.message}"
+    exit 1
+  rescue SignalException
+    warn 'demo: interrupted'
+    exit 130
+  end
 end

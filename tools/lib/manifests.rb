@@ -70,15 +70,31 @@ module Manifests
     Dir["examples/#{system}/*"].sort
   end
 
-  # The words that the editor colours: types, functions, and the constants.
+  # The words that the editor colours: types, functions and what is called like one, and
+  # the constants.
   def keywords
     text = Project::HEADERS.map { |header| File.read(header).gsub(%r{//.*}, '') }.join
     types = text.scan(/^(?:struct|enum) (fixpid_\w+) \{/)
     functions = text.scan(/^\w[\w *]*\b(fixpid_\w+)\(/)
     constants = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
-    { 'KEYWORD1' => types, 'KEYWORD2' => functions, 'LITERAL1' => constants }.flat_map do |kind, words|
+    { 'KEYWORD1' => types, 'KEYWORD2' => functions + called_macros, 'LITERAL1' => constants }.flat_map do |kind, words|
       words.flatten.uniq.sort.map { |word| "#{word}\t#{kind}\n" }
     end.join
+  end
+
+  # Macros with arguments for users: in a module's header all but those whose comment says
+  # that they are private, and in fixpid.h, most of which are parts of others, those that
+  # their comment shows in use.
+  def called_macros
+    Project::HEADERS.flat_map do |header|
+      comment = ''
+      File.readlines(header).each_cons(2).map do |before, line|
+        comment = before.start_with?('//') ? comment : '' if line.start_with?('//')
+        comment += line if line.start_with?('//')
+        name = line[/^#define (FIXPID_\w+)\(/, 1]
+        name if name && (header.end_with?('/fixpid.h') ? comment.include?("#{name}(") : !comment.match?(/\bprivate\b/))
+      end.compact
+    end
   end
 
   # The specification demands a url, and the library manager refuses an empty one.

@@ -3,10 +3,12 @@
 #
 #   figures.rb LOGS SIZES.json DOCUMENT [--update]
 #
-# Fails if the document says something else; with --update it is rewritten.
+# Fails if the document says something else, which --update rewrites, or if a limit of the
+# firmware is exceeded.
 require 'json'
 require_relative '../../../tools/lib/bound'
 require_relative '../../../tools/lib/measure/subjects'
+require_relative 'firmware_limits'
 
 TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
 NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(&:name).freeze
@@ -143,8 +145,8 @@ def stacks(name, size, figures)
   bytes.zero? ? levels : "#{levels}, #{bytes} of #{size['stack']} bytes"
 end
 
-def firmware
-  rows = EXAMPLES.map do |name, tick|
+def examples
+  EXAMPLES.map do |name, tick|
     size = SIZES.fetch(name)
     figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
     idle = figures['idle'] > 100 ? figures['idle'] : '-'
@@ -152,18 +154,21 @@ def firmware
      "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
      idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end
-  table(['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt',
-         'of a tick'], rows)
 end
 
 SIZES.each { |name, size| depth_of(name, size) }
 document = ARGV[2]
 old = File.read(document)
-tables = { 'exact' => exact, 'interrupts' => interrupts, 'firmware' => firmware }
+firmware = examples
+limits = FirmwareLimits.of(FirmwareLimits::HEAD, firmware)
+tables = { 'exact' => exact, 'interrupts' => interrupts, 'firmware' => table(FirmwareLimits::HEAD, firmware),
+           'firmware-limits' => table(['', 'at most', 'now'], limits.map(&:cells)) }
 new = tables.reduce(old) do |text, (name, content)|
   text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
     abort "figures: #{document} has no markers of #{name}"
 end
+exceeded = limits.reject(&:kept?)
+abort exceeded.map { |limit| "figures: #{limit.what}: #{limit.exceeded}" }.join("\n") if exceeded.any?
 exit if new == old
 if ARGV[3] == '--update'
   File.write(document, new)

@@ -4,6 +4,7 @@
 # The compiled library on simulated chips, bit for bit: see test/chips/target/run.
 require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
+require_relative 'firmware_limits'
 require_relative 'machines'
 
 ROOT = File.expand_path('../../..', __dir__)
@@ -396,6 +397,7 @@ class Table
   end
 
   def figures
+    FirmwareLimits::FAULTS.each_key { |fault| test('seeded', 'seeded_limit', fault) { FirmwareLimits.notice(fault) } }
     EXAMPLES.each_key { |name| test('figures', 'firmware', name) { Target.firmware(name) } }
     needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|firmware)-/)
     test('figures', 'figures', needs: needs) do

@@ -4,10 +4,10 @@
 # The longest path of routines whose lengths are known. Those of cycles14.asm and
 # cycles18.asm hold gpsim to them: each says its length in a comment, and all of
 # its paths are equally long. Those of bounds/ are loops, also such that may not
-# be bounded, which are measured here. Prints `ok` or `FAILED` for each.
+# be bounded, which are measured here. Prints `ok` or `FAILED` for each:
+#
+#   ruby test/tools/cost/bounds.rb [NAME]... | --failed | --list
 require_relative 'programs'
-
-root = ROOT
 
 # Code without a linker's map.
 module Assembled
@@ -58,14 +58,14 @@ REFUSED = { 'computed' => /computed/, 'turns' => /counts no constant/ }.freeze
 
 KINDS = { 'cycles14' => Assembled14, 'cycles14e' => Assembled14Enhanced, 'cycles18' => Assembled18 }.freeze
 
-good = KINDS.flat_map do |name, kind|
-  source = "#{root}/test/chips/target/simulator/#{name}.asm"
-  path = assemble(source)
-  code = kind.new(path, labels(path))
+KINDS.each do |name, kind|
+  source = "#{PROJECT}/test/chips/target/simulator/#{name}.asm"
+  code = nil
+  assembled = -> { code ||= assemble(source).then { |path| kind.new(path, labels(path)) } }
   known = lengths(source)
-  checks = known.map { |routine, length| expect("bound of #{name} #{routine}", bound(code, routine), REFUSED[routine] || length) }
-  checks << expect("bound of #{name} turns, as stated", bound(code, 'turns', { 'turns' => 5 }), known.fetch('turns'))
-  checks << expect("lengths of #{name}", known.size, 8..99)
+  known.each { |routine, length| Gate.expect("bound of #{name} #{routine}", -> { bound(assembled.call, routine) }, REFUSED[routine] || length) }
+  Gate.expect("bound of #{name} turns, as stated", -> { bound(assembled.call, 'turns', { 'turns' => 5 }) }, known.fetch('turns'))
+  Gate.expect("lengths of #{name}", known.size, 8..99)
 end
 
 # A routine of bounds/ says what it takes, or a part of why it is refused.
@@ -78,18 +78,18 @@ Expected = Struct.new(:name, :cost, :refusal) do
 end
 
 def judge(chip, program, expected)
-  found = bound(program.code, expected.name)
-  return [expect("#{chip} #{expected.name} is refused", found, expected.refusal)] if expected.refusal
+  found = -> { bound(program.code, expected.name) }
+  return Gate.expect("#{chip} #{expected.name} is refused", found, expected.refusal) if expected.refusal
 
-  [expect("#{chip} #{expected.name} measured", program.most(expected.name), expected.cost),
-   expect("bound of #{chip} #{expected.name}", found, expected.cost)]
+  Gate.expect("#{chip} #{expected.name} measured", -> { program.most(expected.name) }, expected.cost)
+  Gate.expect("bound of #{chip} #{expected.name}", found, expected.cost)
 end
 
-good += Programs.all('bounds').flat_map do |chip, program|
-  Expected.of(program.source).flat_map { |one| judge(chip, program, one) }
+Programs.all('bounds').each do |chip, program|
+  Expected.of(program.source).each { |one| judge(chip, program, one) }
 end
 
 CORES_OF_CHIPS = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,
                    'p12lf1822' => Pic14EnhancedCode, 'p18f26k22' => Pic18Code, 'p12f509' => nil, 'p10f200' => nil }.freeze
-good += CORES_OF_CHIPS.map { |chip, core| expect("core of #{chip}", [PicCode.of(chip)], [core]) }
-exit(good.all? ? 0 : 1)
+CORES_OF_CHIPS.each { |chip, core| Gate.expect("core of #{chip}", [PicCode.of(chip)], [core]) }
+Gate.finish

@@ -2,17 +2,16 @@
 # frozen_string_literal: true
 
 # What tools/cost says of tables that are not what was measured. Prints `ok` or
-# `FAILED` for each case.
-require 'tmpdir'
+# `FAILED` for each case:
+#
+#   ruby test/tools/cost/changes.rb [NAME]... | --failed | --list
+require_relative '../gates/gate'
 
 module Host
   class Failure < StandardError; end
 end
 
-root = File.expand_path('../../..', __dir__)
-require "#{root}/tools/lib/measure/subjects"
-require "#{root}/tools/lib/measure/documents"
-require "#{root}/tools/lib/measure/limits"
+%w[subjects documents limits].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
 
 ROWS = [['', 'chip', 'built', 'worst', 'stack'], ['AN937', 'PIC18F4520', 'object', 410, '3 levels, 12 bytes'],
         ['AN937', 'Cortex-M0', '-O2', 60, '8 bytes']].freeze
@@ -27,45 +26,22 @@ rescue Host::Failure => e
   [e.message]
 end
 
-def expect(what, found, wanted)
-  good = wanted.is_a?(Regexp) ? found.size == 1 && found.first.match?(wanted) : found == wanted
-  puts good ? "ok #{what}" : "FAILED #{what}: #{found}, not #{wanted}"
-  good
+# A pattern is of the only thing that is said.
+def expect(what, text, wanted)
+  found = changes(text)
+  Gate.expect(what, wanted.is_a?(Regexp) && found.size == 1 ? found.first : found, wanted)
 end
 
-FIRMWARE_TABLE = [['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt', 'of a tick'],
-                  ['pendulum, PIC16F684', '928 of 2048 words', '69 of 128', '4 of 8', 504, 1489, '-', 23, '19 %'],
-                  ['motor, PIC18F4520', '2762 of 32768 bytes', '305 of 1536', '7 of 31', 283, 1696, 1394, 18, '17 %']].freeze
-
-# The limits of the firmware's table that are not kept, and what is there.
-def exceeded(table)
-  Dir.mktmpdir do |folder|
-    path = "#{folder}/chips.md"
-    File.write(path, table)
-    Limits.firmware(path).reject(&:kept?).map { |limit| "#{limit.what}: #{limit.exceeded}" }
-  end
-end
-
-firmware = Tables.markdown(FIRMWARE_TABLE)
 same = Tables.markdown(ROWS)
-good = [
-  expect('the same table', changes(same), []),
-  expect('a cycle more', changes(same.sub('410', '409')), /object, worst: 409 is documented, 410 measured, which is worse/),
-  expect('a cycle less', changes(same.sub('410', '411')), /which is better/),
-  expect('a byte of two numbers', changes(same.sub('12 bytes', '11 bytes')), /stack: .*which is worse/),
-  expect('a row that is new', changes(same.lines[0..-2].join), /Cortex-M0, -O2: new/),
-  expect('a row that is gone', changes("#{same}#{same.lines.last.sub('M0', 'M3')}"), /Cortex-M3, -O2: gone/),
-  expect('another order', changes((same.lines[0, 2] + same.lines[2, 2].reverse).join), /places/),
-  expect('no table', changes(''), /new/),
-  expect('a limit kept', [Limit.new('', 410, 410, '').kept?], [true]),
-  expect('a limit exceeded', [Limit.new('', 410, 411, '').kept?], [false]),
-  expect('a limit of nothing', [Limit.new('', 410, nil, '').kept?], [false]),
-  expect('limits of firmware', exceeded(firmware), []),
-  expect('one that is exceeded', exceeded(firmware.sub('4 of 8', '5 of 8')), /pendulum, PIC16F684, stack used: 5 levels, at most 4 levels/),
-  expect('one of "-"', exceeded(firmware.sub('4 of 8', '-')), /pendulum, PIC16F684, stack used: -, at most/),
-  expect('one of an empty cell', exceeded(firmware.sub('| 18 |', '| |')), /motor, PIC18F4520, interrupt: -,/),
-  expect('one of a row that is gone', exceeded(firmware.lines[0..-2].join), /motor, PIC18F4520, interrupt: -,/),
-  expect('one of a column that is gone', exceeded(firmware.sub('stack used', 'stack')), /stack used: -,/),
-  expect('those of no table', exceeded('').size.digits, [Limits::FIRMWARE.size])
-]
-exit(good.all? ? 0 : 1)
+expect('the same table', same, [])
+expect('a cycle more', same.sub('410', '409'), /object, worst: 409 is documented, 410 measured, which is worse/)
+expect('a cycle less', same.sub('410', '411'), /which is better/)
+expect('a byte of two numbers', same.sub('12 bytes', '11 bytes'), /stack: .*which is worse/)
+expect('a row that is new', same.lines[0..-2].join, /Cortex-M0, -O2: new/)
+expect('a row that is gone', "#{same}#{same.lines.last.sub('M0', 'M3')}", /Cortex-M3, -O2: gone/)
+expect('another order', (same.lines[0, 2] + same.lines[2, 2].reverse).join, /places/)
+expect('no table', '', /new/)
+Gate.expect('a limit kept', Limit.new('', 410, 410, '').kept?, true)
+Gate.expect('a limit exceeded', Limit.new('', 410, 411, '').kept?, false)
+Gate.expect('a limit of nothing', Limit.new('', 410, nil, '').kept?, false)
+Gate.finish

@@ -2,18 +2,11 @@
 # frozen_string_literal: true
 
 # What the tests of the static bounds share: programs in assembly, each of a
-# folder beside this file, on simulated chips.
+# folder beside this file, on simulated chips. They are assembled when they are needed.
 require 'fileutils'
-
-ROOT = File.expand_path('../../..', __dir__)
-%w[host meters].each { |name| require "#{ROOT}/tools/lib/measure/#{name}" }
-Host.setup(ROOT)
-
-def expect(what, found, wanted)
-  good = wanted === found
-  puts good ? "ok #{what}" : "FAILED #{what}: #{found}, not #{wanted}"
-  good
-end
+require_relative '../gates/gate'
+%w[host meters].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
+Host.setup(PROJECT)
 
 # One of them, for gpsim, with a map as gplink writes it.
 class PicProgram
@@ -22,13 +15,11 @@ class PicProgram
   def initialize(source, kind, options)
     @source = source
     @kind = kind
-    @path = Programs.path(source, options)
-    Host.output('gpasm', '-w1', *options, '-c', '-o', "#{@path}.o", source)
-    Host.output('gplink', '-m', '-o', "#{@path}.hex", "#{@path}.o")
+    @options = options
   end
 
   def code
-    @code ||= @kind.new(@path)
+    @code ||= @kind.new(path)
   end
 
   # Cycles of a routine, and levels of the return stack that all has used.
@@ -42,8 +33,15 @@ class PicProgram
 
   private
 
+  def path
+    @path ||= Programs.path(source, @options).tap do |path|
+      Host.output('gpasm', '-w1', *@options, '-c', '-o', "#{path}.o", source)
+      Host.output('gplink', '-m', '-o', "#{path}.hex", "#{path}.o")
+    end
+  end
+
   def run(name)
-    Host.output(PicProgram.meter, "#{@path}.cod", name, '10000')
+    Host.output(PicProgram.meter, "#{path}.cod", name, '10000')
   end
 
   def self.meter
@@ -57,13 +55,11 @@ class AvrProgram
 
   def initialize(source, options)
     @source = source
-    @path = Programs.path(source, options)
-    Host.output('avr-gcc', '-mmcu=atmega328p', '-nostartfiles', *options.map { |one| "-Wa,--defsym,#{one.delete_prefix('-D')}=1" },
-                '-o', "#{@path}.elf", source)
+    @options = options
   end
 
   def code
-    @code ||= AvrCode.new("#{@path}.elf")
+    @code ||= AvrCode.new(elf)
   end
 
   # Cycles of a routine, and bytes of its stack with those of interrupts.
@@ -77,9 +73,16 @@ class AvrProgram
 
   private
 
+  def elf
+    @elf ||= "#{Programs.path(source, @options)}.elf".tap do |elf|
+      Host.output('avr-gcc', '-mmcu=atmega328p', '-nostartfiles', *@options.map { |one| "-Wa,--defsym,#{one.delete_prefix('-D')}=1" },
+                  '-o', elf, source)
+    end
+  end
+
   def run(name)
     done, address = ['done', name].map { |symbol| code.symbol(symbol).to_s(16) }
-    Host.output(AvrProgram.meter, "#{@path}.elf", 'atmega328p', done, name, address)
+    Host.output(AvrProgram.meter, elf, 'atmega328p', done, name, address)
   end
 
   def self.meter

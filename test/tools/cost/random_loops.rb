@@ -4,7 +4,7 @@
 # Random loops for the 14-bit core, run from random states: none that has a bound
 # takes longer, or more levels of the stack. Prints `ok` or `FAILED` for each check.
 #
-#   random_loops.rb [PROGRAMS [FIRST]]
+#   ruby test/tools/cost/random_loops.rb [PROGRAMS [FIRST]] [NAME]... | --failed | --list
 require_relative 'programs'
 
 # A program of words at 0, with one function.
@@ -185,11 +185,22 @@ rescue LongestPath::Failure, Stack::Failure
   nil
 end
 
-first = ARGV.fetch(1, 0).to_i
-found = (first...first + ARGV.fetch(0, 4000).to_i).to_h { |seed| [seed, judged(seed)] }.compact
-longer = found.select { |_, (bound, seen, levels)| seen.any? { |one| one.cycles > bound.cost || one.levels > levels } }
-reached = found.count { |_, (bound, seen)| bound.cost > 40 && seen.any? { |one| one.cycles == bound.cost } }
-good = [expect("#{found.size} random programs are bounded", found.size, 800..),
-        expect('none takes longer or more levels', longer.keys, []),
-        expect("#{reached} loops take as long as their bound", reached, 200..)]
-exit(good.all? ? 0 : 1)
+AMOUNT, FIRST = [4000, 0].map { |usual| ARGV.first.to_s.match?(/\A\d+\z/) ? ARGV.shift.to_i : usual }
+
+# Of the programs that have a bound.
+def found
+  @found ||= (FIRST...FIRST + AMOUNT).to_h { |seed| [seed, judged(seed)] }.compact
+end
+
+def longer
+  found.select { |_, (bound, seen, levels)| seen.any? { |one| one.cycles > bound.cost || one.levels > levels } }
+end
+
+def reached
+  found.count { |_, (bound, seen)| bound.cost > 40 && seen.any? { |one| one.cycles == bound.cost } }
+end
+
+Gate.expect('random programs are bounded', -> { found.size }, 800..)
+Gate.expect('none takes longer or more levels', -> { longer.keys }, [])
+Gate.expect('loops take as long as their bound', -> { reached }, 200..)
+Gate.finish

@@ -3,7 +3,9 @@
 
 # How deep the stack may be, of routines that say it, and of the whole programs,
 # where an interrupt of each priority comes at the deepest place and the depth is
-# measured. Prints `ok` or `FAILED` for each.
+# measured. Prints `ok` or `FAILED` for each:
+#
+#   ruby test/tools/cost/stacks.rb [NAME]... | --failed | --list
 require_relative 'programs'
 
 # "3 levels, 4 bytes", of a PIC14 "3 levels" and of an AVR "9 bytes".
@@ -25,22 +27,25 @@ def expected(source)
 end
 
 def judge(chip, program)
-  expected(program.source).map do |name, text|
+  expected(program.source).each do |name, text|
     wanted = text.start_with?('refused: ') ? /#{Regexp.escape(text.delete_prefix('refused: '))}/ : text
-    expect("stack of #{chip} #{name}", depth_of(program.code, name), wanted)
+    Gate.expect("stack of #{chip} #{name}", -> { depth_of(program.code, name) }, wanted)
   end
 end
 
 # The deepest routine is `third`; what is seen of all, if it is not the same.
 def measured(chip, program)
   main = File.read(program.source)[/^main:.*/]
-  expect("stack of #{chip} measured", program.depth('third'), (main[/(\d+) seen/, 1] || main[/\d+/]).to_i)
+  Gate.expect("stack of #{chip} measured", -> { program.depth('third') }, (main[/(\d+) seen/, 1] || main[/\d+/]).to_i)
 end
 
-good = Programs.all('stacks').flat_map { |chip, program| judge(chip, program) << measured(chip, program) }
-good += %w[LETS_IN LETS_ALL_IN].flat_map do |how|
+Programs.all('stacks').each do |chip, program|
+  judge(chip, program)
+  measured(chip, program)
+end
+%w[LETS_IN LETS_ALL_IN].each do |how|
   all = Programs.all('stacks', "-D#{how}")
   all.delete('avr') if how == 'LETS_ALL_IN' # it restores SREG so
-  all.map { |chip, program| expect("stack of #{chip} with #{how}", depth_of(program.code, 'main'), /an interrupt lets others in/) }
+  all.each { |chip, program| Gate.expect("stack of #{chip} with #{how}", -> { depth_of(program.code, 'main') }, /an interrupt lets others in/) }
 end
-exit(good.all? ? 0 : 1)
+Gate.finish

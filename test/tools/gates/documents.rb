@@ -3,7 +3,7 @@
 
 # tools/lib/pages/check_docs.rb on a copy of the project, as it is and with a fault of
 # each kind that it looks for.
-require_relative 'harness'
+require_relative 'gate'
 
 ABSENT = 'not_there' # a whole name would be one that the project has
 
@@ -30,12 +30,12 @@ FAULTS = [
 
 Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
-  Harness.copy(folder)
+  Gate.copy(folder)
   Dir.chdir(folder) do
-    Harness.passed('the documents as they are', Harness.run('ruby', 'tools/lib/pages/check_docs.rb'))
-    FAULTS.each { |path, text, instead| Harness.seed(path, text, instead) }
-    result = Harness.run('ruby', 'tools/lib/pages/check_docs.rb')
-    FAULTS.each { |path, text, instead, *said| Harness.refused("#{path} with #{instead.empty? ? "no #{text}" : instead}".inspect, result, *said) }
+    Gate.passed('the documents as they are', Gate.run('ruby', 'tools/lib/pages/check_docs.rb'))
+    FAULTS.each { |path, text, instead| Gate.seed(path, text, instead) }
+    result = Gate.run('ruby', 'tools/lib/pages/check_docs.rb')
+    FAULTS.each { |path, text, instead, *said| Gate.refused("#{path} with #{instead.empty? ? "no #{text}" : instead}".inspect, result, *said) }
   end
 end
-Harness.finish
+Gate.finish

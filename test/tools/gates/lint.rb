@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 # tools/lib/lint.rb on a library of one function, clean and with faults.
-require_relative 'harness'
+require_relative 'gate'
 
 def header(inline = '')
   "// SPDX-License-Identifier: MIT\n#ifndef FIXPID_TOY_H\n#define FIXPID_TOY_H\n#include <stdint.h>\n\n" \
@@ -21,7 +21,7 @@ def lint(lines, *options, before: '', inline: '', programs: {})
             'tools/lib/cppcheck.txt' => File.read("#{PROJECT}/tools/lib/cppcheck.txt") }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
   lambda do
-    Harness.tree(files) { |folder| Harness.run('ruby', "#{PROJECT}/tools/lib/lint.rb", *options, programs: "#{folder}/bin") }
+    Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/lint.rb", *options, programs: "#{folder}/bin") }
   end
 end
 
@@ -34,43 +34,43 @@ def branches(count)
 end
 
 long = "value++;\n" * 38
-Harness.passed('a clean library', quick("value++;\n"))
-Harness.refused('a warning', quick("int unused;\n"), /unused variable/)
-Harness.refused('a lost bit', quick("const uint8_t lost = value * 300;\n\nvalue = lost;\n"), /may change value/)
-Harness.passed('complexity 8', quick(branches(7)))
-Harness.refused('complexity 9', quick(branches(8)), /complexity 9 \(at most 8\)/)
-Harness.refused('complexity 9 behind an #else',
-                quick('', before: "#if 0\n#else\nstatic uint8_t more(uint8_t value);\n" \
-                                  "static uint8_t more(uint8_t value)\n{\n#{branches(8)}return value;\n}\n#endif\n"),
-                /more: .*complexity 9/)
-Harness.passed('40 lines', quick(long.lines.drop(2).join))
-Harness.refused('42 lines', quick(long), /42 lines \(at most 40\)/)
-Harness.passed('42 lines with a reason', quick(long, before: "// Deviation 40 lines: a reason\n"))
-Harness.refused('42 lines with another rule', quick(long, before: "// Deviation 11.5: a reason\n"), /42 lines/)
-Harness.refused('two conditions in a decision', quick("if ((value > 1u) && (value < 5u)) {\n    value++;\n}\n"),
-                /src.fixpid_toy\.c.*two conditions in one decision/)
-Harness.refused('two conditions in a header',
-                quick('', inline: "static inline uint8_t both(uint8_t a, uint8_t b)\n{\n" \
-                                  "    return (uint8_t)((a != 0u) || (b != 0u));\n}\n"),
-                /include.fixpid_toy\.h.*two conditions in one decision/)
-Harness.passed('two conditions in a macro and in a comment',
-               quick("value++; // && and ||\n", before: "#define BOTH(a, b) \\\n    (((a) != 0) && ((b) != 0))\n"))
-Harness.refused('a pmccabe that says nothing', quick('', programs: { 'pmccabe' => 'exit 0' }), /pmccabe sees 0 of 1 functions/)
-Harness.refused('a pmccabe that cannot read it',
-                quick('', programs: { 'pmccabe' => %q(echo "\"src/fixpid_toy.c\", line 7: not enough }'s" >&2) }), /not enough }'s/)
-Harness.refused('a pmccabe that says something else',
-                quick('', programs: { 'pmccabe' => "printf '2\\tmore\\n'" }), /pmccabe: 2\tmore/)
-Harness.refused('a pmccabe that fails', quick('', programs: { 'pmccabe' => 'exit 3' }), /pmccabe/)
-Harness.refused('no sources', Harness.tree('x' => '') { Harness.run('ruby', "#{PROJECT}/tools/lib/lint.rb", '--quick') }, /no sources/)
+Gate.passed('a clean library', quick("value++;\n"))
+Gate.refused('a warning', quick("int unused;\n"), /unused variable/)
+Gate.refused('a lost bit', quick("const uint8_t lost = value * 300;\n\nvalue = lost;\n"), /may change value/)
+Gate.passed('complexity 8', quick(branches(7)))
+Gate.refused('complexity 9', quick(branches(8)), /complexity 9 \(at most 8\)/)
+Gate.refused('complexity 9 behind an #else',
+             quick('', before: "#if 0\n#else\nstatic uint8_t more(uint8_t value);\n" \
+                               "static uint8_t more(uint8_t value)\n{\n#{branches(8)}return value;\n}\n#endif\n"),
+             /more: .*complexity 9/)
+Gate.passed('40 lines', quick(long.lines.drop(2).join))
+Gate.refused('42 lines', quick(long), /42 lines \(at most 40\)/)
+Gate.passed('42 lines with a reason', quick(long, before: "// Deviation 40 lines: a reason\n"))
+Gate.refused('42 lines with another rule', quick(long, before: "// Deviation 11.5: a reason\n"), /42 lines/)
+Gate.refused('two conditions in a decision', quick("if ((value > 1u) && (value < 5u)) {\n    value++;\n}\n"),
+             /src.fixpid_toy\.c.*two conditions in one decision/)
+Gate.refused('two conditions in a header',
+             quick('', inline: "static inline uint8_t both(uint8_t a, uint8_t b)\n{\n" \
+                               "    return (uint8_t)((a != 0u) || (b != 0u));\n}\n"),
+             /include.fixpid_toy\.h.*two conditions in one decision/)
+Gate.passed('two conditions in a macro and in a comment',
+            quick("value++; // && and ||\n", before: "#define BOTH(a, b) \\\n    (((a) != 0) && ((b) != 0))\n"))
+Gate.refused('a pmccabe that says nothing', quick('', programs: { 'pmccabe' => 'exit 0' }), /pmccabe sees 0 of 1 functions/)
+Gate.refused('a pmccabe that cannot read it',
+             quick('', programs: { 'pmccabe' => %q(echo "\"src/fixpid_toy.c\", line 7: not enough }'s" >&2) }), /not enough }'s/)
+Gate.refused('a pmccabe that says something else',
+             quick('', programs: { 'pmccabe' => "printf '2\\tmore\\n'" }), /pmccabe: 2\tmore/)
+Gate.refused('a pmccabe that fails', quick('', programs: { 'pmccabe' => 'exit 3' }), /pmccabe/)
+Gate.refused('no sources', Gate.tree('x' => '') { Gate.run('ruby', "#{PROJECT}/tools/lib/lint.rb", '--quick') }, /no sources/)
 
 # Of MISRA and clang-tidy: rule 17.8 is that a parameter stays what it is.
-Harness.passed('a library that is clean for all', lint(''))
-Harness.refused('a parameter changed, and a branch after a return',
-                lint("if (value > 3u) {\n    return 3u;\n} else {\n    value = 2u;\n}\n"),
-                /misra-c2012-17\.8/, /clang-tidy/, /else-after-return/)
-Harness.passed('a parameter changed with a reason', lint("value = 2u; // Deviation 17.8: a reason\n"))
-Harness.refused('a parameter changed with a reason for another rule, and a clang-tidy that fails',
-                lint("value = 2u; // Deviation 17.7: a reason\n", programs: { 'clang-tidy' => 'exit 1' }),
-                /misra-c2012-17\.8/, /clang-tidy/)
-Harness.refused('a cppcheck that fails', lint('', programs: { 'cppcheck' => 'echo out of order; exit 1' }), /out of order/)
-Harness.finish
+Gate.passed('a library that is clean for all', lint(''))
+Gate.refused('a parameter changed, and a branch after a return',
+             lint("if (value > 3u) {\n    return 3u;\n} else {\n    value = 2u;\n}\n"),
+             /misra-c2012-17\.8/, /clang-tidy/, /else-after-return/)
+Gate.passed('a parameter changed with a reason', lint("value = 2u; // Deviation 17.8: a reason\n"))
+Gate.refused('a parameter changed with a reason for another rule, and a clang-tidy that fails',
+             lint("value = 2u; // Deviation 17.7: a reason\n", programs: { 'clang-tidy' => 'exit 1' }),
+             /misra-c2012-17\.8/, /clang-tidy/)
+Gate.refused('a cppcheck that fails', lint('', programs: { 'cppcheck' => 'echo out of order; exit 1' }), /out of order/)
+Gate.finish

@@ -3,7 +3,7 @@
 
 # What tools/cost remembers: a figure is measured anew when anything that it depends
 # on is another one, here with a compiler that only says where its parts are.
-require_relative 'harness'
+require_relative 'gate'
 require "#{PROJECT}/tools/lib/measure/host"
 require "#{PROJECT}/tools/lib/measure/memory"
 
@@ -51,20 +51,20 @@ def anew_after(path)
   measured
 end
 
-Harness.tree(files) do |folder|
+Gate.tree(files) do |folder|
   FileUtils.ln_s('/bin/sh', 'bin/sh')
   ENV['PATH'] = "#{folder}/bin"
   ENV['SDCC'] = "#{folder}/sdcc/bin/sdcc"
   ENV['SDCC_LIB'] = "#{folder}/sdcc/share/sdcc/lib"
   Host.setup(folder)
-  Harness.expect('the first time', measured, 1)
-  Harness.expect('the second time', measured, 0)
+  Gate.expect('the first time', measured, 1)
+  Gate.expect('the second time', measured, 0)
   (PARTS + SOURCES).each do |path|
-    Harness.expect("another #{path}", anew_after(path) { File.write(path, '# more', mode: 'a') }, 1)
+    Gate.expect("another #{path}", anew_after(path) { File.write(path, '# more', mode: 'a') }, 1)
   end
-  Harness.expect('a file that is new', anew_after('src/fixpid_new.c') { |path| File.write(path, '') }, 1)
-  Harness.expect('a file that is gone', anew_after('src/fixpid_new.c') { |path| File.delete(path) }, 1)
-  Harness.expect('a file of no account', anew_after('notes.txt') { |path| File.write(path, '') }, 0)
-  Harness.expect('a memory that broke off', anew_after('build/cost/memory/toy.json') { |path| File.write(path, '{') }, 1)
+  Gate.expect('a file that is new', anew_after('src/fixpid_new.c') { |path| File.write(path, '') }, 1)
+  Gate.expect('a file that is gone', anew_after('src/fixpid_new.c') { |path| File.delete(path) }, 1)
+  Gate.expect('a file of no account', anew_after('notes.txt') { |path| File.write(path, '') }, 0)
+  Gate.expect('a memory that broke off', anew_after('build/cost/memory/toy.json') { |path| File.write(path, '{') }, 1)
 end
-Harness.finish
+Gate.finish

@@ -3,7 +3,7 @@
 
 # tools/lib/faults/mutants.rb on a library of two functions: tests that notice every break,
 # tests that do not, and equivalent mutants that are not true.
-require_relative 'harness'
+require_relative 'gate'
 require "#{PROJECT}/tools/lib/faults/breaks"
 require "#{PROJECT}/tools/lib/faults/equivalents"
 
@@ -51,30 +51,30 @@ def mutants(low: LOW, high: HIGH, equivalents: SAME, faults: FAULT, programs: {}
             'test/tools/mutants/equivalent.txt' => equivalents.map { |line| "#{line}\n" }.join, 'test/faults.txt' => faults }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
   lambda do
-    Harness.tree(files) { |folder| Harness.run('ruby', "#{PROJECT}/tools/lib/faults/mutants.rb", programs: "#{folder}/bin") }
+    Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/faults/mutants.rb", programs: "#{folder}/bin") }
   end
 end
 
-Harness.passed('tests that notice every break', mutants)
-Harness.refused('a bound that nobody asks about', mutants(high: HIGH.lines.last, faults: ''),
-                /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_high: if .value > 9. \{: `>` -> `>=`/, /^FAILED src.toy.fixpid_toy.c/)
+Gate.passed('tests that notice every break', mutants)
+Gate.refused('a bound that nobody asks about', mutants(high: HIGH.lines.last, faults: ''),
+             /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_high: if .value > 9. \{: `>` -> `>=`/, /^FAILED src.toy.fixpid_toy.c/)
 # `value = 0;` is in both functions, and a test notices one of them.
-Harness.refused('an equivalent for the same line of another function',
-                mutants(low: LOW.lines.last, equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_high: value = 0;: `0` -> `1`']),
-                /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_low: value = 0;: `0` -> `1`/,
-                /No longer true .*: src.toy.fixpid_toy.c, fixpid_toy_high: value = 0;/)
-Harness.refused('an equivalent for a line that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
-                /No longer true .*value--/)
-Harness.refused('an equivalent for a file that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
-Harness.refused('an equivalent twice', mutants(equivalents: SAME + SAME), /named twice/)
-Harness.refused('a line that is no equivalent', mutants(equivalents: SAME + ['And all others.']), /not an equivalent/)
-Harness.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)
-Harness.refused('a fault that no test notices', mutants(faults: FAULT.sub('x == 10', 'x == 11')), /^FAILED test_high/)
-Harness.refused('a fault whose text is gone', mutants(faults: FAULT.sub('value > 9', 'value > 10')),
-                /^FAILED test.faults.txt:1: `value > 10` stands 0 times in fixpid_toy_high .* nearest is src.toy.fixpid_toy.c:17: `if .value > 9. \{`$/)
-Harness.refused('a fault whose text is there twice', mutants(faults: FAULT.sub('`value > 9`', '`value`')), /stands 4 times in fixpid_toy_high/)
-Harness.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/)
-Harness.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
+Gate.refused('an equivalent for the same line of another function',
+             mutants(low: LOW.lines.last, equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_high: value = 0;: `0` -> `1`']),
+             /Nobody notices: src.toy.fixpid_toy.c, fixpid_toy_low: value = 0;: `0` -> `1`/,
+             /No longer true .*: src.toy.fixpid_toy.c, fixpid_toy_high: value = 0;/)
+Gate.refused('an equivalent for a line that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
+             /No longer true .*value--/)
+Gate.refused('an equivalent for a file that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
+Gate.refused('an equivalent twice', mutants(equivalents: SAME + SAME), /named twice/)
+Gate.refused('a line that is no equivalent', mutants(equivalents: SAME + ['And all others.']), /not an equivalent/)
+Gate.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)
+Gate.refused('a fault that no test notices', mutants(faults: FAULT.sub('x == 10', 'x == 11')), /^FAILED test_high/)
+Gate.refused('a fault whose text is gone', mutants(faults: FAULT.sub('value > 9', 'value > 10')),
+             /^FAILED test.faults.txt:1: `value > 10` stands 0 times in fixpid_toy_high .* nearest is src.toy.fixpid_toy.c:17: `if .value > 9. \{`$/)
+Gate.refused('a fault whose text is there twice', mutants(faults: FAULT.sub('`value > 9`', '`value`')), /stands 4 times in fixpid_toy_high/)
+Gate.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/)
+Gate.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
   case $* in
   *program*) echo 'ld: No space left on device: error: nothing' >&2; exit 1 ;;
   esac
@@ -86,21 +86,21 @@ def breaks(line, file: 'src/x/x.c')
   Breaks.of(file, "void f(void)\n{\n    #{line}\n}\n").map { |mutant| [mutant.from, mutant.to] }
 end
 
-Harness.expect('a bound and its neighbours', breaks('if (a < limit) {'), [['<', '<='], ['<', '>'], ['<', '< -1 +']])
-Harness.expect('a bound that is a number', breaks('if (a >= 5u) {'), [['>=', '>'], ['>=', '<'], ['5u', '6u'], ['5u', '4u']])
-Harness.expect('a call that is left out', breaks('reset(self);'), [['reset(self);', '']])
-Harness.expect('an assignment that is left out', breaks('a -= b;'), [['-=', '+='], ['a -= b;', '']])
-Harness.expect('exclusive or, not and complement', breaks('return (a ^ ~b) & !c;'),
-               [['^', '|'], ['~', ''], ['&', '|'], ['!', '']])
-Harness.expect('an assertion, a comment and an address', breaks('FIXPID_ASSERT(a < b); // a < b') + breaks('return &a; // 7'), [])
-Harness.expect('a macro of a header for users', Breaks.of('include/x.h', "#define LIMIT 5u\n#define F(x) \\\n    ((x) < 0.5)\nint f(int a[5]);\n")
-                                                   .map { |mutant| [mutant.line, mutant.from, mutant.to] },
-               [[3, '<', '<='], [3, '<', '>'], [3, '0.5', '-0.5'], [3, '0.5', '1.5']])
+Gate.expect('a bound and its neighbours', breaks('if (a < limit) {'), [['<', '<='], ['<', '>'], ['<', '< -1 +']])
+Gate.expect('a bound that is a number', breaks('if (a >= 5u) {'), [['>=', '>'], ['>=', '<'], ['5u', '6u'], ['5u', '4u']])
+Gate.expect('a call that is left out', breaks('reset(self);'), [['reset(self);', '']])
+Gate.expect('an assignment that is left out', breaks('a -= b;'), [['-=', '+='], ['a -= b;', '']])
+Gate.expect('exclusive or, not and complement', breaks('return (a ^ ~b) & !c;'),
+            [['^', '|'], ['~', ''], ['&', '|'], ['!', '']])
+Gate.expect('an assertion, a comment and an address', breaks('FIXPID_ASSERT(a < b); // a < b') + breaks('return &a; // 7'), [])
+Gate.expect('a macro of a header for users', Breaks.of('include/x.h', "#define LIMIT 5u\n#define F(x) \\\n    ((x) < 0.5)\nint f(int a[5]);\n")
+                                                .map { |mutant| [mutant.line, mutant.from, mutant.to] },
+            [[3, '<', '<='], [3, '<', '>'], [3, '0.5', '-0.5'], [3, '0.5', '1.5']])
 alike = "int f(void)\n{\n    a = 0u & 0u;\n    a = 0u & 0u;\n}\n"
 keys = EquivalentMutants.keys(Breaks.of('src/x/x.c', alike), alike)
-Harness.expect('an equivalent names one break', keys.values.uniq.size, keys.size)
-Harness.expect('and counts from above', keys.values.grep(/0u` -> `1u/).map { |key| key[/\(.*\)/] },
-               ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
+Gate.expect('an equivalent names one break', keys.values.uniq.size, keys.size)
+Gate.expect('and counts from above', keys.values.grep(/0u` -> `1u/).map { |key| key[/\(.*\)/] },
+            ['(1 of 4)', '(2 of 4)', '(3 of 4)', '(4 of 4)'])
 
 # tools/lib/faults/assembly.rb with a chip that answers right while it adds.
 TOY = "// add %0, %1\nstatic int f(int a, int b)\n{\n    __asm__(\"add %0, %1\\n\\t\"\n            \"andi %0, 1\"\n            : ...);\n}\n"
@@ -137,12 +137,12 @@ TOYS = ['"andi %0, 1": `andi %0, 1` -> `nop`', '"andi %0, 1": `andi %0, 1` -> `a
 
 def assembly(equivalents, right: '"add', source: TOY)
   files = { 'include/toy.h' => '', 'src/toy/toy_avr.h' => source, 'equivalents' => equivalents.map { |line| "#{line}\n" }.join }
-  -> { Harness.tree(files) { Harness.run('ruby', '-e', CHIP, right) } }
+  -> { Gate.tree(files) { Gate.run('ruby', '-e', CHIP, right) } }
 end
 
-Harness.passed('instructions that somebody notices', assembly(TOYS))
-Harness.refused('an instruction that nobody notices', assembly(TOYS.drop(1)), /^FAILED src.toy.toy_avr.h/, /Nobody notices: .*`nop`/)
-Harness.refused('an instruction that somebody does', assembly(TOYS + [TOYS.first.sub('andi %0, 1"', 'add %0, %1"')]), /No longer true/)
-Harness.refused('a chip that answers wrong unbroken', assembly(TOYS, right: 'xor'), /the unbroken one is noticed/)
-Harness.refused('a program that cannot be built', assembly([], source: TOY.sub('andi', 'ori')), /cannot be built/)
-Harness.finish
+Gate.passed('instructions that somebody notices', assembly(TOYS))
+Gate.refused('an instruction that nobody notices', assembly(TOYS.drop(1)), /^FAILED src.toy.toy_avr.h/, /Nobody notices: .*`nop`/)
+Gate.refused('an instruction that somebody does', assembly(TOYS + [TOYS.first.sub('andi %0, 1"', 'add %0, %1"')]), /No longer true/)
+Gate.refused('a chip that answers wrong unbroken', assembly(TOYS, right: 'xor'), /the unbroken one is noticed/)
+Gate.refused('a program that cannot be built', assembly([], source: TOY.sub('andi', 'ori')), /cannot be built/)
+Gate.finish

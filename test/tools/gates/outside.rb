@@ -3,7 +3,7 @@
 
 # What a person meets who types the first command: every script that may install
 # something, with no program that one of them asks for, as root and as another user.
-require_relative 'harness'
+require_relative 'gate'
 require_relative '../bare/outside'
 require "#{PROJECT}/tools/lib/pages/docs/packages"
 
@@ -15,8 +15,8 @@ def programs(folder, hidden, user)
     name = File.basename(path)
     File.symlink(path, "#{folder}/#{name}") unless hidden.include?(name) || name.match?(/\A(?:apt|dpkg|id\z)/)
   end
-  Harness.write("#{folder}/id", "#!/bin/sh\necho #{user}\n")
-  Harness.write("#{folder}/apt-get", Outside.apt_get("#{File.dirname(folder)}/asked"))
+  Gate.write("#{folder}/id", "#!/bin/sh\necho #{user}\n")
+  Gate.write("#{folder}/apt-get", Outside.apt_get("#{File.dirname(folder)}/asked"))
   folder
 end
 
@@ -39,26 +39,26 @@ FAULTS = [
 
 def seeded(paths, what, path, text, instead, whom, wrong)
   before = File.read(path)
-  Harness.seed(path, text, instead)
+  Gate.seed(path, text, instead)
   found = Outside.public_send("complaints_of_#{whom}", try('tools/site', paths.fetch(whom)))
-  Harness.refused("seeded: #{what}", [found.join("\n"), found.empty?], /#{wrong}/)
+  Gate.refused("seeded: #{what}", [found.join("\n"), found.empty?], /#{wrong}/)
   File.write(path, before)
 end
 
 Dir.mktmpdir do |folder|
-  Harness.copy("#{folder}/tree")
+  Gate.copy("#{folder}/tree")
   Dir.chdir("#{folder}/tree") do
     hidden = Packages.items.map { |item| item.split(':').first }.reject(&:empty?) + %w[gem npm] - %w[dash]
     paths = { root: 0, user: 1000 }.to_h { |whom, id| [whom, programs("#{folder}/#{whom}", hidden, id)] }
     Outside.scripts.each do |script|
-      Harness.expect("#{script} as root", Outside.complaints_of_root(try(script, paths[:root])), [])
-      Harness.expect("#{script} as another user", Outside.complaints_of_user(try(script, paths[:user])), [])
+      Gate.expect("#{script} as root", Outside.complaints_of_root(try(script, paths[:root])), [])
+      Gate.expect("#{script} as another user", Outside.complaints_of_user(try(script, paths[:user])), [])
     end
     FAULTS.each { |fault| seeded(paths, *fault) }
     FileUtils.rm_rf('build')
-    Harness.refused('no folder for temporary files', Harness.run('env', "TMPDIR=#{folder}/none", 'dash', 'tools/demo'),
-                    %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
-    Harness.expect('and nothing is built', File.exist?('build'), false)
+    Gate.refused('no folder for temporary files', Gate.run('env', "TMPDIR=#{folder}/none", 'dash', 'tools/demo'),
+                 %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
+    Gate.expect('and nothing is built', File.exist?('build'), false)
   end
 end
-Harness.finish
+Gate.finish

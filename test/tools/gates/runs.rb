@@ -4,7 +4,7 @@
 # What all runners below test/ are asked for in the same words, in shell and in Ruby:
 # --list, --help, names, --failed, and the command behind a FAILED line. And what is
 # built: anew where it is made of something else, and only then.
-require_relative 'harness'
+require_relative 'gate'
 require "#{PROJECT}/tools/lib/build/built"
 
 SHELL = <<~TEXT
@@ -70,27 +70,27 @@ LIBRARY = %w[tools/lib/setup.sh tools/lib/test/runs.sh tools/lib/test/named.rb].
 def said(runner, *commands)
   files = LIBRARY.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }.merge('runner' => runner, 'fault' => '')
   commands = commands.map { |command| command.match?(/\A(-|'|\z)/) ? "./runner #{command}" : command }
-  -> { Harness.tree(files) { commands.map { |command| Harness.run('sh', '-c', command) }.last } }
+  -> { Gate.tree(files) { commands.map { |command| Gate.run('sh', '-c', command) }.last } }
 end
 
 { 'by a table' => BY_TABLE, 'in turn' => IN_TURN, 'in Ruby' => RUBY }.each do |how, runner|
-  Harness.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
-  Harness.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
-  Harness.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
-                  /^FAILED two words; again: runner 'two words'$/)
-  Harness.passed("#{how}: one", said(runner, "'good'"))
-  Harness.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
-  Harness.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
-  Harness.refused("#{how}: no such option", said(runner, '--every'), /no such test: --every/)
-  Harness.refused("#{how}: what failed last", said(runner, '', '--failed'), /\A(?!.*ok good)/m, /^FAILED bad;/, /^FAILED two words;/)
-  Harness.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
-  Harness.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
-  Harness.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
-                  /\AFAILED two words;/)
+  Gate.passed("#{how}: names", said(runner, "[ \"$(./runner --list)\" = \"$(printf 'good\\nbad\\ntwo words')\" ]"))
+  Gate.passed("#{how}: help", said(runner, "[ \"$(./runner --help)\" = 'What it does.' ]"))
+  Gate.refused("#{how}: all", said(runner, ''), /^ok good: seen$/, /^FAILED bad; again: runner bad$/, /^    .*why/,
+               /^FAILED two words; again: runner 'two words'$/)
+  Gate.passed("#{how}: one", said(runner, "'good'"))
+  Gate.refused("#{how}: two of three", said(runner, "'two words' good"), /\A(?!.*bad)/m, /^ok good: seen$/, /^FAILED two words;/)
+  Gate.refused("#{how}: no such name", said(runner, "'goo'"), /no such test: goo; see --list/)
+  Gate.refused("#{how}: no such option", said(runner, '--every'), /no such test: --every/)
+  Gate.refused("#{how}: what failed last", said(runner, '', '--failed'), /\A(?!.*ok good)/m, /^FAILED bad;/, /^FAILED two words;/)
+  Gate.refused("#{how}: less of it", said(runner, '', "'bad'", 'rm fault', "'bad'", '>fault', '--failed'), /\AFAILED two words;[^\n]*\n    [^\n]*\n\z/)
+  Gate.said("#{how}: nothing failed", said(runner, '', 'rm fault', '--failed', '--failed'), /\Anothing failed last time\n\z/)
+  Gate.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
+               /\AFAILED two words;/)
 end
-Harness.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
-Harness.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
-Harness.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
+Gate.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
+Gate.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
+Gate.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
 
 # Two programs of three sources and two headers, made by a compiler that is a script, as
 # often as it says in `made`.
@@ -107,7 +107,7 @@ end
 # What is made again after the block.
 def made_again(*options)
   lambda do
-    Harness.tree(SOURCES) do
+    Gate.tree(SOURCES) do
       build
       File.delete('made')
       yield
@@ -126,18 +126,18 @@ def changed(path)
   made_again { File.write(path, "// more\n", mode: 'a') }
 end
 
-Harness.expect('nothing changed', made_again {}, [])
-Harness.expect('another time, the same text', made_again { File.write('src/a.c', SOURCES['src/a.c']) }, [])
-Harness.expect('another source', changed('src/a.c'), %w[one])
-Harness.expect('another header', changed('src/a.h'), %w[one])
-Harness.expect('another header of a header', changed('src/c.h'), %w[one])
-Harness.expect('another header of a folder', changed('inc/deep/b.h'), %w[two])
-Harness.expect('a header that nobody includes', changed('src/d.h'), [])
-Harness.expect('a header that is new', made_again { Harness.write('inc/a.h', "\n") || Harness.write('src/deep/b.h', "\n") }, %w[two])
-Harness.expect('another option', made_again('-DMORE') {}, %w[one])
-Harness.expect('another output', changed('two'), %w[two])
-Harness.expect('an output that is gone', made_again { File.delete('one') }, %w[one])
-Harness.expect('one that could not be made', made_again { Harness.write('src/a.c', 'x') || Harness.write('fault', '') }, %w[one one])
+Gate.expect('nothing changed', made_again {}, [])
+Gate.expect('another time, the same text', made_again { File.write('src/a.c', SOURCES['src/a.c']) }, [])
+Gate.expect('another source', changed('src/a.c'), %w[one])
+Gate.expect('another header', changed('src/a.h'), %w[one])
+Gate.expect('another header of a header', changed('src/c.h'), %w[one])
+Gate.expect('another header of a folder', changed('inc/deep/b.h'), %w[two])
+Gate.expect('a header that nobody includes', changed('src/d.h'), [])
+Gate.expect('a header that is new', made_again { Gate.write('inc/a.h', "\n") || Gate.write('src/deep/b.h', "\n") }, %w[two])
+Gate.expect('another option', made_again('-DMORE') {}, %w[one])
+Gate.expect('another output', changed('two'), %w[two])
+Gate.expect('an output that is gone', made_again { File.delete('one') }, %w[one])
+Gate.expect('one that could not be made', made_again { Gate.write('src/a.c', 'x') || Gate.write('fault', '') }, %w[one one])
 ENV['PATH'] = "bin:#{ENV.fetch('PATH')}"
-Harness.expect('another compiler', changed('bin/cc'), %w[one two])
-Harness.finish
+Gate.expect('another compiler', changed('bin/cc'), %w[one two])
+Gate.finish

@@ -3,7 +3,7 @@
 
 # tools/lib/manifests.rb on a copy of the project with one fault after the other: it
 # must name the manifest that is wrong.
-require_relative '../../tools/gates/harness'
+require_relative '../../tools/gates/gate'
 
 # [file, text, instead, what must be said]; without a text the file is a new one.
 FAULTS = [
@@ -17,6 +17,10 @@ FAULTS = [
    %r{FAILED keywords.txt: \+ fixpid_new KEYWORD2; ruby tools/lib/manifests.rb --update$}, %r{FAILED tools/lib/modules.rb: fixpid_new: no entry}],
   ['src/new/fixpid_new.c', nil, '', %r{fixpid_new: no entry in tools/lib/modules.rb},
    %r{fixpid_new: no include/fixpid_new.h}],
+  ['include/fixpid_slew.h', 'define FIXPID_SLEW_RATE(', 'define FIXPID_SLEW_SPEED(', /FAILED keywords.txt: - FIXPID_SLEW_RATE KEYWORD2$/,
+   /\+ FIXPID_SLEW_SPEED KEYWORD2$/],
+  ['include/fixpid.h', 'write FIXPID_PERIOD_MS(100)', 'divide 1000 by it', /FAILED keywords.txt: - FIXPID_PERIOD_MS KEYWORD2; /],
+  ['include/fixpid_slew.h', 'macro above, and private.', 'macro above.', /FAILED keywords.txt: \+ FIXPID_SLEW_Q16 KEYWORD2; /],
   ['src/fixpid_new.h', nil, '', %r{FAILED src/fixpid_new.h: not in include}],
   ['src/fixpid_pid.h', '../include/', '', %r{FAILED src/fixpid_pid.h}],
   ['library.properties', 'fixpid_autotune.h', 'fixpid_tuner.h', /FAILED library.properties: - includes=.*fixpid_tuner.h/],
@@ -70,7 +74,7 @@ def seeded(path, text, instead)
   before = File.read(path) if text
   after = text ? before.sub(text) { instead } : instead
   after == before and abort "FAILED nothing to plant in #{path}: #{text}"
-  Harness.write(path, after)
+  Gate.write(path, after)
   yield
 ensure
   text ? File.write(path, before) : FileUtils.rm(path)
@@ -86,28 +90,28 @@ end
 
 # What is said of a manifest that differs in everything: a few lines of a few words.
 def readable
-  output, = seeded('keywords.txt', /.+/m, "nothing\n") { Harness.run('ruby', 'tools/lib/manifests.rb') }
+  output, = seeded('keywords.txt', /.+/m, "nothing\n") { Gate.run('ruby', 'tools/lib/manifests.rb') }
   said = output[/^FAILED keywords.*?(?=^ok|^FAILED|\z)/m].lines(chomp: true)
-  Harness.expect('a difference is at most 12 lines', said.size <= 12, true)
-  Harness.expect('of 130 characters', said.map(&:size).max <= 130, true)
-  Harness.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
-  Harness.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
+  Gate.expect('a difference is at most 12 lines', said.size <= 12, true)
+  Gate.expect('of 130 characters', said.map(&:size).max <= 130, true)
+  Gate.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
+  Gate.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
 end
 
 Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
   copy(folder)
   Dir.chdir(folder) do
-    Harness.passed('the manifests as they are', Harness.run('ruby', 'tools/lib/manifests.rb'))
+    Gate.passed('the manifests as they are', Gate.run('ruby', 'tools/lib/manifests.rb'))
     FAULTS.each do |path, text, instead, *said|
       seeded(path, text, instead) do
-        Harness.refused("#{path} with #{instead.inspect}", Harness.run('ruby', 'tools/lib/manifests.rb'), *said)
+        Gate.refused("#{path} with #{instead.inspect}", Gate.run('ruby', 'tools/lib/manifests.rb'), *said)
       end
     end
     MANIFESTS.each do |path|
-      gone(path) { Harness.refused("#{path} gone", Harness.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
+      gone(path) { Gate.refused("#{path} gone", Gate.run('ruby', 'tools/lib/manifests.rb'), /FAILED #{path}: it is gone/) }
     end
     readable
   end
 end
-Harness.finish
+Gate.finish

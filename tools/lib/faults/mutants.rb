@@ -87,7 +87,7 @@ end
 def build_objects
   FileUtils.mkdir_p('build/test')
   File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
-             ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
+             ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - UNITY_USE_FLUSH_STDOUT\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
   system('ceedling', '--mixin=build/test/mutants.yml', 'test:all', out: File::NULL, err: File::NULL) or
     abort 'FAILED the unit tests do not pass before anything is broken'
 end
@@ -123,19 +123,34 @@ def build(run, tree)
   nil
 end
 
-# What a test program does: the names of the tests that fail, a symbol for
-# another end, or nil.
-def run_test(program)
-  output, status = Open3.capture2e(program, rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1])
-  return output.scan(/^[^:\n]+:\d+:(\w+):FAIL/).flatten if output =~ /:FAIL/
+# What a test program does: the names of the tests that fail, of all or only of the
+# first, after which it is stopped; a symbol for another end, or nil.
+def run_test(program, all: false)
+  failed = []
+  output = +''
+  status = Open3.popen2e(program, rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1]) do |_, printed, process|
+    printed.each_line do |line|
+      output << line
+      failed << line[/^[^:\n]+:\d+:(\w+):FAIL/, 1] if line.include?(':FAIL')
+      break stop(process) if failed.any? && !all
+    end
+    process.value
+  end
+  return failed.compact if failed.any?
   return :endless if status.termsig == Signal.list['XCPU']
 
   output =~ /^OK$/ ? nil : :crashed
 end
 
-def notice_in(run, tree)
+def stop(process)
+  Process.kill(:KILL, process.pid)
+rescue Errno::ESRCH
+  nil # it has just ended
+end
+
+def notice_in(run, tree, all: false)
   program = build(run, tree) or return :refused
-  run_test(program)
+  run_test(program, all: all)
 end
 
 # Yields with the text in place of the file.
@@ -215,7 +230,7 @@ def noticed_by_name?(fault, tree)
   program = Dir['test/unit/*.c'].find { |path| File.read(path).include?("void #{test}(") } or
     abort "FAILED #{Faults::FILE}: no #{test}"
   run = whole_run_of(File.basename(program, '.c'))
-  caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree) }
+  caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree, all: true) }
   good = caught.is_a?(Array) && caught.include?(test)
   puts "#{good ? 'ok' : 'FAILED'} #{test} notices #{fault}#{": #{caught.inspect}" unless good}"
   good

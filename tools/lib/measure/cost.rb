@@ -117,7 +117,7 @@ class Cost
   end
 
   def limits
-    @limits ||= Limits.modules(called) + Limits.all(measured, plain_c, "#{Host.root}/docs/chips.md")
+    @limits ||= Limits.modules(called) + Limits.all(measured, plain_c)
   end
 
   def all_parts

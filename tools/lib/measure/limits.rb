@@ -2,24 +2,8 @@
 # frozen_string_literal: true
 
 require_relative '../modules'
+require_relative 'limit'
 require_relative 'tables'
-
-# A figure that must not grow beyond a number, whatever the tables say.
-Limit = Struct.new(:what, :most, :now, :unit) do
-  def kept?
-    !now.nil? && now <= most
-  end
-
-  def exceeded
-    "#{shown(now)}, at most #{shown(most)} allowed"
-  end
-
-  def shown(value)
-    return '-' if value.nil?
-
-    "#{value.is_a?(Float) ? format('%.2f', value) : value} #{unit}".strip
-  end
-end
 
 # The promises.
 module Limits
@@ -92,15 +76,6 @@ module Limits
     places.map { |place, figures| [function, *place.split, figures] }
   end.freeze
 
-  # Of docs/chips.md, where test/chips/target/run keeps them.
-  FIRMWARE = {
-    ['pendulum, PIC16F684', 'interrupt'] => [40, 'cycles'],
-    ['pendulum, PIC16F684', 'flash'] => [930, 'words'],
-    ['pendulum, PIC16F684', 'RAM, bytes'] => [72, 'bytes'],
-    ['pendulum, PIC16F684', 'stack used'] => [4, 'levels'],
-    ['motor, PIC18F4520', 'interrupt'] => [18, 'cycles']
-  }.freeze
-
   WORDS = { most: 'worst', bound: 'bound', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
             ram: 'RAM in all' }.freeze
 
@@ -120,8 +95,8 @@ module Limits
       end
     end
 
-    def all(measured, plain_c, chips_document)
-      steps(measured) + bounds(measured) + ratios(measured, plain_c) + firmware(chips_document)
+    def all(measured, plain_c)
+      steps(measured) + bounds(measured) + ratios(measured, plain_c)
     end
 
     # Of the worst found; the largest is in the table of limits. What plain
@@ -131,16 +106,6 @@ module Limits
       subject, figures = measured.reject { |one, _| one.controller.questions == 'PLAIN' || one.chip.name == 'attiny85' }
                                  .max_by { |_, one| one.bound.fdiv(one.most) }
       [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
-    end
-
-    # Of the table of the examples as firmware.
-    def firmware(document)
-      table = File.read(document).lines.grep(/^\|/).map { |line| line.strip.split('|').drop(1).map(&:strip) }
-      FIRMWARE.map do |(name, column), (most, unit)|
-        head = table.find { |row| row.include?('pass with a tick') }
-        row = head && table.find { |one| one.first == name }
-        Limit.new("#{name}, #{column.sub(', bytes', '')}", most, row && number(row[head.index(column) || row.size]), unit)
-      end
     end
 
     private
@@ -164,11 +129,6 @@ module Limits
         Limit.new("#{subject}, by the straightforward form", RATIOS.fetch(subject.chip.title),
                   measured.fetch(subject).most.fdiv(most).round(2))
       end
-    end
-
-    # The first of a cell, as in "4 of 8"; nil, which keeps no limit, of "-".
-    def number(cell)
-      cell && cell[/\A\d+/]&.to_i
     end
   end
 end

@@ -222,7 +222,7 @@ class PicMeter < Meter
   def together(*sources)
     return sources unless words?
 
-    one = "#{@path.tr('-', '_')}_#{sources.size}.c"
+    one = "#{File.dirname(@path)}/#{File.basename(@path).tr('-', '_')}_#{sources.size}.c"
     File.write(one, sources.map { |source| "#include \"#{source}\"\n" }.join)
     [one]
   end

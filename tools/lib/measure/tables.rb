@@ -73,7 +73,7 @@ module Tables
     end
 
     def limits(limits)
-      [['', 'at most', 'now']] + limits.map { |limit| [limit.what, limit.shown(limit.most), limit.shown(limit.now)] }
+      [['', 'at most', 'now']] + limits.map(&:cells)
     end
 
     def readme(measured)

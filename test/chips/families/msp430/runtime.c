@@ -3,44 +3,45 @@
 // without a multiplier, in the least C. Costs of what calls them depend on it.
 #include <stdint.h>
 
-uint32_t __mspabi_mpyl(uint32_t a, uint32_t b);
-uint16_t __mspabi_mpyi(uint16_t a, uint16_t b);
 uint32_t __mspabi_divul(uint32_t dividend, uint32_t divisor);
 int32_t __mspabi_divli(int32_t dividend, int32_t divisor);
-uint32_t __mspabi_srll(uint32_t x, uint16_t n);
-int32_t __mspabi_sral(int32_t x, uint16_t n);
-uint32_t __mspabi_slll(uint32_t x, uint16_t n);
-uint16_t __mspabi_srli(uint16_t x, uint16_t n);
-int16_t __mspabi_srai(int16_t x, uint16_t n);
-uint16_t __mspabi_slli(uint16_t x, uint16_t n);
 void *memset(void *to, int value, unsigned size);
 void *memcpy(void *to, const void *from, unsigned size);
 
-uint32_t __mspabi_mpyl(uint32_t a, uint32_t b)
-{
-    uint32_t product = 0;
-
-    for (; b != 0u; b >>= 1) {
-        if ((b & 1u) != 0u) {
-            product += a;
-        }
-        a <<= 1;
+#define PRODUCT(name, type)                                                    \
+    type name(type a, type b);                                                 \
+    type name(type a, type b)                                                  \
+    {                                                                          \
+        type product = 0;                                                      \
+                                                                               \
+        for (; b != 0u; b >>= 1) {                                             \
+            if ((b & 1u) != 0u) {                                              \
+                product += a;                                                  \
+            }                                                                  \
+            a <<= 1;                                                           \
+        }                                                                      \
+        return product;                                                        \
     }
-    return product;
-}
 
-uint16_t __mspabi_mpyi(uint16_t a, uint16_t b)
-{
-    uint16_t product = 0;
+PRODUCT(__mspabi_mpyl, uint32_t)
+PRODUCT(__mspabi_mpyi, uint16_t)
 
-    for (; b != 0u; b >>= 1) {
-        if ((b & 1u) != 0u) {
-            product += a;
-        }
-        a <<= 1;
+#define SHIFT(name, type, by_one)                                              \
+    type name(type x, uint16_t n);                                             \
+    type name(type x, uint16_t n)                                              \
+    {                                                                          \
+        while (n-- != 0u) {                                                    \
+            x = (type)(x by_one 1);                                            \
+        }                                                                      \
+        return x;                                                              \
     }
-    return product;
-}
+
+SHIFT(__mspabi_srll, uint32_t, >>)
+SHIFT(__mspabi_sral, int32_t, >>)
+SHIFT(__mspabi_slll, uint32_t, <<)
+SHIFT(__mspabi_srli, uint16_t, >>)
+SHIFT(__mspabi_srai, int16_t, >>)
+SHIFT(__mspabi_slli, uint16_t, <<)
 
 uint32_t __mspabi_divul(uint32_t dividend, uint32_t divisor)
 {
@@ -69,54 +70,6 @@ int32_t __mspabi_divli(int32_t dividend, int32_t divisor)
 
     return (int32_t)(((dividend < 0) != (divisor < 0)) ? 0u - quotient
                                                        : quotient);
-}
-
-uint32_t __mspabi_srll(uint32_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x >>= 1;
-    }
-    return x;
-}
-
-int32_t __mspabi_sral(int32_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x >>= 1;
-    }
-    return x;
-}
-
-uint32_t __mspabi_slll(uint32_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x <<= 1;
-    }
-    return x;
-}
-
-uint16_t __mspabi_srli(uint16_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x >>= 1;
-    }
-    return x;
-}
-
-int16_t __mspabi_srai(int16_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x >>= 1;
-    }
-    return x;
-}
-
-uint16_t __mspabi_slli(uint16_t x, uint16_t n)
-{
-    while (n-- != 0u) {
-        x = (uint16_t)(x << 1);
-    }
-    return x;
 }
 
 void *memset(void *to, int value, unsigned size)

@@ -7,6 +7,7 @@
 //   simulator                 the cases, by name
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -470,7 +471,25 @@ void timer1_is_right(Chip &chip)
 
 // ---- The cases ----
 
-using Body = void (*)(Chip &);
+using Body = std::function<void(Chip &)>;
+
+Body caught(unsigned number, const char *said)
+{
+    return [=](Chip &chip) { is_caught(chip, number, said); };
+}
+
+Body endless(unsigned number)
+{
+    return [=](Chip &chip) { runs_for_ever(chip, number); };
+}
+
+Body duty(void (*idle)(Chip &), const Pwm &pwm, unsigned counts)
+{
+    return [=](Chip &chip) {
+        idle(chip);
+        small_duties_stop_timer2(chip, pwm, counts);
+    };
+}
 
 struct Case {
     const char *name;
@@ -485,67 +504,35 @@ const Case cases[] = {
     {"memory_14", "defects14", memory_is_poisoned},
     {"memory_18", "defects18", memory_is_poisoned},
     {"use", "defects14", wrong_use_is_refused},
-    {"overflow_14", "defects14",
-     [](Chip &c) { is_caught(c, 0, "return stack overflow"); }},
-    {"underflow_14", "defects14",
-     [](Chip &c) { is_caught(c, 1, "return stack underflow"); }},
-    {"outside_14", "defects14",
-     [](Chip &c) { is_caught(c, 2, "access outside the chip's RAM"); }},
+    {"overflow_14", "defects14", caught(0, "return stack overflow")},
+    {"underflow_14", "defects14", caught(1, "return stack underflow")},
+    {"outside_14", "defects14", caught(2, "access outside the chip's RAM")},
     {"outside_read_14", "defects14",
-     [](Chip &c) { is_caught(c, 3, "access outside the chip's RAM"); }},
-    {"erased_14", "defects14",
-     [](Chip &c) { is_caught(c, 4, "ran into erased flash at 00600"); }},
-    {"watchdog_14", "defects14",
-     [](Chip &c) { is_caught(c, 5, "watchdog reset"); }},
-    {"restart_14", "defects14",
-     [](Chip &c) { is_caught(c, 6, "restarted at the reset vector"); }},
-    {"endless_14", "defects14", [](Chip &c) { runs_for_ever(c, 7); }},
+     caught(3, "access outside the chip's RAM")},
+    {"erased_14", "defects14", caught(4, "ran into erased flash at 00600")},
+    {"watchdog_14", "defects14", caught(5, "watchdog reset")},
+    {"restart_14", "defects14", caught(6, "restarted at the reset vector")},
+    {"endless_14", "defects14", endless(7)},
     {"overflow_14e", "cycles14e",
-     [](Chip &c) {
-         is_caught(c, 1, "return stack overflow: more than 16 levels");
-     }},
-    {"underflow_14e", "cycles14e",
-     [](Chip &c) { is_caught(c, 2, "return stack underflow"); }},
-    {"overflow_18", "defects18",
-     [](Chip &c) { is_caught(c, 0, "return stack overflow"); }},
-    {"underflow_18", "defects18",
-     [](Chip &c) { is_caught(c, 1, "return stack underflow"); }},
-    {"outside_18", "defects18",
-     [](Chip &c) { is_caught(c, 2, "access outside the chip's RAM"); }},
+     caught(1, "return stack overflow: more than 16 levels")},
+    {"underflow_14e", "cycles14e", caught(2, "return stack underflow")},
+    {"overflow_18", "defects18", caught(0, "return stack overflow")},
+    {"underflow_18", "defects18", caught(1, "return stack underflow")},
+    {"outside_18", "defects18", caught(2, "access outside the chip's RAM")},
     {"outside_read_18", "defects18",
-     [](Chip &c) { is_caught(c, 3, "access outside the chip's RAM"); }},
-    {"erased_18", "defects18",
-     [](Chip &c) { is_caught(c, 4, "ran into erased flash at 06000"); }},
-    {"watchdog_18", "defects18",
-     [](Chip &c) { is_caught(c, 5, "watchdog reset"); }},
-    {"restart_18", "defects18",
-     [](Chip &c) { is_caught(c, 6, "restarted at the reset vector"); }},
-    {"reset_18", "defects18",
-     [](Chip &c) { is_caught(c, 7, "reset by a RESET"); }},
-    {"endless_18", "defects18", [](Chip &c) { runs_for_ever(c, 9); }},
+     caught(3, "access outside the chip's RAM")},
+    {"erased_18", "defects18", caught(4, "ran into erased flash at 06000")},
+    {"watchdog_18", "defects18", caught(5, "watchdog reset")},
+    {"restart_18", "defects18", caught(6, "restarted at the reset vector")},
+    {"reset_18", "defects18", caught(7, "reset by a RESET")},
+    {"endless_18", "defects18", endless(9)},
     {"converter_14", "defects14", converter_is_known_14},
     {"converter_18", "defects18", converter_is_known_18},
     {"bridge_14", "defects14", bridge_is_known},
-    {"duty_0_14", "defects14",
-     [](Chip &c) {
-         idle_14(c);
-         small_duties_stop_timer2(c, pwm_14, 0);
-     }},
-    {"duty_1_14", "defects14",
-     [](Chip &c) {
-         idle_14(c);
-         small_duties_stop_timer2(c, pwm_14, 1);
-     }},
-    {"duty_3_14", "defects14",
-     [](Chip &c) {
-         idle_14(c);
-         small_duties_stop_timer2(c, pwm_14, 3);
-     }},
-    {"duty_1_18", "defects18",
-     [](Chip &c) {
-         idle_18(c);
-         small_duties_stop_timer2(c, pwm_18, 1);
-     }},
+    {"duty_0_14", "defects14", duty(idle_14, pwm_14, 0)},
+    {"duty_1_14", "defects14", duty(idle_14, pwm_14, 1)},
+    {"duty_3_14", "defects14", duty(idle_14, pwm_14, 3)},
+    {"duty_1_18", "defects18", duty([](Chip &c) { idle_18(c); }, pwm_18, 1)},
     {"interrupts_18", "defects18", converter_interrupts},
     {"alu_18", "defects18", alu_is_known},
     {"compare_18", "defects18", compare_is_spoiled},

@@ -9,11 +9,7 @@
 //   stack of fixpid_x_step 12
 //
 // in cycles, and in bytes with the return address and interrupts.
-#include <stdio.h>
-#include <stdlib.h>
-
-#include <simavr/sim_avr.h>
-#include <simavr/sim_elf.h>
+#include "chip.h"
 
 #define FUNCTIONS 2
 #define CYCLES_MAX UINT64_C(4000000000) // far more than any program takes
@@ -25,42 +21,10 @@ struct function {
     unsigned stack;
 };
 
-static avr_t *chip;
-
-static void die(const char *why)
-{
-    (void)fprintf(stderr, "calls: %s\n", why);
-    exit(2);
-}
-
-static unsigned stack_pointer(void)
-{
-    return chip->data[R_SPL] | ((unsigned)chip->data[R_SPH] << 8);
-}
-
-static void run_one(void)
-{
-    const int state = avr_run(chip);
-
-    if (state == cpu_Done || state == cpu_Crashed || state == cpu_Sleeping) {
-        die("the firmware has ended");
-    }
-}
-
-// From the function's first instruction until it has returned.
 static void meter(struct function *function)
 {
-    const avr_cycle_count_t start = chip->cycle;
-    const unsigned called = stack_pointer() + 2u;
-    unsigned long cost;
+    const unsigned long cost = run_function(&function->stack);
 
-    while (stack_pointer() < called) {
-        if (called - stack_pointer() > function->stack) {
-            function->stack = called - stack_pointer();
-        }
-        run_one();
-    }
-    cost = (unsigned long)(chip->cycle - start);
     if (function->calls == 0u || cost < function->least) {
         function->least = cost;
     }
@@ -69,23 +33,6 @@ static void meter(struct function *function)
     }
     function->calls++;
     function->total += cost;
-}
-
-static void load(const char *path, const char *mcu)
-{
-    static elf_firmware_t firmware;
-
-    if (elf_read_firmware(path, &firmware) != 0) {
-        die("no firmware");
-    }
-    chip = avr_make_mcu_by_name(mcu);
-    if (chip == NULL) {
-        die("no such chip in simavr");
-    }
-    chip->log = 0;
-    (void)avr_init(chip);
-    chip->frequency = 16000000;
-    avr_load_firmware(chip, &firmware);
 }
 
 // Runs on until the function that comes next has returned.

@@ -11,56 +11,16 @@
 //   stack 12
 //
 // bytes that a call takes: the return address and all that is pushed.
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <simavr/sim_avr.h>
-#include <simavr/sim_elf.h>
-
+#include "chip.h"
 #include "search.h"
 
 #define TURN_CYCLES_MAX 200000u // far more than any takes
 
-static avr_t *chip;
 static const struct controller *controller;
 static unsigned main_address, step_address, turn, exchange;
 static unsigned stack_most;
-
-static void die(const char *why)
-{
-    (void)fprintf(stderr, "meter: %s\n", why);
-    exit(2);
-}
-
-static unsigned stack_pointer(void)
-{
-    return chip->data[R_SPL] | ((unsigned)chip->data[R_SPH] << 8);
-}
-
-static void run_one(void)
-{
-    const int state = avr_run(chip);
-
-    if (state == cpu_Done || state == cpu_Crashed || state == cpu_Sleeping) {
-        die("the firmware has ended");
-    }
-}
-
-// From the first instruction of the step until it has returned.
-static uint32_t meter_step(void)
-{
-    const avr_cycle_count_t start = chip->cycle;
-    const unsigned called = stack_pointer() + 2u;
-
-    while (stack_pointer() < called) {
-        if (called - stack_pointer() > stack_most) {
-            stack_most = called - stack_pointer();
-        }
-        run_one();
-    }
-    return (uint32_t)(chip->cycle - start);
-}
 
 // Until the firmware waits for a question.
 static uint32_t run_turn(void)
@@ -71,7 +31,7 @@ static uint32_t run_turn(void)
     chip->data[turn] = 1;
     while (chip->data[turn] != 0u) {
         if (chip->pc == step_address) {
-            cost = meter_step();
+            cost = (uint32_t)run_function(&stack_most);
         } else {
             run_one();
         }
@@ -95,23 +55,6 @@ static uint32_t step(const union question *question, union answer *answer)
 static unsigned number(const char *text, int base)
 {
     return (unsigned)strtoul(text, NULL, base);
-}
-
-static void load(const char *path, const char *mcu)
-{
-    static elf_firmware_t firmware;
-
-    if (elf_read_firmware(path, &firmware) != 0) {
-        die("no firmware");
-    }
-    chip = avr_make_mcu_by_name(mcu);
-    if (chip == NULL) {
-        die("no such chip in simavr");
-    }
-    chip->log = 0;
-    (void)avr_init(chip);
-    chip->frequency = 16000000;
-    avr_load_firmware(chip, &firmware);
 }
 
 int main(int argc, char *argv[])

@@ -3,7 +3,8 @@
 
 # For the tests of the tools that judge: a small tree of files in which one of them
 # runs, and `ok` or `FAILED` for each case. A result that is a Proc is of a case that
-# runs only when it is asked for: see `ruby test/tools/gates/parts.rb --list`.
+# runs only when it is asked for: see `ruby test/tools/gates/parts.rb --list`. The tests
+# of tools/cost and tools/demo have their cases and their words from here, too.
 require 'fileutils'
 require 'open3'
 require 'tmpdir'
@@ -11,7 +12,7 @@ require 'tmpdir'
 PROJECT = File.expand_path('../../..', __dir__)
 require "#{PROJECT}/tools/lib/test/named"
 
-module Harness
+module Gate
   @tests = NamedTests.new(File.expand_path($PROGRAM_NAME).delete_prefix("#{PROJECT}/"), 1)
 
   class << self
@@ -65,8 +66,9 @@ module Harness
       judge(what, result) { |output, success| output unless success }
     end
 
+    # What is wanted is a value, a range, or a pattern of a text.
     def expect(what, found, wanted)
-      judge(what, found.is_a?(Proc) ? -> { [found.call] } : [found]) { |one| "#{one.inspect}, not #{wanted.inspect}" unless one == wanted }
+      judge(what, found.is_a?(Proc) ? -> { [found.call] } : [found]) { |one| "#{one.inspect}, not #{wanted.inspect}" unless wanted === one }
     end
 
     def finish
