@@ -105,14 +105,32 @@ static union fixpid_an937_number number_of(int32_t x)
     return number;
 }
 
+// A term by itself, and as a step adds it to the largest sum of two.
 static void terms(void)
 {
+    const int32_t most = 2 * 255 * 65535;
+
     for (int32_t x = -65535; x <= 65535; x++) {
         const union fixpid_an937_number number = number_of(x);
 
         for (int32_t gain = 0; gain < 256; gain++) {
             same("number_term", gain, x,
                  fixpid_number_term((uint8_t)gain, &number), gain * x);
+            same("sum_with_term", gain, x,
+                 fixpid_sum_with_term(most, (uint8_t)gain, &number),
+                 most + gain * x);
+        }
+    }
+}
+
+static void error_terms(void)
+{
+    for (int32_t error = -32768; error < 32768; error++) {
+        const union fixpid_an937_number number = number_of(error);
+
+        for (int32_t gain = 0; gain < 256; gain++) {
+            same("error_term", gain, error,
+                 fixpid_error_term((uint8_t)gain, &number), gain * error);
         }
     }
 }
@@ -145,6 +163,7 @@ int main(void)
     bytes_times_bytes();
     bytes_times_words();
     terms();
+    error_terms();
     products();
     differences();
     printf("%" PRIu64 " cases\n", cases);
