@@ -70,24 +70,24 @@ static void bytes_times_words(void)
         for (uint32_t k = 0; k < 256u; k++) {
             for (uint32_t limit = k; limit < 256u; limit += 15u) {
                 same("10x8_div32", x, k,
-                     fixpid_10x8_div32((uint8_t)k, (uint16_t)x, 0,
+                     fixpid_10x8_div32((uint16_t)x, (uint8_t)k, 0,
                                        (uint8_t)limit),
                      at_most(limit, x * k / 32u));
                 same("10x8_div32 up", x, k,
-                     fixpid_10x8_div32((uint8_t)k, (uint16_t)x, 0xFF,
+                     fixpid_10x8_div32((uint16_t)x, (uint8_t)k, 0xFF,
                                        (uint8_t)limit),
                      at_most(limit, (x * k + 31u) / 32u));
             }
         }
         for (uint32_t k = 0; k < 128u; k++) {
-            same("10x7_div16", x, k, fixpid_10x7_div16((uint8_t)k, (uint16_t)x),
+            same("10x7_div16", x, k, fixpid_10x7_div16((uint16_t)x, (uint8_t)k),
                  x * k / 16u);
         }
     }
     for (uint32_t x = 0; x < 16384u; x++) {
         for (uint32_t k = 0; k < 1024u; k++) {
-            same("14x10_div1024", x, k,
-                 fixpid_14x10_div1024((uint16_t)x, (uint16_t)k), x * k / 1024u);
+            same("10x14_div1024", k, x,
+                 fixpid_10x14_div1024((uint16_t)k, (uint16_t)x), x * k / 1024u);
         }
     }
 }
