@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The signed numbers of fixpid_an937, of 17 bits, and their products. A number
-// is in two's complement, or, where words are bytes, in sign-magnitude: union
-// fixpid_an937_number has room for both, and all sources of one program use the
-// same.
+// The signed numbers of fixpid_an937, of 17 bits, and Equation 4 with their
+// products. A number is in two's complement, or, where words are bytes, in
+// sign-magnitude: union fixpid_an937_number has room for both, and all sources
+// of one program use the same.
 #ifndef FIXPID_AN937_ARITH_H
 #define FIXPID_AN937_ARITH_H
 #include <stdint.h>
 
 #include "../common/fixpid_bits.h"
 #include "fixpid_an937.h"
-#if defined(__riscv)
-#include "../common/fixpid_shift_add.h" // for one without a multiplier
-#endif
 
 // A step stores this bit in step_flags, besides the public ones, if the sum was
 // below 0 before the division.
@@ -20,12 +17,9 @@
 // An error in offset binary, which compares without a sign: error + 32768.
 #define FIXPID_OFFSET_BINARY(error) ((uint16_t)((uint16_t)(error) ^ 0x8000u))
 
-#if defined(__SDCC_pic16)
-#include "fixpid_an937_pic18.h"
-// An AVR and a RISC-V are faster in two's complement, for all that.
-#elif (FIXPID_MULTIPLIER_BITS < 16) && !defined(__AVR__) && !defined(__riscv)
-#include "fixpid_an937_narrow.h"
-#else
+// In two's complement, in which an AVR and a RISC-V are faster, whatever their
+// multiplier.
+#if (FIXPID_MULTIPLIER_BITS >= 16) || defined(__AVR__) || defined(__riscv)
 
 FIXPID_INLINE void fixpid_number_set(
     FIXPID_DATA union fixpid_an937_number *number, int16_t value)
@@ -69,14 +63,7 @@ FIXPID_INLINE void fixpid_number_add(
     number->value = sum;
 }
 
-// post: |gain * number| <= 255 * 65535 < 2^24
-#if defined(__riscv) && (FIXPID_MULTIPLIER_BITS == 0)
-FIXPID_INLINE int32_t fixpid_number_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
-{
-    return fixpid_product_in_turns(gain, number->value, 8);
-}
-#else
+// gain * number. post: within 255 * 65535 < 2^24
 FIXPID_INLINE int32_t fixpid_number_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
@@ -85,15 +72,11 @@ FIXPID_INLINE int32_t fixpid_number_term(
     // Deviation 10.8: a pattern of two's complement
     return (int32_t)((uint32_t)number->value * gain);
 }
-#endif
 
 #endif
 
-#if !defined(fixpid_an937_output)
-
-#if defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
-#include "fixpid_an937_avr.h" // Deviation 20.1: it builds on the above
-#else
+#if (FIXPID_MULTIPLIER_BITS >= 16) ||                                          \
+    (defined(__AVR__) && !defined(__AVR_HAVE_MUL__))
 
 // sum + gain * number. pre: the result is within +-2^26
 FIXPID_INLINE int32_t
@@ -103,21 +86,12 @@ fixpid_sum_with_term(int32_t sum, uint8_t gain,
     return fixpid_add32(sum, fixpid_number_term(gain, number));
 }
 
-// gain * error, of which a step has just set the 16 bits: an AVR with a
-// multiplier has a faster product for those.
-#if defined(__AVR_HAVE_MUL__)
-FIXPID_INLINE int32_t fixpid_error_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
-{
-    return (int32_t)gain * (int16_t)error->value;
-}
-#else
+// gain * error
 FIXPID_INLINE int32_t fixpid_error_term(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
 {
     return fixpid_number_term(gain, error);
 }
-#endif
 
 // floor(x / 16). pre: x < 2^24
 FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
@@ -125,7 +99,20 @@ FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
     return x >> 4;
 }
 
+// The other forms of what Equation 4 needs.
+#elif defined(__SDCC_pic16)
+#include "fixpid_an937_pic18.h"
+#elif defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_an937_avr.h"
+#elif defined(__AVR__)
+#include "fixpid_an937_words_avr.h"
+#elif defined(__riscv)
+#include "fixpid_an937_turns.h"
+#else
+#include "fixpid_an937_narrow.h"
 #endif
+
+#if !defined(__SDCC_pic16) // whose header has an Equation 4 of its own
 
 #define FIXPID_AN937_SUM_MAX UINT32_C(0xFFFFFF) // 24 bits
 

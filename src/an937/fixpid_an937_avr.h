@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// fixpid_sum_with_term, fixpid_error_term and fixpid_sixteenth of
-// fixpid_an937_arith.h for an AVR with a multiplier: 8 x 8 products, and
-// nibbles that change places.
+// The products of fixpid_an937_arith.h for an AVR with a multiplier: 8 x 8
+// products, and nibbles that change places.
 //
 // gcc keeps r1 at 0 and does not mind r0. `andi` wants the upper registers.
 #ifndef FIXPID_AN937_AVR_H

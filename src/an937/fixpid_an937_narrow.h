@@ -88,4 +88,25 @@ FIXPID_INLINE int32_t fixpid_number_term(
     return ((number->parts.negative & 1u) != 0u) ? -product : product;
 }
 
+// sum + gain * number. pre: the result is within +-2^26
+FIXPID_INLINE int32_t
+fixpid_sum_with_term(int32_t sum, uint8_t gain,
+                     FIXPID_DATA const union fixpid_an937_number *number)
+{
+    return fixpid_add32(sum, fixpid_number_term(gain, number));
+}
+
+// gain * error
+FIXPID_INLINE int32_t fixpid_error_term(
+    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
+{
+    return fixpid_number_term(gain, error);
+}
+
+// floor(x / 16). pre: x < 2^24
+FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
+{
+    return x >> 4;
+}
+
 #endif

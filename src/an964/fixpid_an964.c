@@ -103,7 +103,7 @@ FIXPID_INLINE uint16_t integral_term(FIXPID_DATA struct fixpid_an964 *self,
         SELF.sum = sum;
     }
     // |sum| / 256 <= 117 < 2^7, so |I| <= 117 * 1023 / 16 = 7480
-    integral = fixpid_10x7_div16((uint8_t)(sum >> 8), SELF.gains.ki);
+    integral = fixpid_10x7_div16(SELF.gains.ki, (uint8_t)(sum >> 8));
     // Bit 0 alone, because SDCC tests a single bit best.
     if ((negative & 1u) != 0u) {
         integral = fixpid_negated(integral);
@@ -128,7 +128,7 @@ FIXPID_INLINE uint16_t derivative_term(FIXPID_DATA struct fixpid_an964 *self,
     if (change > AN964_TERM_LIMIT) {
         change = AN964_TERM_LIMIT;
     }
-    derivative = fixpid_10x8_div32((uint8_t)change, SELF.gains.kd, negative,
+    derivative = fixpid_10x8_div32(SELF.gains.kd, (uint8_t)change, negative,
                                    AN964_TERM_LIMIT);
     if ((negative & 1u) != 0u) {
         derivative = fixpid_negated(derivative);
@@ -167,7 +167,7 @@ int16_t fixpid_an964_step(FIXPID_DATA struct fixpid_an964 *self, int16_t error)
         sum_of_terms = fixpid_negated(sum_of_terms);
         negative = 1;
     }
-    output = fixpid_14x10_div1024(sum_of_terms, SELF.gains.kp);
+    output = fixpid_10x14_div1024(SELF.gains.kp, sum_of_terms);
     if (output > AN964_OUTPUT_LIMIT) {
         output = AN964_OUTPUT_LIMIT;
         SELF.output_limited = FIXPID_AN964_OUTPUT_LIMITED;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_arith.h for an AVR with a multiplier, from 8 x 8
-// bits. In the first two x moves left, so that the division ends between bytes:
-// the quotient is the upper ones, and the lowest is never stored.
+// bits. In the first two the gain moves left, so that the division ends between
+// bytes: the quotient is the upper ones, and the lowest is never stored.
 //
 // gcc keeps r1 at 0 and does not mind r0. `andi` wants the upper registers.
 #ifndef FIXPID_AN964_AVR_H
 #define FIXPID_AN964_AVR_H
 #include <stdint.h>
 
-// floor(16 x * k / 256), 13 cycles. pre: x < 2^10, k < 2^7; post: at most 8120
-FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
+// floor(16 gain * magnitude / 256), 13 cycles.
+// pre: gain < 2^10, magnitude < 2^7; post: at most 8120
+FIXPID_INLINE uint16_t fixpid_10x7_div16(uint16_t gain, uint8_t magnitude)
 {
     uint16_t quotient;
 
@@ -24,14 +25,15 @@ FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
             "add %A0, r1\n\t"
             "clr r1\n\t"
             "adc %B0, r1"
-            : "=&r"(quotient), "+&d"(x)
-            : "r"(k));
+            : "=&r"(quotient), "+&d"(gain)
+            : "r"(magnitude));
     return quotient;
 }
 
-// 8 x * k / 256, rounded down or up, 15 cycles without the limit. The lowest
-// byte is a multiple of 8: 0xFF carries where 31 * 8 would. pre: x < 2^10
-FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
+// 8 gain * magnitude / 256, rounded down or up, 15 cycles without the limit.
+// The lowest byte is a multiple of 8: 0xFF carries where 31 * 8 would. pre:
+// gain < 2^10
+FIXPID_INLINE uint16_t fixpid_10x8_div32(uint16_t gain, uint8_t magnitude,
                                          uint8_t round_up, uint8_t limit)
 {
     uint16_t quotient;
@@ -49,14 +51,14 @@ FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
             "adc %A0, r1\n\t"
             "clr r1\n\t"
             "adc %B0, r1"
-            : "=&r"(quotient), "+&r"(x)
-            : "r"(k), "r"(round_up));
+            : "=&r"(quotient), "+&r"(gain)
+            : "r"(magnitude), "r"(round_up));
     return (quotient > limit) ? limit : quotient;
 }
 
-// floor(x * k / 256) in 16 bits, and by 4, 21 cycles.
-// pre: x < 2^14, k < 2^10; post: below 2^14
-FIXPID_INLINE uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k)
+// floor(gain * magnitude / 256) in 16 bits, and by 4, 21 cycles.
+// pre: gain < 2^10, magnitude < 2^14; post: below 2^14
+FIXPID_INLINE uint16_t fixpid_10x14_div1024(uint16_t gain, uint16_t magnitude)
 {
     uint16_t quotient;
 
@@ -76,7 +78,7 @@ FIXPID_INLINE uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k)
             "lsr %B0\n\t"
             "ror %A0"
             : "=&r"(quotient)
-            : "r"(x), "r"(k));
+            : "r"(magnitude), "r"(gain));
     return quotient;
 }
 

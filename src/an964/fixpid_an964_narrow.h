@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_arith.h by shift and add, for chips without a
-// multiplier that is wide enough. The sum moves right once per bit of k, which
-// divides it; where all divisions are done, x moves left instead. They are
-// unrolled, because a loop takes a third more.
+// multiplier that is wide enough. The sum moves right once per bit of the one
+// factor, which
+// divides it; where all divisions are done, the other moves left instead. They
+// are unrolled, because a loop takes a third more.
 #ifndef FIXPID_AN964_NARROW_H
 #define FIXPID_AN964_NARROW_H
 #include <stdint.h>
@@ -11,91 +12,94 @@
 #include "fixpid_an964.h"
 
 // Before each move the sum is below 2 * 2^10.
-FIXPID_INLINE uint16_t fixpid_10x7_div16(uint8_t k, uint16_t x)
+FIXPID_INLINE uint16_t fixpid_10x7_div16(uint16_t gain, uint8_t magnitude)
 {
     uint16_t sum = 0;
 
-    fixpid_add_word_if(&sum, x, k & 1u);
+    fixpid_add_word_if(&sum, gain, magnitude & 1u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 2u);
+    fixpid_add_word_if(&sum, gain, magnitude & 2u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 4u);
+    fixpid_add_word_if(&sum, gain, magnitude & 4u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 8u);
+    fixpid_add_word_if(&sum, gain, magnitude & 8u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 16u);
-    x = (uint16_t)(x + x);
-    fixpid_add_word_if(&sum, x, k & 32u);
-    x = (uint16_t)(x + x);
-    fixpid_add_word_if(&sum, x, k & 64u);
+    fixpid_add_word_if(&sum, gain, magnitude & 16u);
+    gain = (uint16_t)(gain + gain);
+    fixpid_add_word_if(&sum, gain, magnitude & 32u);
+    gain = (uint16_t)(gain + gain);
+    fixpid_add_word_if(&sum, gain, magnitude & 64u);
     return sum;
 }
 
-// Adds the eighth bit of k, which is at most FIXPID_AN964_TERM_LIMIT.
+// Adds the eighth bit of the magnitude, which is at most
+// FIXPID_AN964_TERM_LIMIT.
 #if FIXPID_AN964_TERM_LIMIT > 127
-FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t x, uint8_t k)
+FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t gain,
+                                         uint8_t magnitude)
 {
-    x = (uint16_t)(x + x);
-    fixpid_add_word_if(&sum, x, k & 128u);
+    gain = (uint16_t)(gain + gain);
+    fixpid_add_word_if(&sum, gain, magnitude & 128u);
     return sum;
 }
 #else
-FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t x, uint8_t k)
+FIXPID_INLINE uint16_t fixpid_eighth_bit(uint16_t sum, uint16_t gain,
+                                         uint8_t magnitude)
 {
-    (void)x;
-    (void)k;
+    (void)gain;
+    (void)magnitude;
     return sum;
 }
 #endif
 
-FIXPID_INLINE uint16_t fixpid_10x8_div32(uint8_t k, uint16_t x,
+FIXPID_INLINE uint16_t fixpid_10x8_div32(uint16_t gain, uint8_t magnitude,
                                          uint8_t round_up, uint8_t limit)
 {
     uint16_t sum = (uint8_t)(round_up & 31u);
 
-    fixpid_add_word_if(&sum, x, k & 1u);
+    fixpid_add_word_if(&sum, gain, magnitude & 1u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 2u);
+    fixpid_add_word_if(&sum, gain, magnitude & 2u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 4u);
+    fixpid_add_word_if(&sum, gain, magnitude & 4u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 8u);
+    fixpid_add_word_if(&sum, gain, magnitude & 8u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 16u);
+    fixpid_add_word_if(&sum, gain, magnitude & 16u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, k & 32u);
-    x = (uint16_t)(x + x);
-    fixpid_add_word_if(&sum, x, k & 64u);
-    sum = fixpid_eighth_bit(sum, x, k);
+    fixpid_add_word_if(&sum, gain, magnitude & 32u);
+    gain = (uint16_t)(gain + gain);
+    fixpid_add_word_if(&sum, gain, magnitude & 64u);
+    sum = fixpid_eighth_bit(sum, gain, magnitude);
     return (sum > limit) ? limit : sum;
 }
 
 // Before each move the sum is below 2 * 2^14.
-FIXPID_INLINE uint16_t fixpid_14x10_div1024(uint16_t x, uint16_t k)
+FIXPID_INLINE uint16_t fixpid_10x14_div1024(uint16_t gain, uint16_t magnitude)
 {
-    const uint8_t low = (uint8_t)(k & 0xFFu);
-    const uint8_t high = (uint8_t)(k >> 8);
+    const uint8_t low = (uint8_t)(gain & 0xFFu);
+    const uint8_t high = (uint8_t)(gain >> 8);
     uint16_t sum = 0;
 
-    fixpid_add_word_if(&sum, x, low & 1u);
+    fixpid_add_word_if(&sum, magnitude, low & 1u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 2u);
+    fixpid_add_word_if(&sum, magnitude, low & 2u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 4u);
+    fixpid_add_word_if(&sum, magnitude, low & 4u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 8u);
+    fixpid_add_word_if(&sum, magnitude, low & 8u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 16u);
+    fixpid_add_word_if(&sum, magnitude, low & 16u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 32u);
+    fixpid_add_word_if(&sum, magnitude, low & 32u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 64u);
+    fixpid_add_word_if(&sum, magnitude, low & 64u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, low & 128u);
+    fixpid_add_word_if(&sum, magnitude, low & 128u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, high & 1u);
+    fixpid_add_word_if(&sum, magnitude, high & 1u);
     sum >>= 1;
-    fixpid_add_word_if(&sum, x, high & 2u);
+    fixpid_add_word_if(&sum, magnitude, high & 2u);
     sum >>= 1;
     return sum;
 }

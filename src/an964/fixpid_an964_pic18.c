@@ -12,15 +12,15 @@
 FIXPID_DATA struct fixpid_an964_operands fixpid_an964_operands;
 
 // The addresses of the operands' members.
-#define X _fixpid_an964_operands
-#define K _fixpid_an964_operands + 2
+#define GAIN _fixpid_an964_operands
+#define MAGNITUDE _fixpid_an964_operands + 2
 #define QUOTIENT _fixpid_an964_operands + 4
 #define ROUND_UP _fixpid_an964_operands + 6
 #define LIMIT _fixpid_an964_operands + 7
 
 // clang-format off
 
-// x * k has 18 bits, in QUOTIENT + 1, QUOTIENT and PRODL; then every nibble moves
+// The product has 18 bits, in QUOTIENT + 1, QUOTIENT and PRODL; then every nibble moves
 // one place.
 void fixpid_an964_divide_16(void) __naked
 {
@@ -42,12 +42,12 @@ void fixpid_an964_divide_16(void) __naked
     movff   PRODL, QUOTIENT
     return
 fixpid_an964_multiply:
-    banksel X
-    movf    K, w, b
-    mulwf   X + 1, b
+    banksel GAIN
+    movf    MAGNITUDE, w, b
+    mulwf   GAIN + 1, b
     movff   PRODL, QUOTIENT
     movff   PRODH, QUOTIENT + 1
-    mulwf   X, b
+    mulwf   GAIN, b
     movf    PRODH, w, a
     addwf   QUOTIENT, f, b
     movlw   0
@@ -88,29 +88,29 @@ fixpid_an964_limited:
     __endasm;
 }
 
-// The quotient is the upper 14 bits of x * k, which has 24. The lowest byte of
+// The quotient is the upper 14 bits of the product, which has 24. The lowest byte of
 // the products does not change them.
 void fixpid_an964_divide_1024(void) __naked
 {
     __asm
-    banksel X
-    movf    K, w, b
-    mulwf   X, b
+    banksel GAIN
+    movf    MAGNITUDE, w, b
+    mulwf   GAIN, b
     movff   PRODH, QUOTIENT
-    mulwf   X + 1, b
+    mulwf   GAIN + 1, b
     movff   PRODH, QUOTIENT + 1
     movf    PRODL, w, a
     addwf   QUOTIENT, f, b
     movlw   0
     addwfc  QUOTIENT + 1, f, b
-    movf    K + 1, w, b
-    mulwf   X, b
+    movf    MAGNITUDE + 1, w, b
+    mulwf   GAIN, b
     movf    PRODL, w, a
     addwf   QUOTIENT, f, b
     movf    PRODH, w, a
     addwfc  QUOTIENT + 1, f, b
-    movf    K + 1, w, b
-    mulwf   X + 1, b
+    movf    MAGNITUDE + 1, w, b
+    mulwf   GAIN + 1, b
     movf    PRODL, w, a
     addwf   QUOTIENT + 1, f, b
     bcf     STATUS, 0, a

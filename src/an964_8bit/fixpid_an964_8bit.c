@@ -17,8 +17,8 @@
 // Whether a value was negative is one bit of `negative`, because SDCC tests one
 // bit best. In the derivative it is 0xFF, which is also the `round_up` of the
 // division.
-#define BYTE_ABOVE_GAIN_MAX 0x80u // the bits that no legal gain has
 #define BYTE_GAIN_MAX 0x7Fu
+#define BYTE_ABOVE_GAIN_MAX (0xFFu ^ BYTE_GAIN_MAX) // what no legal gain has
 #define BYTE_SUM_MAX ((uint16_t)FIXPID_AN964_8BIT_SUM_LIMIT)
 #define BYTE_SUM_MIN ((uint16_t)(UINT32_C(0x10000) - BYTE_SUM_MAX))
 #define BYTE_TERM_LIMIT ((uint8_t)FIXPID_AN964_8BIT_TERM_LIMIT)

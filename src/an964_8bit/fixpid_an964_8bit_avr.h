@@ -8,10 +8,10 @@
 #define FIXPID_AN964_8BIT_AVR_H
 #include <stdint.h>
 
-// x * k / 4, rounded down or up, at most `limit`. 11 cycles without the limit.
-// pre: x, k < 2^7
-FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
-                                       uint8_t limit)
+// gain * magnitude / 4, rounded down or up, at most `limit`. 11 cycles without
+// the limit. pre: both < 2^7
+FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t gain, uint8_t magnitude,
+                                       uint8_t round_up, uint8_t limit)
 {
     uint16_t quotient;
 
@@ -26,12 +26,13 @@ FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
             "lsr %B0\n\t"
             "ror %A0"
             : "=&r"(quotient), "+&d"(round_up)
-            : "r"(x), "r"(k));
+            : "r"(gain), "r"(magnitude));
     return (quotient > limit) ? limit : quotient;
 }
 
-// floor(x * k / 8), at most 127. 10 cycles without the limit. pre: x, k < 2^7
-FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
+// floor(gain * magnitude / 8), at most 127. 10 cycles without the limit. pre:
+// both < 2^7
+FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t gain, uint8_t magnitude)
 {
     uint16_t quotient;
 
@@ -45,14 +46,14 @@ FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t x, uint8_t k)
             "lsr %B0\n\t"
             "ror %A0"
             : "=r"(quotient)
-            : "r"(x), "r"(k));
+            : "r"(gain), "r"(magnitude));
     return (quotient > 127u) ? 127u : quotient;
 }
 
-// floor(x * k / 32), 8 cycles: 2 x * 2 k * 2 / 256, where the last factor is
-// that of the product of two fractions. Its 17th bit is the carry.
-// pre: x, k < 2^7; post: at most 504
-FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
+// floor(gain * magnitude / 32), 8 cycles: 2 gain * 2 magnitude * 2 / 256, where
+// the last factor is that of the product of two fractions. Its 17th bit is the
+// carry. pre: both < 2^7; post: at most 504
+FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t gain, uint8_t magnitude)
 {
     uint16_t quotient;
 
@@ -63,7 +64,7 @@ FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k)
             "clr r1\n\t"
             "clr %B0\n\t"
             "rol %B0"
-            : "=r"(quotient), "+a"(x), "+a"(k));
+            : "=r"(quotient), "+a"(gain), "+a"(magnitude));
     return quotient;
 }
 

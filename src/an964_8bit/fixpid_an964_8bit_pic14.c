@@ -23,13 +23,14 @@
     ADD_AND_MOVE(5);                                                           \
     ADD_AND_MOVE(6)
 
-// round_up in W, x in STK00, k in STK01. A quotient above 127 has a bit in 0x7C
-// of the upper byte.
-uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t x, uint8_t k) __naked
+// round_up in W, the gain in STK00, the magnitude in STK01. A quotient above
+// 127 has a bit in 0x7C of the upper byte.
+uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t gain,
+                             uint8_t magnitude) __naked
 {
     (void)round_up;
-    (void)x;
-    (void)k;
+    (void)gain;
+    (void)magnitude;
     __asm__(
         "andlw 3\n\tmovwf STK02\n\tclrf STK03\n\tmovf STK00,w\n\tbcf STATUS,0");
     MULTIPLY;
@@ -38,12 +39,12 @@ uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t x, uint8_t k) __naked
     __asm__("rrf STK02,f\n\trrf STK03,w\n\treturn");
 }
 
-// x in W, k in STK00; a quotient above 127 has a bit in 0x78 of the upper byte.
-// Nothing is added first.
-uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k) __naked
+// The gain in W, the magnitude in STK00; a quotient above 127 has a bit in 0x78
+// of the upper byte. Nothing is added first.
+uint8_t fixpid_7x7_div8(uint8_t gain, uint8_t magnitude) __naked
 {
-    (void)x;
-    (void)k;
+    (void)gain;
+    (void)magnitude;
     __asm__("clrf STK02\n\tclrf STK03\n\tmovwf STK01\n\tmovf STK00,w");
     __asm__("bcf STATUS,0");
     MULTIPLY;
@@ -52,10 +53,10 @@ uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k) __naked
     __asm__("return");
 }
 
-uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k) __naked
+uint16_t fixpid_7x7_div32(uint8_t gain, uint8_t magnitude) __naked
 {
-    (void)x;
-    (void)k;
+    (void)gain;
+    (void)magnitude;
     __asm__("clrf STK02\n\tclrf STK03\n\tmovwf STK01\n\tmovf STK00,w");
     __asm__("bcf STATUS,0");
     MULTIPLY;

@@ -9,16 +9,16 @@
 
 #include "../common/fixpid_bits.h"
 
-uint8_t fixpid_7x7_div8(uint8_t x, uint8_t k);
-uint16_t fixpid_7x7_div32(uint8_t x, uint8_t k);
+uint8_t fixpid_7x7_div8(uint8_t gain, uint8_t magnitude);
+uint16_t fixpid_7x7_div32(uint8_t gain, uint8_t magnitude);
 
-// x * k / 4, rounded down or up; at most 127. pre: x, k < 2^7
-uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t x, uint8_t k);
+// gain * magnitude / 4, rounded down or up; at most 127. pre: both < 2^7
+uint8_t fixpid_7x7_div4_byte(uint8_t round_up, uint8_t gain, uint8_t magnitude);
 
-FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t x, uint8_t k, uint8_t round_up,
-                                      uint8_t limit)
+FIXPID_INLINE uint8_t fixpid_7x7_div4(uint8_t gain, uint8_t magnitude,
+                                      uint8_t round_up, uint8_t limit)
 {
-    uint8_t quotient = fixpid_7x7_div4_byte(round_up, x, k);
+    uint8_t quotient = fixpid_7x7_div4_byte(round_up, gain, magnitude);
 
     if (quotient >= limit) {
         quotient = limit;

@@ -12,19 +12,19 @@
 FIXPID_DATA struct fixpid_an964_8bit_operands fixpid_an964_8bit_operands;
 
 // The addresses of the operands' members.
-#define X _fixpid_an964_8bit_operands
+#define MAGNITUDE _fixpid_an964_8bit_operands
 #define ROUND_UP _fixpid_an964_8bit_operands + 1
 #define LIMIT _fixpid_an964_8bit_operands + 2
 
 // clang-format off
 
-// x * k has 14 bits, and so has its sum with what rounds it up.
-uint8_t fixpid_an964_8bit_div4(uint8_t k) __wparam __naked
+// The product has 14 bits, and so has its sum with what rounds it up.
+uint8_t fixpid_an964_8bit_div4(uint8_t gain) __wparam __naked
 {
-    (void)k;
+    (void)gain;
     __asm
-    banksel X
-    mulwf   X, b
+    banksel MAGNITUDE
+    mulwf   MAGNITUDE, b
     movf    ROUND_UP, w, b
     andlw   3
     addwf   PRODL, f, a
@@ -46,12 +46,12 @@ uint8_t fixpid_an964_8bit_div4(uint8_t k) __wparam __naked
 
 // Above 127 if the product has a bit in 0xFC00; else two of its bits are in
 // PRODH.
-uint8_t fixpid_an964_8bit_div8(uint8_t k) __wparam __naked
+uint8_t fixpid_an964_8bit_div8(uint8_t gain) __wparam __naked
 {
-    (void)k;
+    (void)gain;
     __asm
-    banksel X
-    mulwf   X, b
+    banksel MAGNITUDE
+    mulwf   MAGNITUDE, b
     movf    PRODH, w, a
     andlw   0xFC
     btfss   STATUS, 2, a
@@ -68,12 +68,12 @@ uint8_t fixpid_an964_8bit_div8(uint8_t k) __wparam __naked
 
 // Three moves to the left leave the quotient in the carry and PRODH. A word is
 // returned in PRODL and W.
-uint16_t fixpid_an964_8bit_div32(uint8_t k) __wparam __naked
+uint16_t fixpid_an964_8bit_div32(uint8_t gain) __wparam __naked
 {
-    (void)k;
+    (void)gain;
     __asm
-    banksel X
-    mulwf   X, b
+    banksel MAGNITUDE
+    mulwf   MAGNITUDE, b
     rlcf    PRODL, f, a
     rlcf    PRODH, f, a
     rlcf    PRODL, f, a

@@ -26,25 +26,26 @@ struct fixpid_an964_gains nondet_an964_gains(void);
 #define TIMES_TERMS(gain, x) times((gain), (x), UINT32_C(1023) * TERMS_MAX)
 
 // What stands for the primitives in the proof of a step.
-uint16_t fixpid_10x7_div16_contract(uint8_t k, uint16_t x)
+uint16_t fixpid_10x7_div16_contract(uint16_t gain, uint8_t magnitude)
 {
-    pre((k <= 127u) && (x <= GAIN_MAX));
-    return (uint16_t)floor_by(TIMES_BYTE(x, (number)k), 4);
+    pre((gain <= GAIN_MAX) && (magnitude <= 127u));
+    return (uint16_t)floor_by(TIMES_BYTE(gain, (number)magnitude), 4);
 }
 
-uint16_t fixpid_10x8_div32_contract(uint8_t k, uint16_t x, uint8_t round_up,
-                                    uint8_t limit)
+uint16_t fixpid_10x8_div32_contract(uint16_t gain, uint8_t magnitude,
+                                    uint8_t round_up, uint8_t limit)
 {
-    pre(x <= GAIN_MAX);
+    pre(gain <= GAIN_MAX);
     pre((round_up == 0u) || (round_up == 0xFFu));
     return (uint16_t)clamp(
-        floor_by(TIMES_BYTE(x, (number)k) + (round_up & 31u), 5), 0, limit);
+        floor_by(TIMES_BYTE(gain, (number)magnitude) + (round_up & 31u), 5), 0,
+        limit);
 }
 
-uint16_t fixpid_14x10_div1024_contract(uint16_t x, uint16_t k)
+uint16_t fixpid_10x14_div1024_contract(uint16_t gain, uint16_t magnitude)
 {
-    pre((k <= GAIN_MAX) && (x <= TERMS_MAX));
-    return (uint16_t)floor_by(TIMES_TERMS(k, (number)x), 10);
+    pre((gain <= GAIN_MAX) && (magnitude <= TERMS_MAX));
+    return (uint16_t)floor_by(TIMES_TERMS(gain, (number)magnitude), 10);
 }
 
 typedef struct fixpid_an964 controller;
@@ -69,7 +70,7 @@ static bool sound(const struct fixpid_an964 *x)
             FIXPID_AN964_OUTPUT_LIMITED);
 }
 
-// By contract: fixpid_10x7_div16, fixpid_10x8_div32, fixpid_14x10_div1024.
+// By contract: fixpid_10x7_div16, fixpid_10x8_div32, fixpid_10x14_div1024.
 void prove_step(void)
 {
     const int16_t error = nondet_int16();

@@ -27,25 +27,26 @@ typedef uint16_t quotient;
 #endif
 
 // What stands for the primitives in the proof of a step.
-quotient fixpid_7x7_div4_contract(uint8_t x, uint8_t k, uint8_t round_up,
-                                  uint8_t limit)
+quotient fixpid_7x7_div4_contract(uint8_t gain, uint8_t magnitude,
+                                  uint8_t round_up, uint8_t limit)
 {
-    pre((x <= GAIN_MAX) && (k <= 127u));
+    pre((gain <= GAIN_MAX) && (magnitude <= 127u));
     pre((round_up == 0u) || (round_up == 0xFFu));
-    return (quotient)clamp(floor_by(TIMES(x, (number)k) + (round_up & 3u), 2),
-                           0, limit);
+    return (quotient)clamp(
+        floor_by(TIMES(gain, (number)magnitude) + (round_up & 3u), 2), 0,
+        limit);
 }
 
-quotient fixpid_7x7_div8_contract(uint8_t x, uint8_t k)
+quotient fixpid_7x7_div8_contract(uint8_t gain, uint8_t magnitude)
 {
-    pre((x <= GAIN_MAX) && (k <= 127u));
-    return (quotient)clamp(floor_by(TIMES(x, (number)k), 3), 0, 127);
+    pre((gain <= GAIN_MAX) && (magnitude <= 127u));
+    return (quotient)clamp(floor_by(TIMES(gain, (number)magnitude), 3), 0, 127);
 }
 
-uint16_t fixpid_7x7_div32_contract(uint8_t x, uint8_t k)
+uint16_t fixpid_7x7_div32_contract(uint8_t gain, uint8_t magnitude)
 {
-    pre((x <= GAIN_MAX) && (k <= 127u));
-    return (uint16_t)floor_by(TIMES(x, (number)k), 5);
+    pre((gain <= GAIN_MAX) && (magnitude <= 127u));
+    return (uint16_t)floor_by(TIMES(gain, (number)magnitude), 5);
 }
 
 typedef struct fixpid_an964_8bit controller;

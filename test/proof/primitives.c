@@ -70,24 +70,24 @@ static void bytes_times_words(void)
         for (uint32_t k = 0; k < 256u; k++) {
             for (uint32_t limit = k; limit < 256u; limit += 15u) {
                 same("10x8_div32", x, k,
-                     fixpid_10x8_div32((uint8_t)k, (uint16_t)x, 0,
+                     fixpid_10x8_div32((uint16_t)x, (uint8_t)k, 0,
                                        (uint8_t)limit),
                      at_most(limit, x * k / 32u));
                 same("10x8_div32 up", x, k,
-                     fixpid_10x8_div32((uint8_t)k, (uint16_t)x, 0xFF,
+                     fixpid_10x8_div32((uint16_t)x, (uint8_t)k, 0xFF,
                                        (uint8_t)limit),
                      at_most(limit, (x * k + 31u) / 32u));
             }
         }
         for (uint32_t k = 0; k < 128u; k++) {
-            same("10x7_div16", x, k, fixpid_10x7_div16((uint8_t)k, (uint16_t)x),
+            same("10x7_div16", x, k, fixpid_10x7_div16((uint16_t)x, (uint8_t)k),
                  x * k / 16u);
         }
     }
     for (uint32_t x = 0; x < 16384u; x++) {
         for (uint32_t k = 0; k < 1024u; k++) {
-            same("14x10_div1024", x, k,
-                 fixpid_14x10_div1024((uint16_t)x, (uint16_t)k), x * k / 1024u);
+            same("10x14_div1024", k, x,
+                 fixpid_10x14_div1024((uint16_t)k, (uint16_t)x), x * k / 1024u);
         }
     }
 }
@@ -105,14 +105,32 @@ static union fixpid_an937_number number_of(int32_t x)
     return number;
 }
 
+// A term by itself, and as a step adds it to the largest sum of two.
 static void terms(void)
 {
+    const int32_t most = 2 * 255 * 65535;
+
     for (int32_t x = -65535; x <= 65535; x++) {
         const union fixpid_an937_number number = number_of(x);
 
         for (int32_t gain = 0; gain < 256; gain++) {
             same("number_term", gain, x,
                  fixpid_number_term((uint8_t)gain, &number), gain * x);
+            same("sum_with_term", gain, x,
+                 fixpid_sum_with_term(most, (uint8_t)gain, &number),
+                 most + gain * x);
+        }
+    }
+}
+
+static void error_terms(void)
+{
+    for (int32_t error = -32768; error < 32768; error++) {
+        const union fixpid_an937_number number = number_of(error);
+
+        for (int32_t gain = 0; gain < 256; gain++) {
+            same("error_term", gain, error,
+                 fixpid_error_term((uint8_t)gain, &number), gain * error);
         }
     }
 }
@@ -145,6 +163,7 @@ int main(void)
     bytes_times_bytes();
     bytes_times_words();
     terms();
+    error_terms();
     products();
     differences();
     printf("%" PRIu64 " cases\n", cases);

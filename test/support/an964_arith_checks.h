@@ -21,12 +21,15 @@ static inline uint16_t quotient(uint64_t x, uint64_t k, unsigned n,
     return (uint16_t)((x * k + (round_up != 0u ? rest : 0u)) >> n);
 }
 
-static inline uint32_t wrong_10x7(uint16_t x)
+static inline uint32_t wrong_10x7(uint16_t gain)
 {
     uint32_t wrong = 0;
 
-    for (uint8_t k = 0; k <= 127u; k++) {
-        wrong += (fixpid_10x7_div16(k, x) != quotient(x, k, 4, 0)) ? 1u : 0u;
+    for (uint8_t magnitude = 0; magnitude <= 127u; magnitude++) {
+        wrong += (fixpid_10x7_div16(gain, magnitude) !=
+                  quotient(gain, magnitude, 4, 0))
+                     ? 1u
+                     : 0u;
     }
     return wrong;
 }
@@ -35,21 +38,25 @@ static inline uint32_t all_wrong_10x7(void)
 {
     uint32_t wrong = wrong_10x7(1023);
 
-    for (uint16_t x = 0; x <= 1023u; x = (uint16_t)(x + TEST_STRIDE)) {
-        wrong += wrong_10x7(x);
+    for (uint16_t gain = 0; gain <= 1023u;
+         gain = (uint16_t)(gain + TEST_STRIDE)) {
+        wrong += wrong_10x7(gain);
     }
     return wrong;
 }
 
-static inline uint32_t wrong_10x8(uint16_t x, uint8_t round_up, uint8_t limit)
+static inline uint32_t wrong_10x8(uint16_t gain, uint8_t round_up,
+                                  uint8_t limit)
 {
     uint32_t wrong = 0;
 
-    for (uint16_t k = 0; k <= FIXPID_AN964_TERM_LIMIT; k++) {
-        const uint16_t all = quotient(x, k, 5, round_up);
+    for (uint16_t magnitude = 0; magnitude <= FIXPID_AN964_TERM_LIMIT;
+         magnitude++) {
+        const uint16_t all = quotient(gain, magnitude, 5, round_up);
         const uint8_t expected = all > limit ? limit : (uint8_t)all;
 
-        wrong += (fixpid_10x8_div32((uint8_t)k, x, round_up, limit) != expected)
+        wrong += (fixpid_10x8_div32(gain, (uint8_t)magnitude, round_up,
+                                    limit) != expected)
                      ? 1u
                      : 0u;
     }
@@ -65,32 +72,36 @@ static inline uint32_t all_wrong_10x8(void)
     for (unsigned i = 0; i < sizeof limits; i++) {
         wrong += wrong_10x8(1023, 0, limits[i]);
         wrong += wrong_10x8(1023, 0xFF, limits[i]);
-        for (uint16_t x = 0; x <= 1023u; x = (uint16_t)(x + TEST_STRIDE)) {
-            wrong += wrong_10x8(x, 0, limits[i]);
-            wrong += wrong_10x8(x, 0xFF, limits[i]);
+        for (uint16_t gain = 0; gain <= 1023u;
+             gain = (uint16_t)(gain + TEST_STRIDE)) {
+            wrong += wrong_10x8(gain, 0, limits[i]);
+            wrong += wrong_10x8(gain, 0xFF, limits[i]);
         }
     }
     return wrong;
 }
 
-static inline uint32_t wrong_14x10(uint16_t x)
+static inline uint32_t wrong_10x14(uint16_t magnitude)
 {
     uint32_t wrong = 0;
 
-    for (uint16_t k = 0; k <= 1023u; k++) {
-        wrong +=
-            (fixpid_14x10_div1024(x, k) != quotient(x, k, 10, 0)) ? 1u : 0u;
+    for (uint16_t gain = 0; gain <= 1023u; gain++) {
+        wrong += (fixpid_10x14_div1024(gain, magnitude) !=
+                  quotient(gain, magnitude, 10, 0))
+                     ? 1u
+                     : 0u;
     }
     return wrong;
 }
 
-static inline uint32_t all_wrong_14x10(void)
+static inline uint32_t all_wrong_10x14(void)
 {
     const uint16_t last = 16383;
-    uint32_t wrong = wrong_14x10(last);
+    uint32_t wrong = wrong_10x14(last);
 
-    for (uint16_t x = 0; x <= last; x = (uint16_t)(x + TEST_STRIDE)) {
-        wrong += wrong_14x10(x);
+    for (uint16_t magnitude = 0; magnitude <= last;
+         magnitude = (uint16_t)(magnitude + TEST_STRIDE)) {
+        wrong += wrong_10x14(magnitude);
     }
     return wrong;
 }

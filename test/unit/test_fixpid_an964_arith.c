@@ -15,7 +15,7 @@ void tearDown(void)
 void test_10x7_div16_whole_domain(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, all_wrong_10x7());
-    TEST_ASSERT_EQUAL_UINT16(8120, fixpid_10x7_div16(127, 1023));
+    TEST_ASSERT_EQUAL_UINT16(8120, fixpid_10x7_div16(1023, 127));
 }
 
 void test_10x8_div32_whole_domain_both_ways_and_limits(void)
@@ -23,8 +23,8 @@ void test_10x8_div32_whole_domain_both_ways_and_limits(void)
     TEST_ASSERT_EQUAL_UINT32(0, all_wrong_10x8());
 }
 
-void test_14x10_div1024_whole_domain(void)
+void test_10x14_div1024_whole_domain(void)
 {
-    TEST_ASSERT_EQUAL_UINT32(0, all_wrong_14x10());
-    TEST_ASSERT_EQUAL_UINT16(16367, fixpid_14x10_div1024(16383, 1023));
+    TEST_ASSERT_EQUAL_UINT32(0, all_wrong_10x14());
+    TEST_ASSERT_EQUAL_UINT16(16367, fixpid_10x14_div1024(1023, 16383));
 }
