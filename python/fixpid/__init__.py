@@ -11,7 +11,7 @@ out are 0:
 
 Numbers are the library's integers, and what does not fit is an OverflowError. What C
 refuses by returning false is a ValueError. The headers' constants stand here without
-FIXPID_: fixpid.PID_REVERSE. Structures come back as dictionaries, and are given as
+FIXPID_: fixpid.PID_AT_MAX. Structures come back as dictionaries, and are given as
 keywords. What each of them means is in the header.
 """
 import operator

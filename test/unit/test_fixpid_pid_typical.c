@@ -26,8 +26,15 @@ static struct fixpid_pid_config config;
 
 void setUp(void)
 {
-    const struct fixpid_pid_config plain = {
-        FIXPID_PID_GAINS(2, 1, 0.5, 10, 0), 0, 1000, 0, 0, 0, 0};
+    const struct fixpid_pid_config plain = {FIXPID_PID_GAINS(2, 1, 0.5, 10, 0),
+                                            0,
+                                            1000,
+                                            0,
+                                            0,
+                                            0,
+                                            false,
+                                            false,
+                                            false};
 
     config = plain;
     memset(&pid_controller, 0xA5, sizeof pid_controller);
@@ -86,8 +93,10 @@ void test_typical_init_with_a_setpoint_weight_is_refused(void)
 
 void test_typical_init_with_any_option_is_refused(void)
 {
-    for (uint16_t options = 1; options <= 255; options++) {
-        config.options = (uint8_t)options;
+    for (unsigned options = 1; options < 8; options++) {
+        config.reverse = (options & 1u) != 0;
+        config.derivative_on_error = (options & 2u) != 0;
+        config.proportional_on_measurement = (options & 4u) != 0;
         init_refuses();
     }
 }
