@@ -42,6 +42,14 @@ def _accept(accepted, what):
         raise ValueError(f"{what} is refused: a value is out of its range")
 
 
+def _problem(noun, *numbers):
+    """The field that fixpid_..._check names; None where it finds none or does not exist."""
+    check = getattr(lib, f"fixpid_{noun}_check", None)
+    found = check(*numbers) if check else 0
+    name = ffi.typeof(f"enum fixpid_{noun}_problem").elements[found] if found else ""
+    return name[len(f"FIXPID_{noun}_BAD_"):].lower() or None
+
+
 def _counts(numbers):
     """What of a whole array goes into the library: whole numbers only."""
     numbers = numpy.asarray(numbers)
@@ -74,7 +82,9 @@ class _Noun:
         own = f"fixpid_{noun}_"
         for name in dir(lib):
             verb = name[len(own):]
-            if name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
+            if verb == "check" and name.startswith(own):
+                cls.check = staticmethod(lambda **config: _problem(noun, _new(cls._config, config)))
+            elif name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
                 setattr(cls, verb, _verb(getattr(lib, name), name))
 
     def __init__(self, *numbers, **config):
@@ -86,7 +96,8 @@ class _Noun:
         function = getattr(lib, f"fixpid_{self._noun}_init")
         if self._config:
             numbers = (_new(self._config, config),)
-        _accept(function(self.c, *numbers) is not False, f"what fixpid_{self._noun}_init takes")
+        _accept(function(self.c, *numbers) is not False,
+                _problem(self._noun, *numbers) or f"what fixpid_{self._noun}_init takes")
 
     def steps(self, *arguments):
         """A step for each element of arrays, which numpy broadcasts: an array of results."""

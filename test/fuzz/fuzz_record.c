@@ -70,6 +70,7 @@ static void start(const struct fixpid_pid_config *config)
     memset(&pid, 0xA5, sizeof pid);
     accepted = fixpid_pid_init(&pid, config);
     demand(accepted == reference_pid_init(&definition, config), "accepted");
+    demand(accepted == (fixpid_pid_check(config) == FIXPID_PID_OK), "checked");
     for (unsigned step = 0; step < STEPS; step++) {
         const int16_t setpoint = numbers_int16();
         const int16_t measurement = numbers_int16();

@@ -24,6 +24,7 @@ static struct fixpid_pid_config any_config(void)
 }
 
 #include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -536,6 +537,32 @@ void prove_init(void)
         claim(((c.options & WEIGHTED) != 0u) ==
               (config.proportional_on_measurement || ((b & 0xFFu) != 0u)));
         claim(((c.options & WEIGHTED) == 0u) || (c.setpoint_weight == b));
+    }
+}
+
+// The fields that are legal, up to the one that check names.
+void prove_check(void)
+{
+    const struct fixpid_pid_config config = any_config();
+    const struct fixpid_pid_gains *const gains = &config.gains;
+    const unsigned b_most = config.proportional_on_measurement ? 0u : 256u;
+    const unsigned problem = (unsigned)fixpid_pid_check(&config);
+    const bool good[] = {true,
+                         gains->kp_q8 <= FIXPID_PID_KP_MAX,
+                         gains->ki_q24 <= FIXPID_PID_KI_MAX,
+                         gains->kd_q8 <= FIXPID_PID_KD_MAX,
+                         gains->derivative_filter <= 7u,
+                         config.output_min < config.output_max,
+                         config.integral_min >= -INT16_MAX,
+                         config.integral_min <= config.integral_max,
+                         config.setpoint_weight_q8 <= b_most};
+
+    c = nondet_pid();
+    claim(fixpid_pid_init(&c, &config) == (problem == FIXPID_PID_OK));
+    claim(problem <= FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    for (unsigned field = 1; field < sizeof good; field++) {
+        claim(good[field] || ((problem != 0u) && (problem <= field)));
+        claim((problem != field) || !good[field]);
     }
 }
 

@@ -12,6 +12,7 @@
 #include "vectors_pid.h"
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 
@@ -51,6 +52,7 @@ static bool init(void)
     const bool good = reference_pid_init(&reference, &config);
 
     TEST_ASSERT_EQUAL(good, fixpid_pid_init(&pid_controller, &config));
+    TEST_ASSERT_EQUAL(good, fixpid_pid_check(&config) == FIXPID_PID_OK);
     compare();
     return good;
 }
@@ -642,6 +644,55 @@ void test_all_zero_object_is_a_refused_controller(void)
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 100, -100));
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
+}
+
+// ---- Which field init refuses ----
+
+static void problem_is(enum fixpid_pid_problem problem)
+{
+    TEST_ASSERT_EQUAL(problem, fixpid_pid_check(&config));
+    TEST_ASSERT_EQUAL(problem == FIXPID_PID_OK, init());
+}
+
+// Every field is wrong, and then one after the other is right.
+void test_check_names_the_first_wrong_field(void)
+{
+    config.gains.kp_q8 = 32768;
+    config.gains.ki_q24 = 0x7FFF0001;
+    config.gains.kd_q8 = 32256;
+    config.gains.derivative_filter = 8;
+    config.output_min = 5;
+    config.output_max = 5;
+    config.integral_min = INT16_MIN;
+    config.integral_max = INT16_MIN;
+    config.setpoint_weight_q8 = 257;
+    problem_is(FIXPID_PID_BAD_KP_Q8);
+    config.gains.kp_q8 = 32767;
+    problem_is(FIXPID_PID_BAD_KI_Q24);
+    config.gains.ki_q24 = 0x7FFF0000;
+    problem_is(FIXPID_PID_BAD_KD_Q8);
+    config.gains.kd_q8 = 32255;
+    problem_is(FIXPID_PID_BAD_DERIVATIVE_FILTER);
+    config.gains.derivative_filter = 7;
+    problem_is(FIXPID_PID_BAD_OUTPUT_MAX);
+    config.output_max = 6;
+    problem_is(FIXPID_PID_BAD_INTEGRAL_MIN);
+    config.integral_min = -32767;
+    problem_is(FIXPID_PID_BAD_INTEGRAL_MAX);
+    config.integral_max = -32767;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    config.setpoint_weight_q8 = 256;
+    problem_is(FIXPID_PID_OK);
+}
+
+void test_check_weight_beside_proportional_on_measurement_is_wrong(void)
+{
+    config.proportional_on_measurement = true;
+    problem_is(FIXPID_PID_OK);
+    config.setpoint_weight_q8 = 1;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    config.setpoint_weight_q8 = 256;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
 }
 
 // ---- What an initialiser leaves out ----

@@ -2,6 +2,7 @@
 #include "eva.h"
 
 #include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -86,6 +87,7 @@ void eva(void)
     };
     struct fixpid_pid c;
 
+    (void)fixpid_pid_check(&config);
     (void)fixpid_pid_init(&c, &config);
     while (GOES_ON) {
         call_any(&c);
