@@ -19,6 +19,7 @@
 #define NO_REVERSE (HAS_REVERSE ? 0u : 1u)
 #define NO_ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? 0u : 1u)
 #define NO_WEIGHT (HAS_WEIGHT ? 0u : 0xFEFFu)
+#define ONE_IF_WEIGHT (HAS_WEIGHT ? 1u : 0u) // NO_WEIGHT says more
 
 // The lowest three bits of `options` are the derivative filter.
 #define FILTER (HAS_FILTER ? 0x07u : 0u)
@@ -104,8 +105,8 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
     const uint8_t reverse = config->reverse;
     const uint8_t on_error = config->derivative_on_error;
     const uint8_t weightless = config->proportional_on_measurement;
-    const uint_fast16_t most = (weightless != 0u) ? 0u : WEIGHT_ONE;
-    const bool too_much = HAS_WEIGHT ? (weight_q8 > most) : false;
+    const uint16_t most = (weightless != 0u) ? 0u : WEIGHT_ONE;
+    const uint8_t too_much = (weight_q8 > most) ? ONE_IF_WEIGHT : 0u;
     const uint8_t lacking =
         (uint8_t)((uint8_t)(reverse & NO_REVERSE) |
                   (uint8_t)(on_error & NO_ON_ERROR) |

@@ -34,19 +34,26 @@ static enum fixpid_pid_problem gains_problem(
      FIXPID_PID_HAS_DERIVATIVE_ON_ERROR)
 #define feature_problem(config) FIXPID_PID_OK
 #else
+static bool lacks(unsigned feature, bool wanted)
+{
+    return ((FEATURES & feature) == 0u) ? wanted : false;
+}
+
 static enum fixpid_pid_problem feature_problem(
     const struct fixpid_pid_config *config)
 {
-    if (HAS_WEIGHT ? false : ((uint8_t)config->setpoint_weight_q8 != 0u)) {
+    if (lacks(FIXPID_PID_HAS_WEIGHT,
+              (uint8_t)config->setpoint_weight_q8 != 0u)) {
         return FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8;
     }
-    if (HAS_REVERSE ? false : config->reverse) {
+    if (lacks(FIXPID_PID_HAS_REVERSE, config->reverse)) {
         return FIXPID_PID_BAD_REVERSE;
     }
-    if (HAS_DERIVATIVE_ON_ERROR ? false : config->derivative_on_error) {
+    if (lacks(FIXPID_PID_HAS_DERIVATIVE_ON_ERROR,
+              config->derivative_on_error)) {
         return FIXPID_PID_BAD_DERIVATIVE_ON_ERROR;
     }
-    if (HAS_WEIGHT ? false : config->proportional_on_measurement) {
+    if (lacks(FIXPID_PID_HAS_WEIGHT, config->proportional_on_measurement)) {
         return FIXPID_PID_BAD_PROPORTIONAL_ON_MEASUREMENT;
     }
     return FIXPID_PID_OK;
