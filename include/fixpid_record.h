@@ -9,7 +9,7 @@
 //   byte 0       version: FIXPID_RECORD_VERSION
 //        1..9    gains: kp_q8 2 bytes, ki_q24 4, kd_q8 2, derivative_filter 1
 //       10..17   output_min, output_max, integral_min, integral_max, 2 each
-//       18..20   setpoint_weight_q8 2, options 1
+//       18..20   setpoint_weight_q8 2, options 1: the bits below
 //       21..22   check: CRC-16 of all before it, polynomial 0x1021, from 0xFFFF
 //
 // Any 1, 2 or 3 wrong bits are noticed, and of more, all but about one in
@@ -32,6 +32,11 @@ FIXPID_C_BEGIN
 
 #define FIXPID_RECORD_SIZE 23u // bytes
 
+// Bits of byte 20, which are the configuration's fields of the same names.
+#define FIXPID_RECORD_REVERSE 0x80u
+#define FIXPID_RECORD_DERIVATIVE_ON_ERROR 0x40u
+#define FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT 0x20u
+
 struct fixpid_record {
     uint8_t bytes[FIXPID_RECORD_SIZE];
 };
@@ -41,7 +46,8 @@ void fixpid_record_pack(struct fixpid_record *record,
                         const struct fixpid_pid_config *config);
 
 // The configuration as it was packed; fixpid_pid_init judges it. False, and
-// *config untouched, for another version or a wrong check.
+// *config untouched, for another version, a wrong check or another bit in the
+// options.
 bool fixpid_record_unpack(const struct fixpid_record *record,
                           struct fixpid_pid_config *config);
 

@@ -52,6 +52,15 @@ struct fixpid_tpo_config {
     uint16_t minimum_off;
 };
 
+// What fixpid_tpo_check finds: each names a field, behind BAD.
+enum fixpid_tpo_problem {
+    FIXPID_TPO_OK,
+    FIXPID_TPO_BAD_FULL,
+    FIXPID_TPO_BAD_WINDOW,
+    FIXPID_TPO_BAD_MINIMUM_ON,
+    FIXPID_TPO_BAD_MINIMUM_OFF // with minimum_on it is more than the window
+};
+
 // This is private, and open only so that the application can allocate it: 20
 // bytes.
 struct fixpid_tpo {
@@ -67,6 +76,7 @@ struct fixpid_tpo {
 
 #define fixpid_tpo_mark
 #define fixpid_tpo_init FIXPID_MARKED(tpo, init)
+#define fixpid_tpo_check FIXPID_MARKED(tpo, check)
 #define fixpid_tpo_reset FIXPID_MARKED(tpo, reset)
 #define fixpid_tpo_step FIXPID_MARKED(tpo, step)
 
@@ -75,6 +85,12 @@ struct fixpid_tpo {
 // init. An all-zero object is off, too.
 bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
                      const struct fixpid_tpo_config *config);
+
+// Why init would refuse a configuration: its first field, in their order, that
+// is illegal. FIXPID_TPO_OK if it accepts all. It changes nothing, and firmware
+// that does not call it does not contain it.
+enum fixpid_tpo_problem fixpid_tpo_check(
+    const struct fixpid_tpo_config *config);
 
 // Off at once, as after init: forgets what is owed, and the next step begins a
 // window. It does not wait for the minimum times.

@@ -6,6 +6,7 @@ import { digits, percent, whole } from './format.js';
 import { scaleSeconds } from './margins.js';
 
 const COARSE = 50; // below it a step of the integer is more than 2 %
+const LIMIT_16 = 32767;
 const KI_LEAST = 8; // of 2^24
 const KI_BITS = 32767; // what is above keeps 15 bits
 
@@ -33,6 +34,7 @@ function pidRefusals(s, r) {
         'A setpoint weight of 0 is the option “P on the measurement”.');
     say(s.WEIGHT > 1.0019, 'The setpoint weight is at most 1.');
     say(s.OUTPUT_MIN >= s.OUTPUT_MAX, 'The lowest output must be below the highest.');
+    say(s.INTEGRAL_MIN < -LIMIT_16, 'The integral’s lowest value is −32767 or more.');
     say(s.INTEGRAL_MIN > s.INTEGRAL_MAX, 'The integral’s lowest value is above its highest.');
     return found;
 }

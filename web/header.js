@@ -43,6 +43,10 @@ function initialiser(name, fields) {
     }));
 }
 
+function option(results, name) {
+    return (results.OPTIONS & OPTION[name]) !== 0 ? 'true' : 'false';
+}
+
 function pidLines(s, r) {
     return [
         '// The same, folded in double precision:',
@@ -63,7 +67,9 @@ function pidLines(s, r) {
             field(s.INTEGRAL_MIN, 'integral_min'),
             field(s.INTEGRAL_MAX, 'integral_max'),
             field(`${r.WEIGHT}u`, 'setpoint_weight_q8'),
-            field(`${hex(r.OPTIONS)}u`, 'options'),
+            field(option(r, 'REVERSE'), 'reverse'),
+            field(option(r, 'DERIVATIVE_ON_ERROR'), 'derivative_on_error'),
+            field(option(r, 'PROPORTIONAL_ON_MEASUREMENT'), 'proportional_on_measurement'),
         ]),
     ];
 }

@@ -11,7 +11,7 @@ out are 0:
 
 Numbers are the library's integers, and what does not fit is an OverflowError. What C
 refuses by returning false is a ValueError. The headers' constants stand here without
-FIXPID_: fixpid.PID_REVERSE. Structures come back as dictionaries, and are given as
+FIXPID_: fixpid.PID_AT_MAX. Structures come back as dictionaries, and are given as
 keywords. What each of them means is in the header.
 """
 import operator
@@ -40,6 +40,14 @@ def _new(struct, fields):
 def _accept(accepted, what):
     if not accepted:
         raise ValueError(f"{what} is refused: a value is out of its range")
+
+
+def _problem(noun, *numbers):
+    """The field that fixpid_..._check names; None where it finds none or does not exist."""
+    check = getattr(lib, f"fixpid_{noun}_check", None)
+    found = check(*numbers) if check else 0
+    name = ffi.typeof(f"enum fixpid_{noun}_problem").elements[found] if found else ""
+    return name[len(f"FIXPID_{noun}_BAD_"):].lower() or None
 
 
 def _counts(numbers):
@@ -74,7 +82,9 @@ class _Noun:
         own = f"fixpid_{noun}_"
         for name in dir(lib):
             verb = name[len(own):]
-            if name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
+            if verb == "check" and name.startswith(own):
+                cls.check = staticmethod(lambda **config: _problem(noun, _new(cls._config, config)))
+            elif name.startswith(own) and not verb.startswith("8bit_") and not hasattr(cls, verb):
                 setattr(cls, verb, _verb(getattr(lib, name), name))
 
     def __init__(self, *numbers, **config):
@@ -86,7 +96,8 @@ class _Noun:
         function = getattr(lib, f"fixpid_{self._noun}_init")
         if self._config:
             numbers = (_new(self._config, config),)
-        _accept(function(self.c, *numbers) is not False, f"what fixpid_{self._noun}_init takes")
+        _accept(function(self.c, *numbers) is not False,
+                _problem(self._noun, *numbers) or f"what fixpid_{self._noun}_init takes")
 
     def steps(self, *arguments):
         """A step for each element of arrays, which numpy broadcasts: an array of results."""

@@ -80,6 +80,18 @@ def what_does_not_fit_is_refused():
     assert refuses(ValueError, pid.set_gains, kp_q8=fixpid.PID_KP_MAX + 1)
 
 
+def what_is_refused_is_named():
+    assert fixpid.Pid.check(output_max=1) is None
+    assert fixpid.Pid.check(output_max=1, setpoint_weight_q8=257) == "setpoint_weight_q8"
+    assert fixpid.Pid.check(gains={"kd_q8": 32256}) == "kd_q8"
+    try:
+        fixpid.Pid(output_max=1, integral_min=-32768)
+    except ValueError as error:
+        assert str(error).startswith("integral_min is refused"), error
+    else:
+        raise AssertionError("not refused")
+
+
 def records_come_back():
     record = fixpid.record_pack(**CONFIG)
     config = fixpid.record_unpack(record)
@@ -148,7 +160,7 @@ def code_of_the_page_runs():
 
 
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
-         what_does_not_fit_is_refused, records_come_back, relay_finds_gains,
+         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back, relay_finds_gains,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 failed = 0
 for test in TESTS:

@@ -14,9 +14,9 @@ REPORTED = 5  # rows that differ; the rest is only counted
 MASK = 0xFFFFFFFF
 RULES = ("simc_pi", "amigo_pi", "amigo_pid", "tyreus_luyben_pi", "tyreus_luyben_pid",
          "ziegler_nichols_pi", "ziegler_nichols_pid", "rule_7")  # the last one is none
-CONFIG = ("output_min", "output_max", "integral_min", "integral_max", "options")
-# The rows of fixpid_pid's definition know only these flags, and a weight of 0 was what an
-# option says now.
+CONFIG = ("output_min", "output_max", "integral_min", "integral_max")
+# The rows of fixpid_pid's definition know only these flags, and a weight of 0 was what a
+# bool says now.
 OLD_FLAGS = (fixpid.PID_AT_MAX | fixpid.PID_AT_MIN | fixpid.PID_FIRST | fixpid.PID_SEEDED
              | fixpid.PID_MANUAL)
 
@@ -44,7 +44,12 @@ def pid_gains(at):
 
 
 def pid_config(at):
-    return {"gains": pid_gains(at), "setpoint_weight_q8": at["weight_q8"],
+    """A row's options are bits, and one with another bit stands for what is refused."""
+    options = at["options"]
+    return {"gains": pid_gains(at), "setpoint_weight_q8": 0xFFFF if options & 0x1F else at["weight_q8"],
+            "reverse": bool(options & fixpid.RECORD_REVERSE),
+            "derivative_on_error": bool(options & fixpid.RECORD_DERIVATIVE_ON_ERROR),
+            "proportional_on_measurement": bool(options & fixpid.RECORD_PROPORTIONAL_ON_MEASUREMENT),
             **{name: at[name] for name in CONFIG}}
 
 
@@ -65,7 +70,7 @@ def terms(pid):
 def pid_row(pid, at, _):
     event, value, value2 = at["event"], at["value"], 0
     if at["weight_q8"] == 0:
-        at["options"] |= fixpid.PID_PROPORTIONAL_ON_MEASUREMENT
+        at["options"] |= fixpid.RECORD_PROPORTIONAL_ON_MEASUREMENT
     if event == 4:
         value, value2 = at["output_min"], at["output_max"]
     elif event == 5:
@@ -154,7 +159,7 @@ def rule_text(tuner, rule, robustness):
     if result is None:
         return "-"
     weight = result["setpoint_weight_q8"]
-    if result["options"] != (0 if weight else fixpid.PID_PROPORTIONAL_ON_MEASUREMENT):
+    if result["proportional_on_measurement"] != (weight == 0):
         return "wrong options"
     return " ".join(map(str, (*result["gains"].values(), weight)))
 

@@ -110,17 +110,21 @@ static bool folded(struct fixpid_pid_gains *gains)
 
 static bool begin_pid(void)
 {
-    struct fixpid_pid_config config = {.options =
-                                           (uint8_t)param(PARAM_OPTIONS)};
+    const unsigned options = (unsigned)param(PARAM_OPTIONS);
+    struct fixpid_pid_config config = {
+        .reverse = (options & TUNER_OPTION_REVERSE) != 0u,
+        .derivative_on_error =
+            (options & TUNER_OPTION_DERIVATIVE_ON_ERROR) != 0u,
+        .proportional_on_measurement =
+            (options & TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT) != 0u};
     const double weight = floor((param(PARAM_WEIGHT) * 256.0) + 0.5);
-    const bool on_measurement =
-        (config.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
+    const bool on_measurement = config.proportional_on_measurement;
     const bool fits =
         integer_16(PARAM_OUTPUT_MIN) && integer_16(PARAM_OUTPUT_MAX) &&
         integer_16(PARAM_INTEGRAL_MIN) && integer_16(PARAM_INTEGRAL_MAX);
 
     results[RESULT_OPTIONS] = param(PARAM_OPTIONS);
-    // A weight of 0 is the option, and 0 in the configuration means 256.
+    // A weight of 0 is a bool, and 0 in the configuration means 256.
     results[RESULT_WEIGHT] = on_measurement ? 0.0 : weight;
     if (!folded(&config.gains) || !fits ||
         !(on_measurement || within(weight, 1.0, 256.0))) {
@@ -382,7 +386,9 @@ static bool begin_experiment(void)
         .swing = (uint16_t)param(PARAM_SWING),
         .timeout_steps = TIMEOUT_STEPS,
         .cycles = (uint8_t)param(PARAM_CYCLES),
-        .options = (uint8_t)(options & FIXPID_AUTOTUNE_REVERSE),
+        .options = ((options & TUNER_OPTION_REVERSE) != 0u)
+                       ? FIXPID_AUTOTUNE_REVERSE
+                       : 0u,
     };
     config.output_rest = limited(0);
     return fixpid_autotune_init(&autotune, &config);
@@ -436,7 +442,7 @@ int tuner_experiment(void)
 
 int tuner_rule(int rule)
 {
-    struct fixpid_pid_config config = {.options = 0};
+    struct fixpid_pid_config config = {.output_min = 0};
     const bool has = fixpid_autotune_result(
         &autotune, (uint8_t)rule, (uint8_t)param(PARAM_ROBUSTNESS), &config);
 
@@ -446,6 +452,8 @@ int tuner_rule(int rule)
     results[RESULT_KD] = config.gains.kd_q8;
     results[RESULT_FILTER] = config.gains.derivative_filter;
     results[RESULT_WEIGHT] = config.setpoint_weight_q8;
-    results[RESULT_OPTIONS] = config.options;
+    results[RESULT_OPTIONS] = config.proportional_on_measurement
+                                  ? TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT
+                                  : 0u;
     return has ? 1 : 0;
 }

@@ -16,6 +16,11 @@
 #define TUNER_EVENTS 16
 #define TUNER_EVENT_SIZE 4 // seconds, enum tuner_event, and two values
 
+// Bits of PARAM_OPTIONS and RESULT_OPTIONS.
+#define TUNER_OPTION_REVERSE 0x80u
+#define TUNER_OPTION_DERIVATIVE_ON_ERROR 0x40u
+#define TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT 0x20u
+
 enum tuner_controller { TUNER_PID, TUNER_AN937, TUNER_AN964 };
 
 enum tuner_plant {

@@ -19,15 +19,15 @@ void twin_begin(struct twin *self)
 {
     const unsigned options = (unsigned)param(PARAM_OPTIONS);
     const int on_measurement =
-        (options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u;
-    const int on_error = (options & FIXPID_PID_DERIVATIVE_ON_ERROR) != 0u;
+        (options & TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT) != 0u;
+    const int on_error = (options & TUNER_OPTION_DERIVATIVE_ON_ERROR) != 0u;
     const double rate = param(PARAM_RATE);
     const struct pid_double_gains gains = {
         param(PARAM_KP), param(PARAM_KI) / rate, param(PARAM_KD) * rate,
         (int)param(PARAM_FILTER) & 7};
 
     *self = (struct twin){.kind = (int)param(PARAM_CONTROLLER), .sign = 1.0};
-    if ((options & FIXPID_PID_REVERSE) != 0u) {
+    if ((options & TUNER_OPTION_REVERSE) != 0u) {
         self->sign = -1.0;
     }
     pid_double_init(&self->exact,

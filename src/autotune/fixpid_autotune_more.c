@@ -801,11 +801,11 @@ bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
         return false;
     }
     config->setpoint_weight_q8 = WEIGHT_ONE;
-    config->options &= (uint8_t)~FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config->proportional_on_measurement = false;
     if (rule == (uint8_t)FIXPID_AUTOTUNE_AMIGO_PID) {
         if (!is_zero(&sheet, Y)) { // more lag than dead time
             config->setpoint_weight_q8 = 0;
-            config->options |= FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+            config->proportional_on_measurement = true;
         }
     }
     return true;

@@ -4,17 +4,24 @@
 #include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
-// The object's `options` has the caller's options in its upper bits and, in the
-// five that are free, the derivative filter and the scale of ki: one byte
-// instead of three, and a step asks with one comparison whether the PID is
-// plain, which has none of the caller's bits. WEIGHTED is set if the setpoint
-// weight is below 1. If the caller set the bit, the weight is 0.
-#define REVERSE (HAS_REVERSE ? FIXPID_PID_REVERSE : 0u)
-#define ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? FIXPID_PID_DERIVATIVE_ON_ERROR : 0u)
-#define WEIGHTED (HAS_WEIGHT ? FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT : 0u)
-#define PUBLIC_OPTIONS (REVERSE | ON_ERROR | WEIGHTED)
+// The object's `options` has three bits for what the configuration has three
+// bools for and, in the five that are free, the derivative filter and the scale
+// of ki: one byte instead of five, and a step asks with one comparison whether
+// the PID is plain, which has none of the three. WEIGHTED is set if the
+// setpoint weight is below 1. With proportional_on_measurement the weight is 0.
+#define REVERSE (HAS_REVERSE ? 0x80u : 0u)
+#define ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? 0x40u : 0u)
+#define WEIGHTED (HAS_WEIGHT ? 0x20u : 0u)
+#define SPECIAL (REVERSE | ON_ERROR | WEIGHTED)
 
-// The private ones; the lowest three are the derivative filter.
+// What a configuration must not have without the feature: a bool, or a weight
+// that is neither 0 nor WEIGHT_ONE.
+#define NO_REVERSE (HAS_REVERSE ? 0u : 1u)
+#define NO_ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? 0u : 1u)
+#define NO_WEIGHT (HAS_WEIGHT ? 0u : 0xFEFFu)
+#define ONE_IF_WEIGHT (HAS_WEIGHT ? 1u : 0u) // NO_WEIGHT says more
+
+// The lowest three bits of `options` are the derivative filter.
 #define FILTER (HAS_FILTER ? 0x07u : 0u)
 #define KI_FINE 0x08u // ki has 24 fractional bits; neither bit: 16
 #define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
@@ -57,8 +64,11 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     const uint16_t kp_q8 = gains->kp_q8;
     uint32_t ki = gains->ki_q24;
     const uint16_t kd_q8 = gains->kd_q8;
-    const uint8_t filter = gains->derivative_filter;
+    uint8_t options = gains->derivative_filter;
 
+    if (options > FIXPID_PID_FILTER_MAX) { // first: shorter on an ARM
+        return false;
+    }
     if (kp_q8 > FIXPID_PID_KP_MAX) {
         return false;
     }
@@ -68,53 +78,51 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     if (kd_q8 > FIXPID_PID_KD_MAX) {
         return false;
     }
-    if (filter > FIXPID_PID_FILTER_MAX) {
-        return false;
-    }
-    SELF.options = (uint8_t)((SELF.options & PUBLIC_OPTIONS) | filter);
+    options |= SELF.options & SPECIAL;
     SELF.kp = kp_q8;
     SELF.kd = kd_q8;
     if (ki <= KI_KEPT_MAX) {
-        SELF.options |= KI_FINE;
+        options |= KI_FINE;
     } else if (HAS_COARSE_KI ? (ki > KI_MIDDLE_MAX) : false) {
         ki = (ki + 32768u) >> 16;
-        SELF.options |= KI_COARSE;
+        options |= KI_COARSE;
     } else {
         ki = (ki + 128u) >> 8;
     }
     SELF.ki = (uint16_t)ki;
+    SELF.options = options;
     return true;
 }
 
-// If the configuration leaves the weight out, it is 0, which means b = 1.
-static bool accept_weight(FIXPID_DATA struct fixpid_pid *self,
-                          uint16_t weight_q8)
-{
-    SELF.setpoint_weight = (uint8_t)weight_q8;
-    if (weight_q8 > WEIGHT_ONE) {
-        return false;
-    }
-    if ((SELF.options & WEIGHTED) != 0u) {
-        return weight_q8 == 0u;
-    }
-    if (SELF.setpoint_weight != 0u) { // neither 0 nor WEIGHT_ONE
-        if (HAS_WEIGHT) {
-            SELF.options |= WEIGHTED;
-        }
-        return HAS_WEIGHT;
-    }
-    return true;
-}
-
+// A bool is 0 or 1: shifting three of them is shorter than asking each. The
+// weight is a machine word, because gcc for an ARM would cut each result to 16
+// bits. What is illegal here is asked at once, because SDCC warns of a
+// condition that is never true where no feature is missing.
 static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
                           const struct fixpid_pid_config *config)
 {
-    SELF.options = config->options;
-    if ((SELF.options & (uint8_t)~PUBLIC_OPTIONS) != 0u) {
+    const uint_fast16_t weight_q8 = config->setpoint_weight_q8;
+    const uint8_t reverse = config->reverse;
+    const uint8_t on_error = config->derivative_on_error;
+    const uint8_t weightless = config->proportional_on_measurement;
+    const uint16_t most = (weightless != 0u) ? 0u : WEIGHT_ONE;
+    const uint8_t too_much = (weight_q8 > most) ? ONE_IF_WEIGHT : 0u;
+    const uint8_t lacking =
+        (uint8_t)((uint8_t)(reverse & NO_REVERSE) |
+                  (uint8_t)(on_error & NO_ON_ERROR) |
+                  (uint8_t)(weightless & (uint8_t)NO_WEIGHT));
+
+    SELF.setpoint_weight = (uint8_t)weight_q8;
+    if ((too_much | lacking | (weight_q8 & NO_WEIGHT)) != 0u) {
         return false;
     }
-    if (!accept_weight(self, config->setpoint_weight_q8)) {
-        return false;
+    SELF.options =
+        (uint8_t)((uint8_t)((uint8_t)(reverse << 1) | on_error) << 6) & SPECIAL;
+    if (HAS_WEIGHT) {
+        // A weight of 0 or WEIGHT_ONE is the plain PID's.
+        if ((SELF.setpoint_weight | weightless) != 0u) {
+            SELF.options |= WEIGHTED;
+        }
     }
     SELF.output_min = config->output_min;
     SELF.output_max = config->output_max;
@@ -128,8 +136,8 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
     return accept_gains(self, &config->gains);
 }
 
-// A refused controller has no gains, and its integral and its output can only
-// be 0.
+// A refused controller has no gains and no options, and its integral and its
+// output can only be 0.
 static void refuse(FIXPID_DATA struct fixpid_pid *self)
 {
     SELF.kp = 0;
@@ -139,6 +147,7 @@ static void refuse(FIXPID_DATA struct fixpid_pid *self)
     SELF.output_max = 0;
     SELF.integral_min = 0;
     SELF.integral_max = 0;
+    SELF.options = 0;
 }
 
 bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
@@ -389,7 +398,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
     int16_t output;
 
     FIXPID_ASSERT(VALID(self));
-    if ((SELF.options & PUBLIC_OPTIONS) == 0u) {
+    if ((SELF.options & SPECIAL) == 0u) {
         SIGNALS.error = sub16_sat(setpoint, measurement);
         SELF.proportional_error = SIGNALS.error;
         SIGNALS.derivative_input = measurement;

@@ -15,6 +15,10 @@
 #define OPTIONS_AT 20u
 #define CHECK_AT 21u
 
+#define OPTIONS                                                                \
+    (FIXPID_RECORD_REVERSE | FIXPID_RECORD_DERIVATIVE_ON_ERROR |               \
+     FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT)
+
 #define CHECK_BEGIN 0xFFFFu // else bytes of 0 at the front would change nothing
 #define CHECK_POLYNOMIAL 0x1021u
 
@@ -51,6 +55,22 @@ static uint16_t get(const uint8_t bytes[])
     return (uint16_t)(bytes[0] | ((uint16_t)bytes[1] << 8));
 }
 
+static uint8_t options_of(const struct fixpid_pid_config *config)
+{
+    uint8_t options = 0;
+
+    if (config->reverse) {
+        options |= FIXPID_RECORD_REVERSE;
+    }
+    if (config->derivative_on_error) {
+        options |= FIXPID_RECORD_DERIVATIVE_ON_ERROR;
+    }
+    if (config->proportional_on_measurement) {
+        options |= FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT;
+    }
+    return options;
+}
+
 void fixpid_record_pack(struct fixpid_record *record,
                         const struct fixpid_pid_config *config)
 {
@@ -70,7 +90,7 @@ void fixpid_record_pack(struct fixpid_record *record,
     put(&bytes[INTEGRAL_MIN_AT], (uint16_t)config->integral_min);
     put(&bytes[INTEGRAL_MAX_AT], (uint16_t)config->integral_max);
     put(&bytes[WEIGHT_AT], config->setpoint_weight_q8);
-    bytes[OPTIONS_AT] = config->options;
+    bytes[OPTIONS_AT] = options_of(config);
     put(&bytes[CHECK_AT], check_of(bytes));
 }
 
@@ -88,6 +108,9 @@ bool fixpid_record_unpack(const struct fixpid_record *record,
     if (get(&bytes[CHECK_AT]) != check_of(bytes)) {
         return false;
     }
+    if ((bytes[OPTIONS_AT] & (uint8_t)~OPTIONS) != 0u) {
+        return false;
+    }
     config->gains.kp_q8 = get(&bytes[KP_AT]);
     config->gains.ki_q24 =
         get(&bytes[KI_AT]) | ((uint32_t)get(&bytes[KI_AT + 2u]) << 16);
@@ -98,6 +121,10 @@ bool fixpid_record_unpack(const struct fixpid_record *record,
     config->integral_min = (int16_t)get(&bytes[INTEGRAL_MIN_AT]);
     config->integral_max = (int16_t)get(&bytes[INTEGRAL_MAX_AT]);
     config->setpoint_weight_q8 = get(&bytes[WEIGHT_AT]);
-    config->options = bytes[OPTIONS_AT];
+    config->reverse = (bytes[OPTIONS_AT] & FIXPID_RECORD_REVERSE) != 0u;
+    config->derivative_on_error =
+        (bytes[OPTIONS_AT] & FIXPID_RECORD_DERIVATIVE_ON_ERROR) != 0u;
+    config->proportional_on_measurement =
+        (bytes[OPTIONS_AT] & FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT) != 0u;
     return true;
 }

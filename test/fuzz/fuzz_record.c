@@ -51,6 +51,9 @@ static void fill(void)
     if (kind < 6u) {
         record.bytes[0] = FIXPID_RECORD_VERSION;
     }
+    if (kind < 5u) {
+        record.bytes[20] &= 0xE0u;
+    }
     if (kind < 7u) {
         check = defined_check();
         record.bytes[21] = (uint8_t)(check & 0xFFu);
@@ -67,6 +70,7 @@ static void start(const struct fixpid_pid_config *config)
     memset(&pid, 0xA5, sizeof pid);
     accepted = fixpid_pid_init(&pid, config);
     demand(accepted == reference_pid_init(&definition, config), "accepted");
+    demand(accepted == (fixpid_pid_check(config) == FIXPID_PID_OK), "checked");
     for (unsigned step = 0; step < STEPS; step++) {
         const int16_t setpoint = numbers_int16();
         const int16_t measurement = numbers_int16();
@@ -85,7 +89,8 @@ static void unpack(void)
 {
     static struct fixpid_pid_config config, untouched;
     const unsigned check = record.bytes[21] | record.bytes[22] * 256u;
-    const bool good = record.bytes[0] == 1 && check == defined_check();
+    const bool good = record.bytes[0] == 1 && check == defined_check() &&
+                      (record.bytes[20] & 0x1Fu) == 0;
     struct fixpid_record again;
 
     memset(&config, 0xA5, sizeof config);

@@ -13,7 +13,18 @@ struct fixpid_pid nondet_pid(void);
 struct fixpid_pid_config nondet_pid_config(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
 
+static struct fixpid_pid_config any_config(void)
+{
+    struct fixpid_pid_config config = nondet_pid_config();
+
+    config.reverse = any_bool;
+    config.derivative_on_error = any_bool;
+    config.proportional_on_measurement = any_bool;
+    return config;
+}
+
 #include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -108,8 +119,7 @@ static bool same(const struct fixpid_pid *a, const struct fixpid_pid *b)
 // sat16 of the difference, turned round in reverse.
 static number error_of(const struct fixpid_pid *x, number goal, number y)
 {
-    return ((x->options & FIXPID_PID_REVERSE) != 0u) ? sat16(y - goal)
-                                                     : sat16(goal - y);
+    return ((x->options & REVERSE) != 0u) ? sat16(y - goal) : sat16(goal - y);
 }
 
 static number weighted(const struct fixpid_pid *x, number r)
@@ -126,7 +136,7 @@ static number input_of(const struct fixpid_pid *x, number r, number y)
     if ((x->options & ON_ERROR) != 0u) {
         return -1 - error_of(x, r, y);
     }
-    return ((x->options & FIXPID_PID_REVERSE) != 0u) ? (-1 - y) : y;
+    return ((x->options & REVERSE) != 0u) ? (-1 - y) : y;
 }
 
 static number derivative_of(const struct fixpid_pid *x, number input)
@@ -463,7 +473,7 @@ static bool legal_config(const struct fixpid_pid_config *config)
 {
     const uint16_t b = config->setpoint_weight_q8;
 
-    if ((config->options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u) {
+    if (config->proportional_on_measurement) {
         if (b != 0u) {
             return false;
         }
@@ -471,7 +481,7 @@ static bool legal_config(const struct fixpid_pid_config *config)
     return legal_gains(&config->gains) &&
            (config->output_min < config->output_max) &&
            legal_range(config->integral_min, config->integral_max) &&
-           (b <= 256u) && ((config->options & 0x1Fu) == 0u);
+           (b <= 256u);
 }
 
 // What is kept of ki is within 0.4 % of it, and exact up to 32767.
@@ -502,9 +512,8 @@ static bool at_rest(const struct fixpid_pid *x)
 
 void prove_init(void)
 {
-    const struct fixpid_pid_config config = nondet_pid_config();
+    const struct fixpid_pid_config config = any_config();
     const bool legal = legal_config(&config);
-    const uint8_t public_options = REVERSE | ON_ERROR;
 
     c = nondet_pid();
     claim(fixpid_pid_init(&c, &config) == legal);
@@ -522,12 +531,38 @@ void prove_init(void)
               range_low(config.integral_min, config.integral_max));
         claim(c.integral_max ==
               range_high(config.integral_min, config.integral_max));
-        claim((c.options & public_options) ==
-              (config.options & public_options));
-        // b = 1 needs no product, and 0 is said by the option.
+        claim(((c.options & REVERSE) != 0u) == config.reverse);
+        claim(((c.options & ON_ERROR) != 0u) == config.derivative_on_error);
+        // b = 1 needs no product, and 0 is said by the bool.
         claim(((c.options & WEIGHTED) != 0u) ==
-              (((config.options & WEIGHTED) != 0u) || ((b & 0xFFu) != 0u)));
+              (config.proportional_on_measurement || ((b & 0xFFu) != 0u)));
         claim(((c.options & WEIGHTED) == 0u) || (c.setpoint_weight == b));
+    }
+}
+
+// The fields that are legal, up to the one that check names.
+void prove_check(void)
+{
+    const struct fixpid_pid_config config = any_config();
+    const struct fixpid_pid_gains *const gains = &config.gains;
+    const unsigned b_most = config.proportional_on_measurement ? 0u : 256u;
+    const unsigned problem = (unsigned)fixpid_pid_check(&config);
+    const bool good[] = {true,
+                         gains->kp_q8 <= FIXPID_PID_KP_MAX,
+                         gains->ki_q24 <= FIXPID_PID_KI_MAX,
+                         gains->kd_q8 <= FIXPID_PID_KD_MAX,
+                         gains->derivative_filter <= 7u,
+                         config.output_min < config.output_max,
+                         config.integral_min >= -INT16_MAX,
+                         config.integral_min <= config.integral_max,
+                         config.setpoint_weight_q8 <= b_most};
+
+    c = nondet_pid();
+    claim(fixpid_pid_init(&c, &config) == (problem == FIXPID_PID_OK));
+    claim(problem <= FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    for (unsigned field = 1; field < sizeof good; field++) {
+        claim(good[field] || ((problem != 0u) && (problem <= field)));
+        claim((problem != field) || !good[field]);
     }
 }
 

@@ -20,6 +20,9 @@ uint16_t nondet_uint16(void);
 int32_t nondet_int32(void);
 uint32_t nondet_uint32(void);
 
+// A bool of a structure may be any byte to CBMC; in C it is 0 or 1.
+#define any_bool ((nondet_uint8() & 1u) != 0u)
+
 // The whole numbers of the headers' equations, which never overflow here.
 typedef int64_t number;
 

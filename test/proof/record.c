@@ -9,6 +9,16 @@
 struct fixpid_record nondet_record(void);
 struct fixpid_pid_config nondet_pid_config(void);
 
+static struct fixpid_pid_config any_config(void)
+{
+    struct fixpid_pid_config config = nondet_pid_config();
+
+    config.reverse = any_bool;
+    config.derivative_on_error = any_bool;
+    config.proportional_on_measurement = any_bool;
+    return config;
+}
+
 #include "record/fixpid_record.c"
 
 static bool same(const struct fixpid_pid_config *a,
@@ -23,7 +33,9 @@ static bool same(const struct fixpid_pid_config *a,
            (a->integral_min == b->integral_min) &&
            (a->integral_max == b->integral_max) &&
            (a->setpoint_weight_q8 == b->setpoint_weight_q8) &&
-           (a->options == b->options);
+           (a->reverse == b->reverse) &&
+           (a->derivative_on_error == b->derivative_on_error) &&
+           (a->proportional_on_measurement == b->proportional_on_measurement);
 }
 
 // CRC-16 with the polynomial 0x1021, from 0xFFFF, bit by bit.
@@ -43,14 +55,18 @@ static uint16_t check_as_defined(const struct fixpid_record *record)
 
 void prove_pack(void)
 {
-    const struct fixpid_pid_config config = nondet_pid_config();
+    const struct fixpid_pid_config config = any_config();
     struct fixpid_record record = nondet_record();
-    struct fixpid_pid_config back = nondet_pid_config();
+    struct fixpid_pid_config back = any_config();
 
     fixpid_record_pack(&record, &config);
     claim(record.bytes[0] == FIXPID_RECORD_VERSION);
     claim(record.bytes[1] == (config.gains.kp_q8 & 0xFFu));
     claim(record.bytes[6] == (config.gains.ki_q24 >> 24));
+    claim(record.bytes[20] ==
+          ((config.reverse ? 0x80u : 0u) |
+           (config.derivative_on_error ? 0x40u : 0u) |
+           (config.proportional_on_measurement ? 0x20u : 0u)));
     claim(fixpid_record_unpack(&record, &back));
     claim(same(&back, &config));
 }
@@ -58,12 +74,13 @@ void prove_pack(void)
 void prove_unpack(void)
 {
     const struct fixpid_record record = nondet_record();
-    const struct fixpid_pid_config before = nondet_pid_config();
+    const struct fixpid_pid_config before = any_config();
     struct fixpid_pid_config config = before;
     const uint8_t *const last = &record.bytes[FIXPID_RECORD_SIZE - 2u];
     const bool legal = (record.bytes[0] == FIXPID_RECORD_VERSION) &&
                        (check_as_defined(&record) ==
-                        ((unsigned)last[0] | ((unsigned)last[1] << 8)));
+                        ((unsigned)last[0] | ((unsigned)last[1] << 8))) &&
+                       ((record.bytes[20] & 0x1Fu) == 0u);
 
     claim(fixpid_record_unpack(&record, &config) == legal);
     if (!legal) {

@@ -9,6 +9,7 @@ struct fixpid_tpo nondet_tpo(void);
 struct fixpid_tpo_config nondet_tpo_config(void);
 
 #include "tpo/fixpid_tpo.c"
+#include "tpo/fixpid_tpo_check.c"
 
 static bool legal_config(const struct fixpid_tpo_config *config)
 {
@@ -45,6 +46,25 @@ void prove_init(void)
         claim(configured(&c, &config));
     } else {
         claim((c.full == 0) && !fixpid_tpo_step(&c, nondet_int16()));
+    }
+}
+
+// The fields that are legal, up to the one that check names.
+void prove_check(void)
+{
+    const struct fixpid_tpo_config config = nondet_tpo_config();
+    const unsigned problem = (unsigned)fixpid_tpo_check(&config);
+    const number rest = (number)config.window - config.minimum_on;
+    const bool good[] = {true, config.full >= 1,
+                         inside(config.window, 1, 32767), rest >= 0,
+                         config.minimum_off <= rest};
+
+    c = nondet_tpo();
+    claim(fixpid_tpo_init(&c, &config) == (problem == FIXPID_TPO_OK));
+    claim(problem <= FIXPID_TPO_BAD_MINIMUM_OFF);
+    for (unsigned field = 1; field < sizeof good; field++) {
+        claim(good[field] || ((problem != 0u) && (problem <= field)));
+        claim((problem != field) || !good[field]);
     }
 }
 

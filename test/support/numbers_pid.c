@@ -85,20 +85,24 @@ void numbers_pid_range(int16_t *low, int16_t *high)
 
 void numbers_pid_config(struct fixpid_pid_config *config)
 {
+    uint32_t options;
+
     numbers_pid_gains(&config->gains);
     numbers_pid_range(&config->output_min, &config->output_max);
     numbers_pid_range(&config->integral_min, &config->integral_max);
-    config->options = (uint8_t)(numbers_next() & 0xE0u);
+    options = numbers_next();
+    config->reverse = (options & 0x80u) != 0u;
+    config->derivative_on_error = (options & 0x40u) != 0u;
+    config->proportional_on_measurement = (options & 0x20u) != 0u;
     config->setpoint_weight_q8 = 0;
-    if ((config->options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) == 0u ||
-        one_in(40)) {
+    if (!config->proportional_on_measurement || one_in(40)) {
         config->setpoint_weight_q8 =
             (uint16_t)(one_in(60)  ? 257u
                        : one_in(2) ? 256u
                                    : numbers_below(256));
     }
     if (one_in(100)) {
-        config->options |= (uint8_t)(1u << numbers_below(5));
+        config->setpoint_weight_q8 = (uint16_t)(257u << numbers_below(5));
     }
 }
 

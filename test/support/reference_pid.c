@@ -28,13 +28,12 @@ unsigned reference_pid_gains_lack(const struct fixpid_pid_gains *gains)
 unsigned reference_pid_lacks(const struct fixpid_pid_config *config)
 {
     const bool weighted =
-        (config->options & 0x20) != 0 ||
+        config->proportional_on_measurement ||
         (config->setpoint_weight_q8 != 0 && config->setpoint_weight_q8 != 256);
 
     return reference_pid_gains_lack(&config->gains) |
-           lacking((weighted ? 0x02u : 0u) |
-                   ((config->options & 0x80) != 0 ? 0x04u : 0u) |
-                   ((config->options & 0x40) != 0 ? 0x08u : 0u));
+           lacking((weighted ? 0x02u : 0u) | (config->reverse ? 0x04u : 0u) |
+                   (config->derivative_on_error ? 0x08u : 0u));
 }
 
 static bool gains_are_legal(const struct fixpid_pid_gains *gains)
@@ -76,24 +75,25 @@ bool reference_pid_init(struct reference_pid *self,
                         const struct fixpid_pid_config *config)
 {
     memset(self, 0, sizeof *self);
-    self->accepted =
-        gains_are_legal(&config->gains) && reference_pid_lacks(config) == 0 &&
-        config->output_min < config->output_max &&
-        config->integral_min >= -32767 &&
-        config->integral_min <= config->integral_max &&
-        config->setpoint_weight_q8 <= 256 && (config->options & 0x1F) == 0 &&
-        ((config->options & 0x20) == 0 || config->setpoint_weight_q8 == 0);
+    self->accepted = gains_are_legal(&config->gains) &&
+                     reference_pid_lacks(config) == 0 &&
+                     config->output_min < config->output_max &&
+                     config->integral_min >= -32767 &&
+                     config->integral_min <= config->integral_max &&
+                     config->setpoint_weight_q8 <= 256 &&
+                     (!config->proportional_on_measurement ||
+                      config->setpoint_weight_q8 == 0);
     if (self->accepted) {
         take_gains(self, &config->gains);
         self->output_min = config->output_min;
         self->output_max = config->output_max;
         take_integral_limits(self, config->integral_min, config->integral_max);
         self->weight = config->setpoint_weight_q8;
-        if (self->weight == 0 && (config->options & 0x20) == 0) {
+        if (self->weight == 0 && !config->proportional_on_measurement) {
             self->weight = 256;
         }
-        self->reverse = (config->options & 0x80) != 0;
-        self->on_error = (config->options & 0x40) != 0;
+        self->reverse = config->reverse;
+        self->on_error = config->derivative_on_error;
     }
     reference_pid_reset(self);
     return self->accepted;

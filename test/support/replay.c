@@ -370,7 +370,7 @@ static bool gains_row_is_same(const int32_t at[], bool fresh)
 
 static struct fixpid_pid_config pid_config(const int32_t at[])
 {
-    const struct fixpid_pid_config config = {
+    struct fixpid_pid_config config = {
         .gains = {.ki_q24 = (uint32_t)at[PID_KI],
                   .kp_q8 = (uint16_t)at[PID_KP],
                   .kd_q8 = (uint16_t)at[PID_KD],
@@ -380,9 +380,9 @@ static struct fixpid_pid_config pid_config(const int32_t at[])
         .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
         .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
         .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
-        .options = (uint8_t)at[PID_OPTIONS],
     };
 
+    vectors_pid_set_options(&config, (unsigned)at[PID_OPTIONS]);
     return config;
 }
 
@@ -391,7 +391,8 @@ static bool pid_event(struct fixpid_pid *pid, const int32_t at[])
     struct fixpid_pid_config config = pid_config(at);
     const int16_t value = (int16_t)at[PID_VALUE];
 
-    config.options = vectors_pid_options(at[PID_OPTIONS], at[PID_WEIGHT]);
+    vectors_pid_set_options(
+        &config, vectors_pid_options(at[PID_OPTIONS], at[PID_WEIGHT]));
     switch (at[PID_EVENT]) {
     case PID_NOTHING:
         return true;

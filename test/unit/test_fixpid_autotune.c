@@ -961,11 +961,13 @@ static void fill_stack(void)
 static void robust_gains_are(uint8_t robustness_q4, uint8_t rule,
                              struct fixpid_pid_gains expected, bool measured)
 {
-    const uint8_t others = (uint8_t)~FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
     struct fixpid_pid_config pid;
 
     for (unsigned i = 0; i < 2; i++) {
         memset(&pid, i == 0 ? 0 : 0xFF, sizeof pid);
+        pid.reverse = i != 0;
+        pid.derivative_on_error = i != 0;
+        pid.proportional_on_measurement = i != 0;
         fill_stack();
         TEST_ASSERT_TRUE(fixpid_autotune_result(&autotune_controller, rule,
                                                 robustness_q4, &pid));
@@ -975,10 +977,9 @@ static void robust_gains_are(uint8_t robustness_q4, uint8_t rule,
         TEST_ASSERT_EQUAL_UINT8(expected.derivative_filter,
                                 pid.gains.derivative_filter);
         TEST_ASSERT_EQUAL_UINT16(measured ? 0 : 256, pid.setpoint_weight_q8);
-        TEST_ASSERT_EQUAL_UINT8(i == 0 ? 0 : others, pid.options & others);
-        TEST_ASSERT_EQUAL(
-            measured,
-            (pid.options & FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT) != 0u);
+        TEST_ASSERT_EQUAL(i != 0, pid.reverse);
+        TEST_ASSERT_EQUAL(i != 0, pid.derivative_on_error);
+        TEST_ASSERT_EQUAL(measured, pid.proportional_on_measurement);
         TEST_ASSERT_EQUAL_INT16(i == 0 ? 0 : -1, pid.output_min);
         TEST_ASSERT_EQUAL_INT16(i == 0 ? 0 : -1, pid.output_max);
         TEST_ASSERT_EQUAL_INT16(i == 0 ? 0 : -1, pid.integral_min);

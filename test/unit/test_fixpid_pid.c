@@ -12,6 +12,7 @@
 #include "vectors_pid.h"
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 
@@ -51,6 +52,7 @@ static bool init(void)
     const bool good = reference_pid_init(&reference, &config);
 
     TEST_ASSERT_EQUAL(good, fixpid_pid_init(&pid_controller, &config));
+    TEST_ASSERT_EQUAL(good, fixpid_pid_check(&config) == FIXPID_PID_OK);
     compare();
     return good;
 }
@@ -233,7 +235,7 @@ static void configure(const int32_t row[])
     config.integral_min = (int16_t)row[INTEGRAL_MIN];
     config.integral_max = (int16_t)row[INTEGRAL_MAX];
     config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
-    config.options = (uint8_t)row[OPTIONS];
+    vectors_pid_set_options(&config, (unsigned)row[OPTIONS]);
 }
 
 void test_step_recorded_rows_match_the_definition(void)
@@ -244,7 +246,8 @@ void test_step_recorded_rows_match_the_definition(void)
     vectors_open("pid_definition");
     while (vectors_next(row)) {
         configure(row);
-        config.options = vectors_pid_options(row[OPTIONS], row[WEIGHT]);
+        vectors_pid_set_options(&config,
+                                vectors_pid_options(row[OPTIONS], row[WEIGHT]));
         make_event(row);
         TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[SETPOINT],
                                                   (int16_t)row[MEASUREMENT]));
@@ -423,7 +426,7 @@ void test_step_nasty_inputs_crossed_match_the_definition(void)
     for (unsigned i = 0; i < NASTY_COUNT; i++) {
         for (unsigned j = 0; j < NASTY_COUNT; j++) {
             config.gains = gains[(i + j) % 4];
-            config.options = (uint8_t)((i % 8) << 5);
+            vectors_pid_set_options(&config, (i % 8) << 5);
             config.setpoint_weight_q8 =
                 (uint16_t)(i % 2 != 0 ? 0u : j % 3 * 128);
             config.output_min = j % 2 != 0 ? INT16_MIN : -100;
@@ -621,14 +624,13 @@ void test_init_setpoint_weight_above_one_is_refused(void)
     is_refused();
 }
 
-void test_init_unknown_options_are_refused(void)
+void test_init_every_option_beside_every_other_is_accepted(void)
 {
-    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR |
-                     FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
-    TEST_ASSERT_TRUE(init());
-    for (uint8_t bit = 1; bit < 0x20u; bit = (uint8_t)(bit << 1)) {
-        config.options = bit;
-        is_refused();
+    for (unsigned options = 0; options <= 0xE0u; options += 0x20u) {
+        vectors_pid_set_options(&config, options);
+        TEST_ASSERT_TRUE(init());
+        step(100, 40);
+        step(110, 20);
     }
 }
 
@@ -642,6 +644,55 @@ void test_all_zero_object_is_a_refused_controller(void)
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 100, -100));
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_REFUSED, flags());
+}
+
+// ---- Which field init refuses ----
+
+static void problem_is(enum fixpid_pid_problem problem)
+{
+    TEST_ASSERT_EQUAL(problem, fixpid_pid_check(&config));
+    TEST_ASSERT_EQUAL(problem == FIXPID_PID_OK, init());
+}
+
+// Every field is wrong, and then one after the other is right.
+void test_check_names_the_first_wrong_field(void)
+{
+    config.gains.kp_q8 = 32768;
+    config.gains.ki_q24 = 0x7FFF0001;
+    config.gains.kd_q8 = 32256;
+    config.gains.derivative_filter = 8;
+    config.output_min = 5;
+    config.output_max = 5;
+    config.integral_min = INT16_MIN;
+    config.integral_max = INT16_MIN;
+    config.setpoint_weight_q8 = 257;
+    problem_is(FIXPID_PID_BAD_KP_Q8);
+    config.gains.kp_q8 = 32767;
+    problem_is(FIXPID_PID_BAD_KI_Q24);
+    config.gains.ki_q24 = 0x7FFF0000;
+    problem_is(FIXPID_PID_BAD_KD_Q8);
+    config.gains.kd_q8 = 32255;
+    problem_is(FIXPID_PID_BAD_DERIVATIVE_FILTER);
+    config.gains.derivative_filter = 7;
+    problem_is(FIXPID_PID_BAD_OUTPUT_MAX);
+    config.output_max = 6;
+    problem_is(FIXPID_PID_BAD_INTEGRAL_MIN);
+    config.integral_min = -32767;
+    problem_is(FIXPID_PID_BAD_INTEGRAL_MAX);
+    config.integral_max = -32767;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    config.setpoint_weight_q8 = 256;
+    problem_is(FIXPID_PID_OK);
+}
+
+void test_check_weight_beside_proportional_on_measurement_is_wrong(void)
+{
+    config.proportional_on_measurement = true;
+    problem_is(FIXPID_PID_OK);
+    config.setpoint_weight_q8 = 1;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
+    config.setpoint_weight_q8 = 256;
+    problem_is(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8);
 }
 
 // ---- What an initialiser leaves out ----
@@ -658,12 +709,12 @@ void test_init_weight_0_is_the_plain_pid(void)
 
 void test_init_weight_beside_proportional_on_measurement_is_refused(void)
 {
-    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.proportional_on_measurement = true;
     config.setpoint_weight_q8 = 0;
     TEST_ASSERT_TRUE(init());
     config.setpoint_weight_q8 = 1;
     is_refused();
-    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.proportional_on_measurement = true;
     config.setpoint_weight_q8 = 256;
     is_refused();
 }
@@ -822,7 +873,7 @@ void test_step_output_is_rounded_half_up(void)
 
 void test_step_reverse_output_falls_to_raise_the_measurement(void)
 {
-    config.options = FIXPID_PID_REVERSE;
+    config.reverse = true;
     config.gains.kd_q8 = 256;
     config.output_min = -255;
     TEST_ASSERT_TRUE(init());
@@ -842,7 +893,7 @@ void test_step_derivative_ignores_the_setpoint_unless_it_is_on_the_error(void)
     TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
     step(120, 105);
     TEST_ASSERT_EQUAL_INT32(-5 * 512, fixpid_pid_derivative(&pid_controller));
-    config.options = FIXPID_PID_DERIVATIVE_ON_ERROR;
+    config.derivative_on_error = true;
     TEST_ASSERT_TRUE(init());
     step(100, 100);
     TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));
@@ -892,7 +943,7 @@ void test_step_setpoint_weight_softens_the_proportional_term_only(void)
 
 void test_step_proportional_on_measurement_has_no_setpoint(void)
 {
-    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.proportional_on_measurement = true;
     TEST_ASSERT_TRUE(init());
     step(100, 20);
     TEST_ASSERT_EQUAL_INT32(512 * -20,
@@ -1267,7 +1318,8 @@ void test_set_gains_without_error_does_not_move_the_output(void)
 
 void test_set_gains_keeps_options_and_weight(void)
 {
-    config.options = FIXPID_PID_REVERSE | FIXPID_PID_DERIVATIVE_ON_ERROR;
+    config.reverse = true;
+    config.derivative_on_error = true;
     config.setpoint_weight_q8 = 100;
     config.output_min = -255;
     TEST_ASSERT_TRUE(init());
@@ -1303,7 +1355,7 @@ void test_set_limits_drops_what_would_be_windup(void)
 
 void test_set_limits_keeps_what_other_terms_take_away_again(void)
 {
-    config.options = FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    config.proportional_on_measurement = true;
     config.output_max = 10000;
     TEST_ASSERT_TRUE(init());
     for (int n = 0; n < 2000; n++) {

@@ -12,6 +12,7 @@
 #include "reference_pid.h"
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 
@@ -26,8 +27,15 @@ static struct fixpid_pid_config config;
 
 void setUp(void)
 {
-    const struct fixpid_pid_config plain = {
-        FIXPID_PID_GAINS(2, 1, 0.5, 10, 0), 0, 1000, 0, 0, 0, 0};
+    const struct fixpid_pid_config plain = {FIXPID_PID_GAINS(2, 1, 0.5, 10, 0),
+                                            0,
+                                            1000,
+                                            0,
+                                            0,
+                                            0,
+                                            false,
+                                            false,
+                                            false};
 
     config = plain;
     memset(&pid_controller, 0xA5, sizeof pid_controller);
@@ -39,12 +47,14 @@ void tearDown(void)
 
 static void init_accepts(void)
 {
+    TEST_ASSERT_EQUAL(FIXPID_PID_OK, fixpid_pid_check(&config));
     TEST_ASSERT_TRUE(fixpid_pid_init(&pid_controller, &config));
     TEST_ASSERT_BITS_LOW(FIXPID_PID_REFUSED, fixpid_pid_flags(&pid_controller));
 }
 
 static void init_refuses(void)
 {
+    TEST_ASSERT_NOT_EQUAL(FIXPID_PID_OK, fixpid_pid_check(&config));
     TEST_ASSERT_FALSE(fixpid_pid_init(&pid_controller, &config));
     TEST_ASSERT_BITS_HIGH(FIXPID_PID_REFUSED,
                           fixpid_pid_flags(&pid_controller));
@@ -86,10 +96,35 @@ void test_typical_init_with_a_setpoint_weight_is_refused(void)
 
 void test_typical_init_with_any_option_is_refused(void)
 {
-    for (uint16_t options = 1; options <= 255; options++) {
-        config.options = (uint8_t)options;
+    for (unsigned options = 1; options < 8; options++) {
+        config.reverse = (options & 1u) != 0;
+        config.derivative_on_error = (options & 2u) != 0;
+        config.proportional_on_measurement = (options & 4u) != 0;
         init_refuses();
     }
+}
+
+void test_typical_check_names_the_first_field_that_needs_a_feature(void)
+{
+    config.setpoint_weight_q8 = 255;
+    config.reverse = true;
+    config.derivative_on_error = true;
+    TEST_ASSERT_EQUAL(FIXPID_PID_BAD_SETPOINT_WEIGHT_Q8,
+                      fixpid_pid_check(&config));
+    config.setpoint_weight_q8 = 0;
+    config.proportional_on_measurement = true;
+    TEST_ASSERT_EQUAL(FIXPID_PID_BAD_REVERSE, fixpid_pid_check(&config));
+    config.reverse = false;
+    TEST_ASSERT_EQUAL(FIXPID_PID_BAD_DERIVATIVE_ON_ERROR,
+                      fixpid_pid_check(&config));
+    config.derivative_on_error = false;
+    TEST_ASSERT_EQUAL(FIXPID_PID_BAD_PROPORTIONAL_ON_MEASUREMENT,
+                      fixpid_pid_check(&config));
+    config.proportional_on_measurement = false;
+    TEST_ASSERT_EQUAL(FIXPID_PID_OK, fixpid_pid_check(&config));
+    config.gains.derivative_filter = 1;
+    TEST_ASSERT_EQUAL(FIXPID_PID_BAD_DERIVATIVE_FILTER,
+                      fixpid_pid_check(&config));
 }
 
 void test_typical_init_with_ki_above_a_half_is_refused(void)

@@ -20,6 +20,8 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 
 #define BITS (8u * FIXPID_RECORD_SIZE)
 #define CHECK_AT (FIXPID_RECORD_SIZE - 2u)
+#define OPTIONS_AT 20u
+#define OPTIONS 0xE0u
 
 static const struct fixpid_pid_config oven = {
     .gains = {.kp_q8 = 512,
@@ -31,7 +33,7 @@ static const struct fixpid_pid_config oven = {
     .integral_min = -1000,
     .integral_max = 999,
     .setpoint_weight_q8 = 128,
-    .options = FIXPID_PID_REVERSE};
+    .reverse = true};
 
 // Every number of it in another byte, and the check by hand.
 static const uint8_t oven_bytes[FIXPID_RECORD_SIZE] = {
@@ -66,7 +68,9 @@ static bool same(const struct fixpid_pid_config *a,
            a->integral_min == b->integral_min &&
            a->integral_max == b->integral_max &&
            a->setpoint_weight_q8 == b->setpoint_weight_q8 &&
-           a->options == b->options;
+           a->reverse == b->reverse &&
+           a->derivative_on_error == b->derivative_on_error &&
+           a->proportional_on_measurement == b->proportional_on_measurement;
 }
 
 // And has written nothing.
@@ -141,6 +145,7 @@ void test_pack_random_bytes_of_a_good_check_come_back(void)
         for (unsigned at = 1; at < CHECK_AT; at++) {
             record.bytes[at] = (uint8_t)numbers_next();
         }
+        record.bytes[OPTIONS_AT] &= OPTIONS;
         make_check();
         TEST_ASSERT_TRUE(fixpid_record_unpack(&record, &config));
         fixpid_record_pack(&any, &config);
@@ -153,6 +158,39 @@ void test_unpack_other_versions_are_refused(void)
     for (unsigned version = 0; version <= 255u; version++) {
         if (version != FIXPID_RECORD_VERSION) {
             record.bytes[0] = (uint8_t)version;
+            make_check();
+            is_refused();
+        }
+    }
+}
+
+void test_unpack_each_bit_of_the_options_is_a_field(void)
+{
+    record.bytes[OPTIONS_AT] = FIXPID_RECORD_REVERSE;
+    make_check();
+    TEST_ASSERT_TRUE(fixpid_record_unpack(&record, &config));
+    TEST_ASSERT_TRUE(config.reverse);
+    TEST_ASSERT_FALSE(config.derivative_on_error);
+    TEST_ASSERT_FALSE(config.proportional_on_measurement);
+    record.bytes[OPTIONS_AT] = FIXPID_RECORD_DERIVATIVE_ON_ERROR;
+    make_check();
+    TEST_ASSERT_TRUE(fixpid_record_unpack(&record, &config));
+    TEST_ASSERT_FALSE(config.reverse);
+    TEST_ASSERT_TRUE(config.derivative_on_error);
+    TEST_ASSERT_FALSE(config.proportional_on_measurement);
+    record.bytes[OPTIONS_AT] = FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT;
+    make_check();
+    TEST_ASSERT_TRUE(fixpid_record_unpack(&record, &config));
+    TEST_ASSERT_FALSE(config.reverse);
+    TEST_ASSERT_FALSE(config.derivative_on_error);
+    TEST_ASSERT_TRUE(config.proportional_on_measurement);
+}
+
+void test_unpack_other_options_are_refused(void)
+{
+    for (unsigned options = 0; options <= 255u; options++) {
+        if ((options & ~OPTIONS) != 0u) {
+            record.bytes[OPTIONS_AT] = (uint8_t)options;
             make_check();
             is_refused();
         }
@@ -255,7 +293,7 @@ void test_application_with_a_record_starts_with_that(void)
     struct fixpid_pid_config better = oven;
 
     better.gains.kp_q8 = 1024;
-    better.options = 0;
+    better.reverse = false;
     save(&better);
     TEST_ASSERT_TRUE(start(&pid_controller));
     TEST_ASSERT_EQUAL_INT16(41, fixpid_pid_step(&pid_controller, 0, -10));

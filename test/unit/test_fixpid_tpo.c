@@ -9,6 +9,7 @@
 #include "vectors.h"
 
 TEST_SOURCE_FILE("src/tpo/fixpid_tpo.c")
+TEST_SOURCE_FILE("src/tpo/fixpid_tpo_check.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000
@@ -49,6 +50,7 @@ static bool init(void)
     const bool accepted = fixpid_tpo_init(&tpo, &config);
 
     TEST_ASSERT_EQUAL(reference_tpo_init(&reference, &config), accepted);
+    TEST_ASSERT_EQUAL(accepted, fixpid_tpo_check(&config) == FIXPID_TPO_OK);
     return accepted;
 }
 
@@ -243,6 +245,23 @@ void test_init_beyond_the_ranges_is_refused_and_off(void)
     is_refused(100, 8, 5, 4);
     is_refused(100, 8, 65535, 2); // would be 1 in 16 bits
     is_refused(100, 8, 2, 65535);
+}
+
+// Every field is wrong, and then one after the other is right.
+void test_check_names_the_first_wrong_field(void)
+{
+    config = (struct fixpid_tpo_config){0, 0, 9, 9};
+    TEST_ASSERT_EQUAL(FIXPID_TPO_BAD_FULL, fixpid_tpo_check(&config));
+    config.full = 1;
+    TEST_ASSERT_EQUAL(FIXPID_TPO_BAD_WINDOW, fixpid_tpo_check(&config));
+    config.window = 32768;
+    TEST_ASSERT_EQUAL(FIXPID_TPO_BAD_WINDOW, fixpid_tpo_check(&config));
+    config.window = 8;
+    TEST_ASSERT_EQUAL(FIXPID_TPO_BAD_MINIMUM_ON, fixpid_tpo_check(&config));
+    config.minimum_on = 8;
+    TEST_ASSERT_EQUAL(FIXPID_TPO_BAD_MINIMUM_OFF, fixpid_tpo_check(&config));
+    config.minimum_off = 0;
+    TEST_ASSERT_EQUAL(FIXPID_TPO_OK, fixpid_tpo_check(&config));
 }
 
 void test_step_all_zero_object_is_off(void)

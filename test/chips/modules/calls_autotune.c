@@ -116,7 +116,8 @@ static void ask_results(void)
     answer(model.noise_q4);
     answer(model.hysteresis);
     for (uint8_t rule = 0; rule < 8u; rule++) {
-        struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0, 0, 0, 0, 0, 0};
+        struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0,     0,    0, 0, 0,
+                                          false,        false, false};
 
         answer(fixpid_autotune_result(
             &tuner, rule, (uint8_t)(8u + numbers_below(57)), &gains));
@@ -125,7 +126,7 @@ static void ask_results(void)
         answer(gains.gains.kd_q8);
         answer(gains.gains.derivative_filter);
         answer(gains.setpoint_weight_q8);
-        answer(gains.options);
+        answer(gains.proportional_on_measurement ? 1u : 0u);
     }
 }
 

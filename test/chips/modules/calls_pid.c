@@ -45,8 +45,15 @@ static void change(void)
 
 void calls_random(uint32_t count)
 {
-    struct fixpid_pid_config config = {
-        {256, 65536, 0, 0}, -32768, 32767, -32767, 32767, 0, 0};
+    struct fixpid_pid_config config = {{256, 65536, 0, 0},
+                                       -32768,
+                                       32767,
+                                       -32767,
+                                       32767,
+                                       0,
+                                       false,
+                                       false,
+                                       false};
 
     (void)fixpid_pid_init(&pid, &config);
     for (uint32_t i = 0; i < count; i++) {

@@ -32,7 +32,9 @@ static uint8_t defined_byte(uint8_t at)
     if (at < 20u) {
         return (uint8_t)(limits[(at - 10u) / 2u] >> (8u * (at % 2u)));
     }
-    return config.options;
+    return (uint8_t)((config.reverse ? 0x80u : 0u) |
+                     (config.derivative_on_error ? 0x40u : 0u) |
+                     (config.proportional_on_measurement ? 0x20u : 0u));
 }
 
 // The check by its polynomial, a byte at a time.
@@ -79,7 +81,11 @@ static void unpack(bool good)
     calls_answer((uint16_t)unpacked.integral_max,
                  (uint16_t)config.integral_max);
     calls_answer(unpacked.setpoint_weight_q8, config.setpoint_weight_q8);
-    calls_answer(unpacked.options, config.options);
+    calls_answer(unpacked.reverse ? 1u : 0u, config.reverse ? 1u : 0u);
+    calls_answer(unpacked.derivative_on_error ? 1u : 0u,
+                 config.derivative_on_error ? 1u : 0u);
+    calls_answer(unpacked.proportional_on_measurement ? 1u : 0u,
+                 config.proportional_on_measurement ? 1u : 0u);
 }
 
 void calls_rows(void)

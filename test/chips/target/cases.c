@@ -492,7 +492,7 @@ static void pid_ask(union question *question)
     asked->integral_min = config.integral_min;
     asked->integral_max = config.integral_max;
     asked->setpoint_weight_q8 = config.setpoint_weight_q8;
-    asked->options = config.options;
+    asked->options = vectors_pid_options_of(&config);
     asked->calls = (uint16_t)(any_pid_calls() & ~missing_calls());
     asked->value = numbers_int16();
     asked->value_after = numbers_int16();
@@ -507,7 +507,7 @@ static void pid_ask(union question *question)
 static struct fixpid_pid_config pid_configuration(
     const struct pid_question *asked)
 {
-    const struct fixpid_pid_config config = {
+    struct fixpid_pid_config config = {
         .gains = {.ki_q24 = asked->ki_q24,
                   .kp_q8 = asked->kp_q8,
                   .kd_q8 = asked->kd_q8,
@@ -517,9 +517,9 @@ static struct fixpid_pid_config pid_configuration(
         .integral_min = asked->integral_min,
         .integral_max = asked->integral_max,
         .setpoint_weight_q8 = asked->setpoint_weight_q8,
-        .options = asked->options,
     };
 
+    vectors_pid_set_options(&config, asked->options);
     return config;
 }
 

@@ -42,7 +42,12 @@ static void configure(void)
     config.integral_min = QUESTION.integral_min;
     config.integral_max = QUESTION.integral_max;
     config.setpoint_weight_q8 = QUESTION.setpoint_weight_q8;
-    config.options = QUESTION.options;
+    config.reverse = (QUESTION.options & 0x80u) != 0u;
+    config.derivative_on_error = (QUESTION.options & 0x40u) != 0u;
+    config.proportional_on_measurement = (QUESTION.options & 0x20u) != 0u;
+    if ((QUESTION.options & 0x1Fu) != 0u) { // a row that is refused
+        config.setpoint_weight_q8 = 0xFFFFu;
+    }
 }
 
 static void start(void)

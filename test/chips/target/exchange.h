@@ -105,7 +105,7 @@ struct pid_question {
     int16_t measurement;
     uint16_t calls;
     uint8_t derivative_filter;
-    uint8_t options;
+    uint8_t options; // bits, as in the rows
     uint8_t shift_before;
     uint8_t shift;
     uint16_t unused;

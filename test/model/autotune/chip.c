@@ -32,7 +32,7 @@ static void clear(void)
     gains.gains.kd_q8 = 0;
     gains.gains.derivative_filter = 0;
     gains.setpoint_weight_q8 = 0;
-    gains.options = 0;
+    gains.proportional_on_measurement = false;
 }
 
 static void tell(void)
@@ -51,7 +51,7 @@ static void tell(void)
     exchange.answer.kd_q8 = gains.gains.kd_q8;
     exchange.answer.weight_q8 = gains.setpoint_weight_q8;
     exchange.answer.derivative_filter = gains.gains.derivative_filter;
-    exchange.answer.options = gains.options;
+    exchange.answer.weightless = gains.proportional_on_measurement ? 1u : 0u;
 }
 
 // The question ends where the answer begins.

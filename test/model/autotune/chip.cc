@@ -180,7 +180,7 @@ bool fixpid_autotune_result(const struct fixpid_autotune *, uint8_t rule,
     config->gains.kd_q8 = last.kd_q8;
     config->gains.derivative_filter = last.derivative_filter;
     config->setpoint_weight_q8 = last.weight_q8;
-    config->options = last.options;
+    config->proportional_on_measurement = last.weightless != 0;
     return true;
 }
 }

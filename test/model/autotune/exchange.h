@@ -24,7 +24,7 @@ struct answer {
     uint16_t weight_q8;
     int16_t output;
     uint8_t derivative_filter;
-    uint8_t options;
+    uint8_t weightless; // proportional_on_measurement
     uint8_t accepted;
     uint8_t status;
     struct fixpid_autotune_process model;

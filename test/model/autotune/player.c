@@ -78,7 +78,7 @@ static void ask_result(uint8_t rule, uint8_t robustness_q4, uint32_t *values)
     values[3] = config.gains.kd_q8;
     values[4] = config.gains.derivative_filter;
     values[5] = config.setpoint_weight_q8;
-    values[6] = config.options / FIXPID_PID_PROPORTIONAL_ON_MEASUREMENT;
+    values[6] = config.proportional_on_measurement ? 1u : 0u;
 }
 
 void player_play(const struct player_row *row, uint32_t values[PLAYER_VALUES])

@@ -223,6 +223,21 @@ static void say_model(void)
     trace_say('m', values, 10);
 }
 
+// As the bits of a record, of which two are not the result's to change.
+static void set_options(struct fixpid_pid_config *config, uint8_t options)
+{
+    config->reverse = (options & 0x80u) != 0u;
+    config->derivative_on_error = (options & 0x40u) != 0u;
+    config->proportional_on_measurement = (options & 0x20u) != 0u;
+}
+
+static uint8_t options_of(const struct fixpid_pid_config *config)
+{
+    return (uint8_t)((config->reverse ? 0x80u : 0u) |
+                     (config->derivative_on_error ? 0x40u : 0u) |
+                     (config->proportional_on_measurement ? 0x20u : 0u));
+}
+
 static void say_result(uint8_t rule, uint8_t robustness_q4)
 {
     struct fixpid_pid_config config;
@@ -230,8 +245,8 @@ static void say_result(uint8_t rule, uint8_t robustness_q4)
 
     memset(&config, 0, sizeof config);
     config.setpoint_weight_q8 = 128;
-    config.options = (uint8_t)numbers_next();
-    values[8] = config.options;
+    set_options(&config, (uint8_t)numbers_next());
+    values[8] = options_of(&config);
     values[2] = fixpid_autotune_result(&autotune_controller, rule,
                                        robustness_q4, &config);
     values[3] = config.gains.kp_q8;
@@ -239,7 +254,8 @@ static void say_result(uint8_t rule, uint8_t robustness_q4)
     values[5] = config.gains.kd_q8;
     values[6] = config.gains.derivative_filter;
     values[7] = config.setpoint_weight_q8;
-    values[8] = (int32_t)(((uint32_t)values[8] << 8) | config.options);
+    values[8] =
+        (int32_t)(((uint32_t)values[8] << 8) | (uint32_t)options_of(&config));
     trace_say('r', values, 9);
 }
 

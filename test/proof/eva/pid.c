@@ -2,6 +2,7 @@
 #include "eva.h"
 
 #include "pid/fixpid_pid.c"
+#include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -80,10 +81,13 @@ void eva(void)
         .integral_min = ANY_INT16,
         .integral_max = ANY_INT16,
         .setpoint_weight_q8 = ANY_UINT16,
-        .options = ANY_UINT8,
+        .reverse = GOES_ON,
+        .derivative_on_error = GOES_ON,
+        .proportional_on_measurement = GOES_ON,
     };
     struct fixpid_pid c;
 
+    (void)fixpid_pid_check(&config);
     (void)fixpid_pid_init(&c, &config);
     while (GOES_ON) {
         call_any(&c);

@@ -12,7 +12,9 @@ void eva(void)
         .integral_min = ANY_INT16,
         .integral_max = ANY_INT16,
         .setpoint_weight_q8 = ANY_UINT16,
-        .options = ANY_UINT8,
+        .reverse = GOES_ON,
+        .derivative_on_error = GOES_ON,
+        .proportional_on_measurement = GOES_ON,
     };
     struct fixpid_record record;
     struct fixpid_pid_config unpacked;

@@ -2,6 +2,7 @@
 #include "eva.h"
 
 #include "tpo/fixpid_tpo.c"
+#include "tpo/fixpid_tpo_check.c"
 
 void eva(void)
 {
@@ -13,6 +14,7 @@ void eva(void)
     };
     struct fixpid_tpo c;
 
+    (void)fixpid_tpo_check(&config);
     (void)fixpid_tpo_init(&c, &config);
     while (GOES_ON) {
         if (GOES_ON) {

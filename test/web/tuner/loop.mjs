@@ -21,7 +21,8 @@ function run(command, ...more) {
 const MEMBERS = {
     fixpid_pid: ['config.gains.kp_q8', 'config.gains.ki_q24', 'config.gains.kd_q8', 'config.gains.derivative_filter',
         'config.output_min', 'config.output_max', 'config.integral_min', 'config.integral_max',
-        'config.setpoint_weight_q8', 'config.options'],
+        'config.setpoint_weight_q8', 'config.reverse', 'config.derivative_on_error',
+        'config.proportional_on_measurement'],
     fixpid_an937: ['config.kp_q4', 'config.ki_q4', 'config.kd_q4', 'config.accumulated_error_limit',
         'config.derivative_period_ticks'],
     fixpid_an964: ['config.kp', 'config.ki', 'config.kd'],
@@ -78,7 +79,7 @@ function headerOf(state) {
     const noun = ['fixpid_pid', 'fixpid_an937', 'fixpid_an964'][state.CONTROLLER];
     const wanted = {
         fixpid_pid: [r.KP, r.KI, r.KD, r.FILTER, state.OUTPUT_MIN, state.OUTPUT_MAX, state.INTEGRAL_MIN,
-            state.INTEGRAL_MAX, r.WEIGHT, r.OPTIONS],
+            state.INTEGRAL_MAX, r.WEIGHT, r.OPTIONS & 0x80, r.OPTIONS & 0x40, r.OPTIONS & 0x20].map((value, at) => (at < 9 ? value : Number(value !== 0))),
         fixpid_an937: [r.KP, r.KI, r.KD, state.INTEGRAL_MAX, r.FILTER],
         fixpid_an964: [r.KP, r.KI, r.KD],
     }[noun];

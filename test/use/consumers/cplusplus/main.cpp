@@ -31,7 +31,7 @@ static_assert(FIXPID_PID_TD(1.5, 3, 100, 4) == 7200, "28.125 x 256");
 static_assert(FIXPID_SLEW_RATE(30, 10) == 196608, "3 x 2^16");
 
 static const fixpid_pid_config valve = {
-    FIXPID_PID_GAINS(2, 0, 0, 1, 0), 0, 255, 0, 0, 0, 0};
+    FIXPID_PID_GAINS(2, 0, 0, 1, 0), 0, 255, 0, 0, 0, false, false, false};
 
 int main()
 {

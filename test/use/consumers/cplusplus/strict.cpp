@@ -9,8 +9,15 @@ extern const uint8_t gain;
 const uint8_t gain = FIXPID_AN937_GAIN(6.0);
 
 extern const fixpid_pid_config by_rate;
-const fixpid_pid_config by_rate = {
-    FIXPID_PID_GAINS(2.0, 0.5, 0.1, 100, 2u), 0, 255, 0, 0, 0, 0};
+const fixpid_pid_config by_rate = {FIXPID_PID_GAINS(2.0, 0.5, 0.1, 100, 2u),
+                                   0,
+                                   255,
+                                   0,
+                                   0,
+                                   0,
+                                   false,
+                                   false,
+                                   false};
 
 extern const fixpid_pid_gains by_period;
 const fixpid_pid_gains by_period =

@@ -8,7 +8,6 @@ unsigned long folded(float parameter);
 
 unsigned long folded(float parameter)
 {
-    VARIABLE
-    (void)parameter;
+    VARIABLE(void) parameter;
     return GAIN;
 }

@@ -2,8 +2,8 @@
 # frozen_string_literal: true
 
 # The lists of names that the page shares with the C: each enumeration of
-# sim/tuner/tuner.h, those of fixpid_autotune.h that the page shows, and the bits and
-# the ends of ranges of fixpid_pid.h.
+# sim/tuner/tuner.h, those of fixpid_autotune.h that the page shows, the bits of
+# fixpid_pid.h and the ends of its ranges.
 module Names
   class << self
     # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., RULE: ..,
@@ -17,7 +17,7 @@ module Names
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'),
         RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
-        OPTION: bits(pid[%r{^// Bits of options\.$(.*?)\n\n}m, 1], ''), FEATURE: bits(pid, 'HAS_'),
+        OPTION: bits(header, 'TUNER_OPTION_'), FEATURE: bits(pid, 'FIXPID_PID_HAS_'),
         LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid) } }
     end
 
@@ -36,9 +36,9 @@ module Names
            .to_h { |name, at| [name.delete_prefix(prefix), at] }
     end
 
-    # Of the macros FIXPID_PID_ with this beginning.
+    # Of the macros with this beginning.
     def bits(text, prefix)
-      text.scan(/^#define FIXPID_PID_#{prefix}(\w+) (0x\h+)u/).to_h { |name, value| [name, value.hex] }
+      text.scan(/^#define #{prefix}(\w+) (0x\h+)u/).to_h { |name, value| [name, value.hex] }
     end
 
     # The largest gains; that of ki with HAS_COARSE_KI, and without.
