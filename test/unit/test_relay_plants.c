@@ -158,7 +158,8 @@ static void close_loop(uint8_t rule, unsigned which,
                                        .output_max = plant->output_max,
                                        .integral_min = -32767,
                                        .integral_max = 32767,
-                                       .setpoint_weight_q8 = 256};
+                                       .setpoint_weight_q8 = 256,
+                                       .reverse = false};
     const int64_t setpoint = (int64_t)plant->setpoint * COUNT;
     const bool serves = expected->settled_after[which] != 0u;
     struct fixpid_pid pid;
