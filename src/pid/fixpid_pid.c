@@ -66,9 +66,6 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     const uint16_t kd_q8 = gains->kd_q8;
     uint8_t options = gains->derivative_filter;
 
-    if (options > FIXPID_PID_FILTER_MAX) { // first: shorter on an ARM
-        return false;
-    }
     if (kp_q8 > FIXPID_PID_KP_MAX) {
         return false;
     }
@@ -78,7 +75,9 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     if (kd_q8 > FIXPID_PID_KD_MAX) {
         return false;
     }
-    options |= SELF.options & SPECIAL;
+    if (options > FIXPID_PID_FILTER_MAX) {
+        return false;
+    }
     SELF.kp = kp_q8;
     SELF.kd = kd_q8;
     if (ki <= KI_KEPT_MAX) {
@@ -90,7 +89,7 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
         ki = (ki + 128u) >> 8;
     }
     SELF.ki = (uint16_t)ki;
-    SELF.options = options;
+    SELF.options = (uint8_t)((SELF.options & SPECIAL) | options);
     return true;
 }
 

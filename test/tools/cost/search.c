@@ -8,9 +8,9 @@
 #include "put.h"
 #include "vectors.h"
 
-#define SEGMENTS 5u   // questions of a sequence
+#define SEGMENTS 4u   // questions of a sequence
 #define CANDIDATES 12 // random sequences, of which the dearest is improved
-#define PATIENCE 400  // changes without success before another start
+#define PATIENCE 1500 // changes without success before another start
 
 struct figures {
     uint32_t steps;
@@ -193,11 +193,12 @@ static void random_steps(void)
 
 static uint8_t any_times(void)
 {
-    static const uint8_t often[] = {1, 1, 1, 1, 1, 1, 1, 2, 2, 3, 4, 8};
-    const uint32_t kind = numbers_below(sizeof often + 1u);
+    const uint32_t kind = numbers_below(16);
 
-    return kind < sizeof often ? often[kind]
-                               : (uint8_t)(1u + numbers_below(64));
+    if (kind == 0u) {
+        return (uint8_t)(1u + numbers_below(64));
+    }
+    return (uint8_t)(kind < 13u ? 1u : kind < 15u ? 2u : 8u);
 }
 
 static void any_segment(struct segment *segment)
@@ -248,36 +249,46 @@ static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
     return most;
 }
 
-// Some bytes of a fresh question, a bit, or a small number more or less.
+// A word at one of the ends of a range, or next to a power of two.
+static uint16_t any_corner(void)
+{
+    static const uint16_t corners[] = {0x0000, 0x0001, 0xFFFF, 0x7FFF, 0x8000,
+                                       0x8001, 0x00FF, 0x0100, 0x0101, 0xFEFF,
+                                       0xFF00, 0xFF01, 0x007F, 0x0080, 0xFF80};
+
+    return corners[numbers_below(sizeof corners / sizeof corners[0])];
+}
+
+// A bit, a word, a small number more or less, or some bytes of a fresh
+// question.
 static void change_bytes(union question *question)
 {
-    static const uint8_t ends[] = {0x00, 0x01, 0x7F, 0x80, 0xFF};
     const uint32_t size = plan->controller->question_size;
     uint8_t *const bytes = (uint8_t *)question;
     const uint32_t from = numbers_below(size);
     const uint32_t count = 1u + numbers_below(size - from);
+    const uint32_t word_at = (from & ~1u) % (size - 1u);
+    const uint32_t kind = numbers_below(16);
     union question fresh;
     uint16_t word;
 
-    switch (numbers_below(7)) {
-    case 0:
-        bytes[from] = ends[numbers_below(sizeof ends)];
-        break;
-    case 1:
-        word = (uint16_t)numbers_int16();
-        memcpy(bytes + (from & ~1u) % (size - 1u), &word, sizeof word);
-        break;
-    case 2:
+    memcpy(&word, bytes + word_at, sizeof word);
+    if (kind < 6u) {
         bytes[from] = (uint8_t)(bytes[from] ^ (1u << numbers_below(8)));
-        break;
-    case 3:
-        bytes[from] = (uint8_t)(bytes[from] + numbers_below(7) - 3u);
-        break;
-    default:
+    } else if (kind < 8u) {
+        word = any_corner();
+        memcpy(bytes + word_at, &word, sizeof word);
+    } else if (kind < 10u) {
+        word = (uint16_t)(word + (1u << numbers_below(9)) -
+                          (numbers_below(2) << numbers_below(10)));
+        memcpy(bytes + word_at, &word, sizeof word);
+    } else if (kind < 11u) {
+        word = (uint16_t)numbers_next();
+        memcpy(bytes + word_at, &word, sizeof word);
+    } else {
         ask(&fresh);
         memcpy(bytes + from, (const uint8_t *)&fresh + from,
                numbers_below(2) == 0u ? 1u : count);
-        break;
     }
 }
 

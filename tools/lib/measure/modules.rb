@@ -7,9 +7,9 @@ require_relative 'meters'
 # What stands beside a controller, and its functions that are measured: the
 # program of test/chips/modules makes all recorded and many random calls of them.
 CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, keyword_init: true) do
-  # Of the library.
+  # Of the library, without the check that only a program which calls it links.
   def files
-    Modules.sources(id, Host.root)
+    Modules.sources(id, Host.root).grep_v(/_check\.c\z/)
   end
 
   # Of its recorded rows.
