@@ -32,7 +32,7 @@ FIXPID_C_BEGIN
 
 #define FIXPID_RECORD_SIZE 23u // bytes
 
-// Bits of byte 20, which are the configuration's fields of the same names.
+// Bits of byte 20: the configuration's fields of the same names.
 #define FIXPID_RECORD_REVERSE 0x80u
 #define FIXPID_RECORD_DERIVATIVE_ON_ERROR 0x40u
 #define FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT 0x20u

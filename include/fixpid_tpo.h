@@ -52,7 +52,7 @@ struct fixpid_tpo_config {
     uint16_t minimum_off;
 };
 
-// What fixpid_tpo_check finds: each names a field, behind BAD.
+// What fixpid_tpo_check returns: which field is illegal.
 enum fixpid_tpo_problem {
     FIXPID_TPO_OK,
     FIXPID_TPO_BAD_FULL,
@@ -86,9 +86,9 @@ struct fixpid_tpo {
 bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
                      const struct fixpid_tpo_config *config);
 
-// Why init would refuse a configuration: its first field, in their order, that
-// is illegal. FIXPID_TPO_OK if it accepts all. It changes nothing, and firmware
-// that does not call it does not contain it.
+// Why init would refuse a configuration: the first field, in the order of the
+// structure, that is illegal. With FIXPID_TPO_OK init accepts it. A linker
+// leaves this function out of firmware that does not call it.
 enum fixpid_tpo_problem fixpid_tpo_check(
     const struct fixpid_tpo_config *config);
 
