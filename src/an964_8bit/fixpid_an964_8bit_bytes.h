@@ -7,27 +7,28 @@
 
 #include "../common/fixpid_bits.h"
 
-// The operands of the product are in the order in which an 8051 is faster.
-
 FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t gain, uint8_t magnitude,
                                        uint8_t round_up, uint8_t limit)
 {
-    const uint16_t quotient =
-        (uint16_t)(fixpid_8x8(magnitude, gain) + (round_up & 3u)) >> 2;
+    const uint16_t product = fixpid_8x8(gain, magnitude);
+    const uint16_t quotient = (uint16_t)(product + (round_up & 3u)) >> 2;
 
     return (quotient > limit) ? limit : quotient;
 }
 
 FIXPID_INLINE uint16_t fixpid_7x7_div8(uint8_t gain, uint8_t magnitude)
 {
-    const uint16_t quotient = fixpid_8x8(magnitude, gain) >> 3;
+    const uint16_t product = fixpid_8x8(gain, magnitude);
+    const uint16_t quotient = product >> 3;
 
     return (quotient > 127u) ? 127u : quotient;
 }
 
 FIXPID_INLINE uint16_t fixpid_7x7_div32(uint8_t gain, uint8_t magnitude)
 {
-    return fixpid_8x8(magnitude, gain) >> 5;
+    const uint16_t product = fixpid_8x8(gain, magnitude);
+
+    return product >> 5;
 }
 
 #endif
