@@ -9,9 +9,10 @@
 // of ki: one byte instead of five, and a step asks with one comparison whether
 // the PID is plain, which has none of the three. WEIGHTED is set if the
 // setpoint weight is below 1. With proportional_on_measurement the weight is 0.
-#define REVERSE (HAS_REVERSE ? 0x80u : 0u)
-#define ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? 0x40u : 0u)
-#define WEIGHTED (HAS_WEIGHT ? 0x20u : 0u)
+// Each is its feature's bit, moved, and 0 without the feature.
+#define REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) << 5)              // 0x80
+#define ON_ERROR ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) << 3) // 0x40
+#define WEIGHTED ((FEATURES & FIXPID_PID_HAS_WEIGHT) << 4)              // 0x20
 #define SPECIAL (REVERSE | ON_ERROR | WEIGHTED)
 
 // What a configuration must not have without the feature: a bool, or a weight

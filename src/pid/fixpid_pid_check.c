@@ -36,7 +36,10 @@ static enum fixpid_pid_problem gains_problem(
 #else
 static bool lacks(unsigned feature, bool wanted)
 {
-    return ((FEATURES & feature) == 0u) ? wanted : false;
+    if (!wanted) {
+        return false;
+    }
+    return (FEATURES & feature) == 0u;
 }
 
 static enum fixpid_pid_problem feature_problem(
