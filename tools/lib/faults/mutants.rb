@@ -19,6 +19,8 @@ REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
 UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
+LINKER = (system('ld.gold', '--version', out: File::NULL, err: File::NULL) ? %w[-fuse-ld=gold] : []).freeze # it is faster
+LINKING = Mutex.new
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
@@ -36,6 +38,11 @@ Run = Struct.new(:test, :sources, :options) do
   def objects
     fresh = sources.map { |source| "#{File.basename(source, '.c')}.o" }
     Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].reject { |object| fresh.include?(File.basename(object)) }
+  end
+
+  # All of them in one, which is linked to thousands of mutants.
+  def rest
+    "#{ROOT}/rest/#{[test, *sources].join('+').tr('/', '_')}.o"
   end
 end
 
@@ -91,6 +98,7 @@ def build_objects
              ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - UNITY_USE_FLUSH_STDOUT\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
   system('ceedling', '--mixin=build/test/mutants.yml', 'test:all', out: File::NULL, err: File::NULL) or
     abort 'FAILED the unit tests do not pass before anything is broken'
+  FileUtils.rm_rf("#{ROOT}/rest")
 end
 
 # A tree of all sources for each worker, of which one is broken: src/ files
@@ -112,11 +120,22 @@ def compiler(run, tree, *arguments)
    *run.sources.map { |source| in_tree(source, tree) }]
 end
 
+# What a run does not compile anew, in one object.
+def rest_of(run)
+  LINKING.synchronize do
+    unless File.exist?(run.rest)
+      FileUtils.mkdir_p(File.dirname(run.rest))
+      system('ld', '-r', *run.objects, '-o', run.rest) or abort "FAILED the linker does not work: #{run.test}"
+    end
+  end
+  run.rest
+end
+
 # The program of a run, or nil if the compiler refuses it. A compiler that fails
 # without a word about the code says nothing about a break.
 def build(run, tree)
   program = "#{tree}/program"
-  output, status = Open3.capture2e(*compiler(run, tree, '-o', program), *run.objects)
+  output, status = Open3.capture2e(*compiler(run, tree, *LINKER, '-o', program), rest_of(run))
   return program if status.success?
 
   output.match?(COMPLAINT) && !output.match?(/No space left|internal compiler error|Cannot allocate/) or
