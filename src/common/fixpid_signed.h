@@ -55,18 +55,22 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 
+// gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15
+FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+{
+    return (int32_t)gain * x;
+}
+
+#endif
+
+#ifndef FIXPID_SIGNED_INT16_H // an int of 16 bits has its own
+
 // a + b, which fits unless bits were flipped: fixpid_add32 for a sum that gcc
 // for an AVR is not to merge with the sum before it, which takes it more
 // cycles.
 FIXPID_INLINE int32_t add32_apart(int32_t a, int32_t b)
 {
     return fixpid_add32(a, b);
-}
-
-// gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
-{
-    return (int32_t)gain * x;
 }
 
 // floor(x / 2^n), with n the lowest three bits of `places`; the others may be

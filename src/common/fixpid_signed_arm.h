@@ -5,7 +5,6 @@
 #ifndef FIXPID_SIGNED_ARM_H
 #define FIXPID_SIGNED_ARM_H
 #include <arm_acle.h>
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_bits.h"
@@ -40,26 +39,9 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 }
 #endif
 
-FIXPID_INLINE int32_t add32_apart(int32_t a, int32_t b)
-{
-    return fixpid_add32(a, b);
-}
-
 FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
     return (int32_t)gain * x;
-}
-
-FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t places)
-{
-    return shift_right_floor(x, places & 7u);
-}
-
-FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
-                           uint8_t fraction)
-{
-    (void)counts;
-    return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
 }
 
 #endif

@@ -4,7 +4,6 @@
 // product in turns is cheaper than the library's.
 #ifndef FIXPID_SIGNED_RISCV_H
 #define FIXPID_SIGNED_RISCV_H
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_bits.h"
@@ -30,11 +29,6 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 
-FIXPID_INLINE int32_t add32_apart(int32_t a, int32_t b)
-{
-    return fixpid_add32(a, b);
-}
-
 #if defined(__riscv_mul)
 FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
 {
@@ -46,17 +40,5 @@ FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
     return fixpid_product_in_turns(gain, x, 15);
 }
 #endif
-
-FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t places)
-{
-    return shift_right_floor(x, places & 7u);
-}
-
-FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
-                           uint8_t fraction)
-{
-    (void)counts;
-    return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
-}
 
 #endif

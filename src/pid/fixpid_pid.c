@@ -28,7 +28,6 @@
 #define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
 
 #define FEEDFORWARD (HAS_FEEDFORWARD ? SELF.feedforward : 0)
-#define WEIGHT_ONE 256u
 #define KI_KEPT_MAX 32767u
 #define KI_MIDDLE_MAX UINT32_C(8388479)    // rounds to 32767 * 256
 #define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24

@@ -6,8 +6,6 @@
 
 #include "fixpid_pid_private.h"
 
-#define WEIGHT_ONE 256u
-
 static enum fixpid_pid_problem gains_problem(
     const struct fixpid_pid_gains *gains)
 {

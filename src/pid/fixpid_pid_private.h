@@ -20,6 +20,8 @@
 #include "../common/fixpid_signed.h"
 #endif
 
+#define WEIGHT_ONE 256u // the setpoint weight b = 1
+
 // The output limits of a refused controller are equal.
 #define REFUSED (SELF.output_min == SELF.output_max)
 

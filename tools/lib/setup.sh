@@ -34,6 +34,15 @@ work_folder() {
     [ "$free_megabytes" -ge "$2" ] || die "less than $2 MB free for $1"
 }
 
+# remember NAME [failed]: for --failed, in the file that `record` names.
+remember() {
+    mkdir -p "$(dirname "${record:?}")"
+    [ -f "$record" ] || : >"$record"
+    grep -vxF -e "$1" "$record" >"$record.new" || : # which has no line then
+    [ $# -eq 1 ] || echo "$1" >>"$record.new"
+    mv "$record.new" "$record"
+}
+
 # builds LINES COMPILER [OPTION]...: whether a program that begins with these
 # lines can be compiled and linked.
 builds() {

@@ -119,15 +119,6 @@ again() {
     esac
 }
 
-# remember NAME [failed]: for --failed.
-remember() {
-    mkdir -p "${record%/*}"
-    [ -f "$record" ] || : >"$record"
-    grep -vxF -e "$1" "$record" >"$record.new" || : # which has no line then
-    [ $# -eq 1 ] || echo "$1" >>"$record.new"
-    mv "$record.new" "$record"
-}
-
 # attempt NAME COMMAND...: passed with the last line that it prints, or failed.
 attempt() {
     attempted=$1
