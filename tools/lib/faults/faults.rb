@@ -5,7 +5,7 @@
 #
 #   Faults.of('port')            those whose check begins with these whole words
 #   fault.check, fault.words(1)  its check, and the words of it after so many
-#   fault.seed(tree)            plants it in a copy of the project, which needs to
+#   fault.seed(tree)             seeds it in a copy of the project, which needs to
 #                                have the fault's files and may have other faults
 #   fault.sources                { file => its whole text with the fault }
 #   Faults.misplaced             a sentence for each that can no longer be seeded

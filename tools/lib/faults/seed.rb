@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# Plants the faults of test/faults.txt whose check begins with these words in a copy of
+# Seeds the faults of test/faults.txt whose check begins with these words in a copy of
 # the project, TREE, or only the one of that NUMBER. Without TREE it prints them, a line
 # each; without anything it says which of the table can no longer be seeded.
 #
