@@ -89,6 +89,20 @@ Programs.all('bounds').each do |chip, program|
   Expected.of(program.source).each { |one| judge(chip, program, one) }
 end
 
+def judge_core(program, one)
+  what = "#{program.name} #{one.name}"
+  cycles = -> { program.timings.map { |timing| bound(program.code(timing), one.name) } }
+  return Gate.expect("bound of #{what} is refused", -> { cycles.call.first }, /#{Regexp.escape(one.refusal)}/) if one.refusal
+
+  Gate.expect("instructions of #{what} measured", -> { program.measured(one.name).first }, one.measured)
+  Gate.expect("bound of #{what} in instructions", -> { bound(program.code, one.name) }, one.instructions)
+  Gate.expect("bound of #{what} in cycles", cycles, one.cycles.cycle.take(program.timings.size))
+end
+
+Programs.cores.each do |program|
+  program.routines.each { |one| judge_core(program, one) unless one.refusal&.match?(/stack|ways|returns/) }
+end
+
 CORES_OF_CHIPS = { 'pic16f684' => Pic14Code, 'p16f887' => Pic14Code, 'p12f629' => Pic14Code, 'p16f1788' => Pic14EnhancedCode,
                    'p12lf1822' => Pic14EnhancedCode, 'p18f26k22' => Pic18Code, 'p12f509' => nil, 'p10f200' => nil }.freeze
 CORES_OF_CHIPS.each { |chip, core| Gate.expect("core of #{chip}", [PicCode.of(chip)], [core]) }

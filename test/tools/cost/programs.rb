@@ -92,11 +92,73 @@ class AvrProgram
   end
 end
 
+# One for a core in QEMU, with the core's timings.
+class CoreProgram
+  # What a routine of it says of itself; `refusal` is a part of why it has no figures.
+  Routine = Struct.new(:name, :instructions, :cycles, :stack, :measured, :refusal)
+
+  FIGURES = /^(\w+): +[@#] (\d+) instructions, ([\d or]+) cycles, (\d+) bytes(?:, (\d+) measured)?$/.freeze
+  REFUSALS = /^(\w+): +[@#] refused: (.*)$/.freeze
+
+  attr_reader :name, :timings
+
+  def initialize(name, core, kind, timings)
+    @name = name
+    @core = CORES.fetch(core)
+    @kind = kind
+    @timings = timings
+    @source = "#{__dir__}/cores/#{name}.s"
+  end
+
+  def code(timing = Timing::INSTRUCTIONS)
+    @kind.new(elf, timing)
+  end
+
+  def routines
+    @routines ||= text.scan(FIGURES).map { |name, *figures| routine(name, *figures) } +
+                  text.scan(REFUSALS).map { |name, why| Routine.new(name, nil, nil, nil, nil, why) }
+  end
+
+  # Instructions and bytes of stack.
+  def measured(name)
+    @measured ||= @core.run(elf)
+    @measured.match(/^#{name} stack (\d+) instructions (\d+)$/).captures.map(&:to_i).reverse
+  end
+
+  private
+
+  def text
+    @text ||= File.read(@source)
+  end
+
+  def routine(name, instructions, cycles, stack, measured)
+    Routine.new(name, instructions.to_i, cycles.scan(/\d+/).map(&:to_i), stack.to_i, (measured || instructions).to_i)
+  end
+
+  def elf
+    @elf ||= "#{Host.folder}/core-#{@name}.elf".tap do |elf|
+      each = routines.reject(&:refusal).map { |one| "EACH(#{one.name})" }.join(' ')
+      object = elf.sub(/elf\z/, 'o')
+      @core.compile('-c', @source, '-o', object)
+      @core.link(elf, '-O2', *Harness::WARNINGS, "-DROUTINES=#{each}", '-Itest/support', '-Wl,--no-gc-sections',
+                 'test/tools/cost/cores/meter.c', object, *@core.sources)
+    end
+  end
+end
+
 # All of a folder, by chip.
 module Programs
   KINDS = { 'pages' => Pic14Code, 'pic14' => Pic14Code, 'pic14e' => Pic14EnhancedCode, 'pic18' => Pic18Code }.freeze
 
+  CORES = [['cortex_m0', 'cortex-m0', ArmCode, [Timing::CortexM0.new(1), Timing::CortexM0.new(32)]],
+           ['cortex_m3', 'cortex-m4', ArmCode, [Timing::CortexM3.new]], ['cortex_m4', 'cortex-m4', ArmCode, [Timing::CortexM4.new]],
+           ['ibex', 'rv32imc', RiscvCode, [Timing::Ibex.new]]].freeze
+
   class << self
+    def cores
+      CORES.map { |arguments| CoreProgram.new(*arguments) }
+    end
+
     def all(folder, *options)
       Dir["#{__dir__}/#{folder}/*.{asm,s}"].sort.to_h { |source| [name(source), one(source, options)] }
     end

@@ -48,4 +48,18 @@ end
   all.delete('avr') if how == 'LETS_ALL_IN' # it restores SREG so
   all.each { |chip, program| Gate.expect("stack of #{chip} with #{how}", -> { depth_of(program.code, 'main') }, /an interrupt lets others in/) }
 end
+
+# Those of cores/.
+def judge_core(program, one)
+  what = "#{program.name} #{one.name}"
+  found = -> { depth_of(program.code, one.name) }
+  return Gate.expect("stack of #{what} is refused", found, /#{Regexp.escape(one.refusal)}/) if one.refusal
+
+  Gate.expect("stack of #{what}", found, "#{one.stack} bytes")
+  Gate.expect("stack of #{what} measured", -> { program.measured(one.name).last }, one.stack)
+end
+
+Programs.cores.each do |program|
+  program.routines.each { |one| judge_core(program, one) unless one.refusal&.include?('timing') }
+end
 Gate.finish

@@ -6,7 +6,8 @@ require_relative 'longest_path'
 
 # How deep a function's stack may be, from all paths through its code: return
 # addresses, and bytes, of an AVR those of the return addresses among them. What
-# an instruction finds there must be the same on all ways to it.
+# an instruction finds there must be the same on all ways to it. A jump into another
+# function, a tail call, is followed as any other.
 class Stack
   # Besides its own return address; `left` bytes are there when it has returned,
   # fewer than none if it takes its arguments.
@@ -67,6 +68,7 @@ class Stack
       after += calls[at].left if calls.key?(at)
       ends[at] = after if ends?(at)
       framed = @code.frame(at, height, frame)
+      after = height if ends.key?(at) # a return whose condition is not met has popped nothing
       flow.edges[at].each { |to, _| todo << to if reach(places, to, after, framed) }
     end
     found = deepest(depths)

@@ -2,6 +2,7 @@
 # frozen_string_literal: true
 
 require_relative 'code'
+require_relative 'timing'
 
 # What objdump and nm say of an ELF file.
 class ElfCode < Code
@@ -36,13 +37,6 @@ class ElfCode < Code
     `#{@tools}-size #{objects.join(' ')}`.lines.drop(1).sum { |line| line.split[1, 2].sum(&:to_i) }
   end
 
-  # Bytes that a function and its callees push at most.
-  def stack(entry, path)
-    pushed = path.function(entry).addresses.group_by { |at| name(at) }
-    pushed.transform_values! { |addresses| addresses.sum { |at| pushed_by(*line(at)) } }
-    deepest(entry, pushed, path)
-  end
-
   private
 
   def line(at)
@@ -51,12 +45,6 @@ class ElfCode < Code
 
   def mask
     -1
-  end
-
-  def deepest(entry, pushed, path)
-    own = name(entry)
-    callees = path.function(entry).addresses.select { |at| name(at) == own }.map { |at| at(at).call }.compact.uniq
-    pushed.fetch(own, 0) + (callees.map { |callee| deepest(callee, pushed, path) }.max || 0)
   end
 end
 
@@ -203,10 +191,21 @@ class AvrCode < ElfCode
   end
 end
 
-# A Cortex-M: each instruction costs one.
+# A Cortex-M: each instruction costs one, or what a core's timing says.
 class ArmCode < ElfCode
-  def initialize(path)
+  POINTER_CHANGES = /\A(?:sp\b|\{.*\bsp\b)|\bsp!|\[sp\], |\[sp, [^\]]*\]!/.freeze
+
+  def initialize(path, timing = Timing::INSTRUCTIONS)
     super(path, 'arm-none-eabi')
+    @timing = timing
+  end
+
+  # The return address is in a register, until it is pushed.
+  def pushed(at)
+    _, mnemonic, operands = read(at)
+    return 0 unless mnemonic.match?(/\A(?:push|pop)/) || (operands.match?(POINTER_CHANGES) && !mnemonic.match?(/\Acm[pn]/))
+
+    moved(mnemonic, operands) or missing(at, "the stack pointer changes by what is not known (#{mnemonic} #{operands})")
   end
 
   private
@@ -215,15 +214,18 @@ class ArmCode < ElfCode
     ~1
   end
 
-  def decode(at)
+  def read(at)
     bytes, mnemonic, operands = line(at)
-    mnemonic = mnemonic.sub(/\.[nw]\z/, '')
+    [bytes, mnemonic.sub(/\.[nw]\z/, ''), operands]
+  end
+
+  def decode(at)
+    bytes, mnemonic, operands = read(at)
     case mnemonic
-    when 'bl' then Instruction.new([[at + bytes, 1]], operands.hex, nil, bytes)
-    when 'b' then Instruction.new([[operands.hex, 1]], nil, nil, bytes)
-    when /\Acbn?z\z/ then Instruction.new([[at + bytes, 1], [operands[/\h+\z/].hex, 1]], nil, nil, bytes)
-    when /\Ab(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)\z/
-      Instruction.new([[at + bytes, 1], [operands.hex, 1]], nil, nil, bytes)
+    when 'bl' then Instruction.new([[at + bytes, leaving(at)]], operands.hex, nil, bytes)
+    when 'b' then Instruction.new([[operands.hex, leaving(at)]], nil, nil, bytes)
+    when /\Acbn?z\z/, /\Ab(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)\z/
+      Instruction.new([[at + bytes, staying(at)], [operands[/\h+\z/].hex, leaving(at)]], nil, nil, bytes)
     else
       returning(at, bytes, mnemonic, operands)
     end
@@ -231,40 +233,47 @@ class ArmCode < ElfCode
 
   # A return may be conditional in an IT block.
   def returning(at, bytes, mnemonic, operands)
-    return plain(at, bytes, 1) unless operands.match?(/\bpc\b/) || mnemonic.match?(/\Ab(l?x|tb|th)/) || operands == 'lr'
+    return plain(at, bytes, staying(at)) unless operands.match?(/\bpc\b/) || mnemonic.match?(/\Ab(l?x|tb|th)/) || operands == 'lr'
 
     leaves = mnemonic.match?(/\A(bx|pop|ldmia|ldr)(..)?\z/) && (operands == 'lr' || operands.match?(/pc\}|\Apc, \[sp\]/))
-    return plain(at, bytes, 1) if mnemonic.match?(/\A(add|adr|ldr|mov|push)/) && !operands.match?(/\Apc|\{.*pc/)
+    return plain(at, bytes, staying(at)) if mnemonic.match?(/\A(add|adr|ldr|mov|push)/) && !operands.match?(/\Apc|\{.*pc/)
 
     return opaque("#{mnemonic} #{operands}") unless leaves
 
     on = mnemonic.match?(/\A(bx|pop|ldmia|ldr)..\z/) && mnemonic != 'ldmia' ? [[at + bytes, 1]] : []
-    Instruction.new(on, nil, 1, bytes)
+    Instruction.new(on, nil, leaving(at), bytes)
   end
 
-  def pushed_by(_bytes, mnemonic, operands)
-    case mnemonic
-    when /\Apush|\Astmdb/ then 4 * registers(operands)
-    when /\Asub/ then operands.match?(/\Asp, (?:sp, )?#/) ? operands[/#(\d+)/, 1].to_i : 0
-    when /\Astr/ then operands[/\[sp, #-(\d+)\]!/, 1].to_i
-    else 0
-    end
+  def staying(at)
+    _, mnemonic, operands = read(at)
+    @timing.staying(mnemonic, operands) or missing(at, "no timing of #{mnemonic} #{operands}")
   end
 
-  def registers(operands)
-    operands[/\{(.*)\}/, 1].split(', ').sum do |item|
-      first, last = item.split('-').map { |register| register.delete('r').to_i }
-      last ? last - first + 1 : 1
+  def leaving(at)
+    _, mnemonic, operands = read(at)
+    @timing.leaving(mnemonic, operands) or missing(at, "no timing of #{mnemonic} #{operands}")
+  end
+
+  # A condition may stand behind a pop that returns, and behind nothing else.
+  def moved(mnemonic, operands)
+    case "#{mnemonic} #{operands}"
+    when /\Apush |\Astmdb sp!/ then 4 * Timing::CortexM.listed(operands)
+    when /\Apop |\Aldmia sp!|\A(?:pop|ldmia)..(?: sp!,)? \{.*pc\}/ then -4 * Timing::CortexM.listed(operands)
+    when /\Astrd? [^\[]+\[sp, #-(\d+)\]!/ then $1.to_i
+    when /\Aldrd? [^\[]+\[sp\], #(\d+)/, /\Aldr.. pc, \[sp\], #(\d+)/ then -$1.to_i
+    when /\Asubw? sp, (?:sp, )?#(\d+)/ then $1.to_i
+    when /\Aaddw? sp, (?:sp, )?#(\d+)/ then -$1.to_i
     end
   end
 end
 
-# A RISC-V: each instruction costs one.
+# A RISC-V: each instruction costs one, or what a core's timing says.
 class RiscvCode < ElfCode
   WRAP = 2**32
 
-  def initialize(path)
+  def initialize(path, timing = Timing::INSTRUCTIONS)
     super(path, 'riscv64-unknown-elf')
+    @timing = timing
   end
 
   # A product by shift and add: a turn for each bit of a factor.
@@ -279,7 +288,7 @@ class RiscvCode < ElfCode
 
   def writes?(at, register)
     _, mnemonic, operands = line(at)
-    !mnemonic.match?(/\A(?:s[bhw]|b\w+|j|ret)\z/) && operands.start_with?("#{register},")
+    !mnemonic.match?(STORE_OR_JUMP) && operands.start_with?("#{register},")
   end
 
   def loaded(at, register)
@@ -295,27 +304,48 @@ class RiscvCode < ElfCode
     { 'bnez' => at(at).edges.first, 'beqz' => at(at).edges.last }[mnemonic]&.first
   end
 
+  # The return address is in a register, until it is stored.
+  def pushed(at)
+    _, mnemonic, operands = line(at)
+    return 0 unless writes?(at, 'sp')
+
+    bytes = operands[/\Asp,sp,(-?\d+)\z/, 1] if mnemonic == 'add'
+    bytes ? -bytes.to_i : missing(at, "the stack pointer changes by what is not known (#{mnemonic} #{operands})")
+  end
+
+  STORE_OR_JUMP = /\A(?:s[bhw]|b\w+|j|ret)\z/.freeze
+
   private
 
   def decode(at)
     bytes, mnemonic, operands = line(at)
     case mnemonic
-    when 'ret' then Instruction.new([], nil, 1, bytes)
-    when 'jal' then Instruction.new([[at + bytes, 1]], target(operands), nil, bytes)
-    when 'j' then Instruction.new([[target(operands), 1]], nil, nil, bytes)
-    when /\Ab/ then Instruction.new([[at + bytes, 1], [target(operands), 1]], nil, nil, bytes)
+    when 'ret' then Instruction.new([], nil, leaving(at), bytes)
+    when 'jal' then Instruction.new([jump(at, at + bytes)], target(operands), nil, bytes)
+    when 'j' then Instruction.new([jump(at, target(operands))], nil, nil, bytes)
+    when /\Ab/ then Instruction.new([[at + bytes, staying(at)], jump(at, target(operands))], nil, nil, bytes)
     when /\Aj|\Ae(?:break|call)\z/ then opaque("#{mnemonic} #{operands}")
-    else plain(at, bytes, 1)
+    else plain(at, bytes, staying(at))
     end
+  end
+
+  def jump(at, to)
+    [to, leaving(at) + (line(to)[0] == 4 && (to % 4) != 0 ? @timing.unaligned : 0)]
+  end
+
+  def staying(at)
+    _, mnemonic, operands = line(at)
+    @timing.staying(mnemonic, operands) or missing(at, "no timing of #{mnemonic} #{operands}")
+  end
+
+  def leaving(at)
+    _, mnemonic, operands = line(at)
+    @timing.leaving(mnemonic, operands) or missing(at, "no timing of #{mnemonic} #{operands}")
   end
 
   # Without a register before it, that is not the return address's.
   def target(operands)
     operands[/(?:\A|,)(\h{8})\z/, 1].hex
-  end
-
-  def pushed_by(_bytes, mnemonic, operands)
-    mnemonic == 'add' ? operands[/\Asp,sp,-(\d+)\z/, 1].to_i : 0
   end
 end
 

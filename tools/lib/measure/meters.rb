@@ -9,10 +9,11 @@ DIRECTED_STEPS = 100_000
 QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
 
 # What one subject costs; `most` is over all questions, `mean` over the
-# recorded rows, `bound`, `levels` and `stack` from the code. Flash of the step, of all functions that
+# recorded rows, `bound`, `levels` and `stack` from the code, and so are `cycles`, the
+# bounds in cycles where the others are in instructions. Flash of the step, of all functions that
 # an application needs, and as the linker takes it; RAM of a controller, besides,
 # and of that the step's own variables on a PIC16, which SDCC keeps in RAM.
-Figures = Struct.new(:least, :mean, :most, :bound, :step_flash, :needed, :linked, :instance, :fixed, :step_variables,
+Figures = Struct.new(:least, :mean, :most, :bound, :cycles, :step_flash, :needed, :linked, :instance, :fixed, :step_variables,
                      :levels, :stack, keyword_init: true)
 
 # What a run prints, one line for each set of questions.
@@ -138,7 +139,7 @@ class Meter
     Harness.build(@subject.chip.kind)
     build
     code = read_code
-    [LongestPath.new(code, @controller.turns || {}).function(code.entry(@step)).cost, needed(code)]
+    [longest(code).function(code.entry(@step)).cost, needed(code)]
   end
 
   # The worst step and no more.
@@ -153,12 +154,11 @@ class Meter
     build
     answers = Answers.new(run, @subject)
     code = read_code
-    longest = LongestPath.new(code, code.turns.merge(@controller.turns || {}))
-    step = longest.function(code.entry(@step))
-    stack = stack(code, longest)
+    step = longest(code).function(code.entry(@step))
+    stack = stack(code)
     check_bound(answers.most, step.cost)
     check_stack(answers.stack, stack)
-    Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost,
+    Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost, cycles: cycles,
                 step_flash: code.size_of(step.addresses), needed: needed(code), levels: step.levels + 1,
                 stack: stack, **sizes(code))
   rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
@@ -193,8 +193,17 @@ class Meter
     code.size_of(LongestPath.reached(code, entries))
   end
 
+  def longest(code)
+    LongestPath.new(code, code.turns.merge(@controller.turns || {}))
+  end
+
+  # What is counted is in cycles.
+  def cycles
+    nil
+  end
+
   # Bytes, with the return address where that is in RAM.
-  def stack(code, _longest)
+  def stack(code)
     stack = Stack.new(code)
     stack.called(stack.function(code.entry(@step))).bytes
   end
@@ -311,6 +320,8 @@ end
 # In QEMU.
 class QemuMeter < AvrMeter
   CODES = { 'cortex-m0' => ArmCode, 'cortex-m4' => ArmCode, 'rv32imc' => RiscvCode, 'rv32ec' => Rv32eCode }.freeze
+  TIMINGS = { 'cortex-m0' => [Timing::CortexM0.new(1), Timing::CortexM0.new(32)], 'cortex-m4' => [Timing::CortexM4.new],
+              'rv32imc' => [Timing::Ibex.new], 'rv32ec' => [Timing::Ibex.new] }.freeze
   SHARED = Hash.new { |all, core| all[core] = Harness.objects_of(core) }
   MUTEX = Mutex.new
 
@@ -348,7 +359,12 @@ class QemuMeter < AvrMeter
     @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
   end
 
-  def stack(code, longest)
-    code.stack(code.entry(@step), longest)
+  def code_by(timing)
+    CODES.fetch(@subject.chip.name).new("#{@path}.elf", timing)
+  end
+
+  # The bound in cycles, by each of the core's timings.
+  def cycles
+    TIMINGS.fetch(@subject.chip.name).map { |timing| longest(code_by(timing)).function(read_code.entry(@step)).cost }
   end
 end
