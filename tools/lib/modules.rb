@@ -10,7 +10,7 @@
 #   fuzz     inputs that test/fuzz/run makes, and most bytes of each
 #   narrow   that it makes them for the arithmetic of an 8-bit chip, too
 #   rows     the columns of its recorded rows, with their types, that its calls_x.c takes
-#   calls    what tools/cost meters of its calls_x.c: CalledModule in tools/lib/measure/
+#   calls    what tools/cost meters of its calls_x.c, and bounds: CalledModule in tools/lib/measure/
 #   limits   what these may cost at most: function, then chip and build
 #
 # A controller of the notes, and fixpid_pid, has its cost in CONTROLLERS of
@@ -39,7 +39,10 @@ module Modules
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
       fuzz: [20_000, 256],
       rows: %w[kp_milli:uint32_t ki_milli:uint32_t kd_milli:uint32_t rate_milli:uint32_t filter:uint8_t],
-      calls: [{ calls: 2000, functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' } }],
+      # A turn for each bit of the quotient, and a shift by a filter of at most 7, each with
+      # the test that ends it.
+      calls: [{ calls: 2000, functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' },
+                turns: { 'scaled' => 33, 'fixpid_gains_from_milli' => 8, 'fixpid_gains_to_milli' => 8 } }],
       limits: { 'fixpid_gains_from_milli' => { 'pic18f4520 pointer' => { most: 16_200, flash: 4860 },
                                                'atmega328p -Os' => { most: 5700, flash: 1460 },
                                                'cortex-m0 -O2' => { most: 1340, flash: 455 },
@@ -64,12 +67,15 @@ module Modules
     'autotune' => {
       title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',
       fuzz: [200, 128],
-      # It fills a PIC18, and so does not tell the kinds of its steps apart there.
+      # The end of a cycle halves a number of 16 bits until it is small, and divides
+      # by eight turns; both test once more than they turn. A result is what a table of
+      # operations calculates, some of them until a number is 0: it has no bound. It fills a PIC18, and so does not tell the kinds of its steps apart there.
       calls: [{ object: 'tuner', calls: 60_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
-                flags: %w[-DCALLS_BY_KIND] },
+                flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_end_cycle' => 17, 'amplitude_for' => 17, 'share' => 9 } },
               { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [],
-                functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' } }],
+                functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' },
+                turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result] }],
       limits: { 'autotune_ordinary_step' => { 'atmega328p -Os' => { most: 523, flash: 7900, instance: 66 } },
                 'autotune_cycle_step' => { 'atmega328p -Os' => { most: 1655 } } }
     },

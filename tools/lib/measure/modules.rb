@@ -6,7 +6,10 @@ require_relative 'meters'
 
 # What stands beside a controller, and its functions that are measured: the
 # program of test/chips/modules makes all recorded and many random calls of them.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, keyword_init: true) do
+# `turns` are those of loops that count no constant down, by function, as a
+# Controller's; of functions in `unbounded` no bound can be told.
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded,
+                          keyword_init: true) do
   # Of the library, without the check that only a program which calls it links.
   def files
     Modules.sources(id, Host.root).grep_v(/_check\.c\z/)
@@ -56,9 +59,10 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
   end
 end
 
-# Figures of one function; flash is that of the whole module, without the
+# Figures of one function, with its bound, also in cycles by each of the core's
+# timings where the others are in instructions; flash is that of the whole module, without the
 # compiler's own routines.
-ModuleFigures = Struct.new(:least, :mean, :most, :flash, :instance, keyword_init: true)
+ModuleFigures = Struct.new(:least, :mean, :most, :bound, :cycles, :flash, :instance, keyword_init: true)
 
 # Builds the program of a module and meters its calls.
 class ModuleMeter
@@ -95,7 +99,25 @@ class ModuleMeter
                                     &.map(&:to_i)
     raise Host::Failure, "#{@subject}: no figures of #{name}:\n#{text}" unless calls&.positive?
 
-    ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, flash: flash, instance: instance)
+    bound = bound_of(name, code)
+    raise Host::Failure, "#{@subject}, #{name}: #{most} measured, but #{bound} is the bound" if bound && most > bound
+
+    ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, bound: bound, cycles: cycles_of(name),
+                      flash: flash, instance: instance)
+  end
+
+  # From the code.
+  def bound_of(name, code)
+    return if @called.unbounded&.include?(name)
+
+    LongestPath.new(code, code.turns.merge(@called.turns || {})).function(code.entry(name)).cost
+  rescue LongestPath::Failure, Code::Failure => e
+    raise Host::Failure, "#{@subject}: #{e.message}"
+  end
+
+  # What is counted is in cycles.
+  def cycles_of(_name)
+    nil
   end
 
   def program
@@ -146,7 +168,11 @@ class ModulePicMeter < ModuleMeter
   end
 
   def instance
-    @called.object ? Pic18Code.new(@path).object_size(@called.object) : 0
+    @called.object ? code.object_size(@called.object) : 0
+  end
+
+  def code
+    @code ||= Pic18Code.new(@path)
   end
 end
 
@@ -213,5 +239,11 @@ class ModuleArmMeter < ModuleAvrMeter
 
   def code
     @code ||= ArmCode.new("#{@path}.elf")
+  end
+
+  def cycles_of(name)
+    return if @called.unbounded&.include?(name)
+
+    QemuMeter::TIMINGS.fetch(@subject.chip.name).map { |timing| bound_of(name, ArmCode.new("#{@path}.elf", timing)) }
   end
 end

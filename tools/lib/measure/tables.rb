@@ -5,7 +5,7 @@ require_relative 'published'
 
 # The figures as tables: rows of cells, the head first.
 module Tables
-  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'flash of the step', 'with init', 'linked',
+  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'bound in cycles', 'flash of the step', 'with init', 'linked',
           'RAM each', 'RAM once', 'stack'].freeze
   # Of the comparisons with others.
   COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
@@ -25,11 +25,12 @@ module Tables
 
     # What stands beside a controller, a row for each function.
     def modules(called)
-      [['', 'chip', 'built', 'least', 'mean', 'worst', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
+      [['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
         functions.map do |name, figures|
           function = subject.called.functions.fetch(name)
           title = function == 'step' ? subject.called.id : "#{subject.called.id}, #{function}"
-          [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most, figures.flash,
+          [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most,
+           figures.bound || '-', in_cycles(figures), figures.flash,
            figures.instance]
         end
       end
@@ -38,9 +39,9 @@ module Tables
     # How long new gains without a bump keep an interrupt waiting.
     def masked(called)
       shown = [%w[pic18f4520 pointer], %w[atmega328p -Os], %w[cortex-m0 -O2]]
-      [['chip', 'built', 'worst', 'of']] + shown.map do |chip, build|
+      [['chip', 'built', 'at most, in cycles']] + shown.map do |chip, build|
         subject, functions = called.find { |one, all| one.chip.name == chip && one.build == build && all.key?('pid_change') }
-        [subject.chip.title, build, functions['pid_change'].most, subject.chip.cost]
+        [subject.chip.title, build, in_cycles(functions['pid_change'])]
       end
     end
 
@@ -103,9 +104,14 @@ module Tables
 
     private
 
+    # "235", or with the slow multiplier of a Cortex-M0 "235 or 359".
+    def in_cycles(figures)
+      (figures.cycles || [figures.bound || '-']).uniq.join(' or ')
+    end
+
     def step(subject, figures)
       [subject.controller.title, subject.chip.title, subject.built, figures.least, figures.mean.round, figures.most,
-       figures.bound, "#{figures.step_flash} #{subject.chip.flash}", figures.needed, figures.linked,
+       figures.bound, in_cycles(figures), "#{figures.step_flash} #{subject.chip.flash}", figures.needed, figures.linked,
        figures.instance, figures.fixed, stack(subject.chip, figures)]
     end
 
@@ -145,7 +151,7 @@ module Tables
 
     def short(measured, controller, chip, build)
       figures = find(measured, controller.id, chip, build) or return ''
-      "#{figures.most}; #{figures.needed}"
+      figures.cycles ? "#{figures.most}, #{in_cycles(figures)} cycles; #{figures.needed}" : "#{figures.most}; #{figures.needed}"
     end
   end
 end
