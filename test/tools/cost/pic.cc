@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a step costs on a PIC in gpsim, in instruction cycles:
 //
-//   pic FIRMWARE.cod CONTROLLER STEP RANDOM DIRECTED OUTPUTS_ONLY QUESTIONS
+//   pic FIRMWARE.cod CONTROLLER STEP ROW RANDOM DIRECTED RUNS SEED
+//       OUTPUTS_ONLY QUESTIONS
 //
 // The firmware is test/chips/target/driver_main.c with the controller's driver.
 // Prints the lines of search.h and
@@ -112,19 +113,22 @@ uint32_t number(const char *text)
 int main(int argc, char *argv[])
 {
     try {
-        if (argc != 8) {
-            throw ChipError("usage: pic FIRMWARE.cod CONTROLLER STEP RANDOM "
-                            "DIRECTED OUTPUTS_ONLY QUESTIONS");
+        if (argc != 11) {
+            throw ChipError("usage: pic FIRMWARE.cod CONTROLLER STEP ROW "
+                            "RANDOM DIRECTED RUNS SEED OUTPUTS_ONLY QUESTIONS");
         }
         const controller &which = find_controller(argv[2]);
         Steps all(argv[1], which, argv[3]);
         steps = &all;
         const search_plan plan = {&which,
                                   cost_of,
-                                  number(argv[4]),
+                                  argv[4],
                                   number(argv[5]),
-                                  static_cast<uint8_t>(number(argv[6])),
-                                  static_cast<uint8_t>(number(argv[7]))};
+                                  number(argv[6]),
+                                  number(argv[7]),
+                                  number(argv[8]),
+                                  static_cast<uint8_t>(number(argv[9])),
+                                  static_cast<uint8_t>(number(argv[10]))};
         const uint32_t different = search_run(&plan);
         std::printf("stack %u\n", all.stack_most);
         return different == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

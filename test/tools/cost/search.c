@@ -6,11 +6,11 @@
 
 #include "numbers.h"
 #include "put.h"
+#include "sequence.h"
 #include "vectors.h"
 
-#define SEGMENTS 4u   // questions of a sequence
-#define CANDIDATES 12 // random sequences, of which the dearest is improved
-#define PATIENCE 1500 // changes without success before another start
+#define CANDIDATES 12u // random sequences, of which the dearest is improved
+#define PATIENCE 2000u // changes without success before another start
 
 struct figures {
     uint32_t steps;
@@ -20,77 +20,24 @@ struct figures {
     uint32_t different;
 };
 
-// A question and how often its step is repeated: a sum takes time to fill.
-struct segment {
-    union question question;
-    uint8_t times;
-};
-
-// Where each controller's question has its `calls`, in bytes, which of their
-// bits the controller knows, and what makes a question one of those.
-struct layout {
-    const char *controller;
-    uint8_t calls;
-    uint8_t calls_size;
-    uint8_t known[2];
-    void (*restrict_to)(uint8_t questions, union question *question);
-};
-
-// Proportional, integral and derivative, with limits. The integral's gain is
-// one of 2^-16, as others have it, in plain questions.
-static void restrict_pid_to(uint8_t questions, union question *question)
-{
-    struct pid_question *const asked = &question->pid;
-
-    if (questions == QUESTIONS_PLAIN || asked->ki_q24 > 0x7FFF7Fu) {
-        asked->ki_q24 = (asked->ki_q24 & 0x7FFFu) << 8;
-    }
-    asked->setpoint_weight_q8 = 256;
-    asked->derivative_filter = 0;
-    asked->options = 0;
-    asked->calls &= CALL_INIT | CALL_RESET | CALL_SET_GAINS | CALL_SET_LIMITS |
-                    CALL_SET_INTEGRAL_LIMITS;
-}
-
-static const struct layout layouts[] = {
-    {"an937", offsetof(struct an937_question, calls), 1, {0xFF, 0}, NULL},
-    {"an964", offsetof(struct an964_question, calls), 1, {0x07, 0}, NULL},
-    {"an964_8bit",
-     offsetof(struct an964_8bit_question, calls),
-     1,
-     {0x07, 0},
-     NULL},
-    {"pid",
-     offsetof(struct pid_question, calls),
-     2,
-     {0xFF, 0x01},
-     restrict_pid_to},
+// A sequence, and the cost of its dearest step.
+struct found {
+    struct sequence sequence;
+    uint32_t cost;
 };
 
 static const struct search_plan *plan;
 static struct figures figures;
-static const struct layout *layout;
-
-static uint8_t *calls_of(union question *question)
-{
-    return (uint8_t *)question + layout->calls;
-}
+static struct found best; // of all
+static uint32_t own_cost; // of the sequence that is kept for this row, or 0
 
 // ---- One question ----
 
-static void restrict_question(union question *question)
-{
-    if (plan->questions != QUESTIONS_ALL) {
-        layout->restrict_to(plan->questions, question);
-    }
-}
-
-static void begin(uint32_t seed)
+static void begin(void)
 {
     static const struct figures none = {0, UINT32_MAX, 0, 0, 0};
 
     figures = none;
-    cases_begin(seed);
 }
 
 static uint32_t differs(const union answer *expected, const union answer *given)
@@ -136,7 +83,7 @@ static uint32_t measure_defined(union question *question)
     const uint32_t different = figures.different;
     uint32_t cost;
 
-    restrict_question(question);
+    sequence_restrict(question);
     memset(&expected, 0, sizeof expected);
     plan->controller->define(question, &expected);
     cost = measure(question, &expected);
@@ -155,7 +102,8 @@ static void rows(void)
     union question question;
     union answer expected;
 
-    begin(1);
+    begin();
+    cases_begin(1);
     for (const struct recording *from = plan->controller->recordings;
          from->name != NULL; from++) {
         vectors_open(from->name);
@@ -163,7 +111,7 @@ static void rows(void)
             memset(&question, 0, sizeof question);
             memset(&expected, 0, sizeof expected);
             from->row(columns, &question, &expected);
-            restrict_question(&question);
+            sequence_restrict(&question);
             (void)measure(&question, &expected);
         }
     }
@@ -172,196 +120,175 @@ static void rows(void)
     }
 }
 
-static void ask(union question *question)
-{
-    memset(question, 0, sizeof *question);
-    plan->controller->ask(question);
-}
-
 static void random_steps(void)
 {
     union question question;
 
-    begin(2);
+    begin();
+    cases_begin(2);
     for (uint32_t step = 0; step < plan->random_steps; step++) {
-        ask(&question);
+        memset(&question, 0, sizeof question);
+        plan->controller->ask(&question);
         (void)measure_defined(&question);
+    }
+}
+
+// ---- Sequences ----
+
+// The cost of the dearest step. The sequence ends with it from now on: what
+// comes later cannot make it dearer.
+static uint32_t try_sequence(struct sequence *sequence)
+{
+    uint32_t most = 0;
+    uint8_t count = sequence->count;
+    uint8_t times = sequence->segments[count - 1u].times;
+
+    for (uint8_t at = 0; at < sequence->count; at++) {
+        union question question = sequence->segments[at].question;
+
+        for (uint8_t time = 1; time <= sequence->segments[at].times; time++) {
+            const uint32_t cost = measure_defined(&question);
+
+            sequence_clear_calls(&question);
+            if (cost > most) {
+                most = cost;
+                count = (uint8_t)(at + 1u);
+                times = time;
+            }
+        }
+    }
+    sequence->count = count;
+    sequence->segments[count - 1u].times = times;
+    return most;
+}
+
+static void remember(const struct found *found)
+{
+    if (found->cost > best.cost) {
+        best = *found;
+    }
+}
+
+static bool is_own(const char *const *rows)
+{
+    while (*rows != NULL && strcmp(*rows, plan->row) != 0) {
+        rows++;
+    }
+    return *rows != NULL;
+}
+
+static bool is_of_controller(const struct kept *one)
+{
+    return strcmp(one->controller, plan->controller->name) == 0;
+}
+
+// One of those that are kept for this controller, if there is one.
+static void pick_kept(struct sequence *sequence)
+{
+    uint32_t count = 0;
+
+    for (const struct kept *one = kept_sequences; one->controller != NULL;
+         one++) {
+        if (is_of_controller(one)) {
+            count++;
+            if (numbers_below(count) == 0u) {
+                *sequence = one->sequence;
+            }
+        }
+    }
+}
+
+// Those that are kept for any row of this controller.
+static void kept(void)
+{
+    struct found found;
+
+    begin();
+    for (const struct kept *one = kept_sequences; one->controller != NULL;
+         one++) {
+        if (is_of_controller(one)) {
+            found.sequence = one->sequence;
+            found.cost = try_sequence(&found.sequence);
+            remember(&found);
+            if (is_own(one->rows)) {
+                own_cost = found.cost;
+            }
+        }
     }
 }
 
 // ---- The directed search ----
 
-static uint8_t any_times(void)
-{
-    const uint32_t kind = numbers_below(16);
-
-    if (kind == 0u) {
-        return (uint8_t)(1u + numbers_below(64));
-    }
-    return (uint8_t)(kind < 13u ? 1u : kind < 15u ? 2u : 8u);
-}
-
-static void any_segment(struct segment *segment)
-{
-    ask(&segment->question);
-    segment->times = any_times();
-}
-
-static void any_sequence(struct segment sequence[SEGMENTS])
-{
-    for (uint32_t at = 0; at < SEGMENTS; at++) {
-        any_segment(&sequence[at]);
-    }
-}
-
-// A sequence begins with the controller's init, which does not come again.
-static void settle_calls(union question *question, bool first)
-{
-    uint8_t *const calls = calls_of(question);
-
-    for (uint8_t at = 0; at < layout->calls_size; at++) {
-        calls[at] &= first ? 0u : layout->known[at];
-    }
-    calls[0] = (uint8_t)(calls[0] & ~CALL_INIT);
-    if (first) {
-        calls[0] = CALL_INIT;
-    }
-}
-
-// The dearest step of a sequence; a segment's calls are made with its first.
-static uint32_t try_sequence(const struct segment sequence[SEGMENTS])
-{
-    uint32_t most = 0;
-
-    for (uint32_t at = 0; at < SEGMENTS; at++) {
-        union question question = sequence[at].question;
-
-        settle_calls(&question, at == 0u);
-        for (uint8_t time = 0; time < sequence[at].times; time++) {
-            const uint32_t cost = measure_defined(&question);
-
-            memset(calls_of(&question), 0, layout->calls_size);
-            if (cost > most) {
-                most = cost;
-            }
-        }
-    }
-    return most;
-}
-
-// A word at one of the ends of a range, or next to a power of two.
-static uint16_t any_corner(void)
-{
-    static const uint16_t corners[] = {0x0000, 0x0001, 0xFFFF, 0x7FFF, 0x8000,
-                                       0x8001, 0x00FF, 0x0100, 0x0101, 0xFEFF,
-                                       0xFF00, 0xFF01, 0x007F, 0x0080, 0xFF80};
-
-    return corners[numbers_below(sizeof corners / sizeof corners[0])];
-}
-
-// A bit, a word, a small number more or less, or some bytes of a fresh
-// question.
-static void change_bytes(union question *question)
-{
-    const uint32_t size = plan->controller->question_size;
-    uint8_t *const bytes = (uint8_t *)question;
-    const uint32_t from = numbers_below(size);
-    const uint32_t count = 1u + numbers_below(size - from);
-    const uint32_t word_at = (from & ~1u) % (size - 1u);
-    const uint32_t kind = numbers_below(16);
-    union question fresh;
-    uint16_t word;
-
-    memcpy(&word, bytes + word_at, sizeof word);
-    if (kind < 6u) {
-        bytes[from] = (uint8_t)(bytes[from] ^ (1u << numbers_below(8)));
-    } else if (kind < 8u) {
-        word = any_corner();
-        memcpy(bytes + word_at, &word, sizeof word);
-    } else if (kind < 10u) {
-        word = (uint16_t)(word + (1u << numbers_below(9)) -
-                          (numbers_below(2) << numbers_below(10)));
-        memcpy(bytes + word_at, &word, sizeof word);
-    } else if (kind < 11u) {
-        word = (uint16_t)numbers_next();
-        memcpy(bytes + word_at, &word, sizeof word);
-    } else {
-        ask(&fresh);
-        memcpy(bytes + from, (const uint8_t *)&fresh + from,
-               numbers_below(2) == 0u ? 1u : count);
-    }
-}
-
-static void change(struct segment sequence[SEGMENTS])
-{
-    struct segment *const segment = &sequence[numbers_below(SEGMENTS)];
-
-    switch (numbers_below(12)) {
-    case 0:
-        segment->times = any_times();
-        break;
-    case 1:
-        segment->times = (uint8_t)(segment->times % 64u + 1u);
-        break;
-    case 2:
-        any_segment(segment);
-        break;
-    case 3:
-        *segment = sequence[numbers_below(SEGMENTS)];
-        break;
-    default:
-        change_bytes(&segment->question);
-        break;
-    }
-}
-
 // The dearest of a few random sequences.
-static uint32_t begin_sequence(struct segment best[SEGMENTS])
+static void begin_randomly(struct found *from)
 {
-    struct segment sequence[SEGMENTS];
-    uint32_t most = 0;
+    struct found candidate;
 
-    for (int candidate = 0; candidate < CANDIDATES; candidate++) {
-        uint32_t cost;
-
-        any_sequence(sequence);
-        cost = try_sequence(sequence);
-        if (cost >= most) {
-            most = cost;
-            memcpy(best, sequence, sizeof sequence);
+    from->cost = 0;
+    for (uint32_t number = 0; number < CANDIDATES; number++) {
+        sequence_random(&candidate.sequence);
+        candidate.cost = try_sequence(&candidate.sequence);
+        if (candidate.cost >= from->cost) {
+            *from = candidate;
         }
     }
-    return most;
 }
 
-static void climb(void)
+// The dearest sequence or one that is kept, changed more than a climb changes
+// it.
+static void begin_beside(struct found *from)
 {
-    struct segment best[SEGMENTS];
-    struct segment sequence[SEGMENTS];
-    uint32_t most = begin_sequence(best);
+    const uint32_t changes = numbers_below(8);
+
+    from->sequence = best.sequence;
+    if (numbers_below(2) == 0u) {
+        pick_kept(&from->sequence);
+    }
+    for (uint32_t change = 0; change < changes; change++) {
+        sequence_change(&from->sequence);
+    }
+    from->cost = try_sequence(&from->sequence);
+}
+
+// Changes a sequence as long as that makes its dearest step dearer now and
+// then. One that is as dear is taken, too, which leads across plains.
+static void climb(struct found *from, uint32_t steps)
+{
     uint32_t failures = 0;
 
-    while (failures < PATIENCE && figures.steps < plan->directed_steps) {
-        uint32_t cost;
+    while (failures < PATIENCE && figures.steps < steps) {
+        struct found changed = *from;
 
-        memcpy(sequence, best, sizeof sequence);
-        do {
-            change(sequence);
-        } while (numbers_below(2) == 0u);
-        cost = try_sequence(sequence);
-        failures = cost > most ? 0u : failures + 1u;
-        if (cost >= most) {
-            most = cost;
-            memcpy(best, sequence, sizeof sequence);
+        sequence_change(&changed.sequence);
+        changed.cost = try_sequence(&changed.sequence);
+        failures = changed.cost > from->cost ? 0u : failures + 1u;
+        if (changed.cost >= from->cost) {
+            *from = changed;
         }
     }
+    remember(from);
 }
 
+// First from the dearest sequence that is known.
 static void directed_steps(void)
 {
-    begin(3);
-    while (figures.steps < plan->directed_steps) {
-        climb();
+    struct found from = best;
+
+    begin();
+    for (uint32_t run = 1; run <= plan->runs; run++) {
+        cases_begin(plan->seed + run);
+        if (best.cost > 0u) {
+            from = best;
+            climb(&from, run * plan->directed_steps);
+        }
+        while (figures.steps < run * plan->directed_steps) {
+            if (best.cost == 0u || numbers_below(2) == 0u) {
+                begin_randomly(&from);
+            } else {
+                begin_beside(&from);
+            }
+            climb(&from, run * plan->directed_steps);
+        }
     }
 }
 
@@ -379,16 +306,27 @@ static uint32_t report(const char *name)
     return figures.different;
 }
 
-static bool find_layout(const char *controller)
+// The dearest sequence, without what does not make it dear.
+static uint32_t report_best(void)
 {
-    const size_t count = sizeof layouts / sizeof layouts[0];
+    enum simpler simpler = SIMPLE;
 
-    for (layout = layouts; layout < layouts + count; layout++) {
-        if (strcmp(layout->controller, controller) == 0) {
-            return true;
+    begin();
+    for (uint32_t number = 0; simpler != NO_MORE; number++) {
+        struct found candidate = best;
+
+        simpler = sequence_simplify(&candidate.sequence, number);
+        if (simpler == SIMPLER) {
+            candidate.cost = try_sequence(&candidate.sequence);
+            if (candidate.cost >= best.cost) {
+                best = candidate;
+            }
         }
     }
-    return false;
+    put_number("best cost ", best.cost);
+    put_text("\n");
+    sequence_print(&best.sequence);
+    return figures.different;
 }
 
 uint32_t search_run(const struct search_plan *of)
@@ -396,14 +334,21 @@ uint32_t search_run(const struct search_plan *of)
     uint32_t different;
 
     plan = of;
-    if (!find_layout(of->controller->name)) {
-        put_text("no layout of its questions\n");
+    best.cost = 0;
+    own_cost = 0;
+    if (!sequence_begin(of->controller, of->questions)) {
+        put_text("nothing is known of its questions\n");
         return 1;
     }
     rows();
     different = report("rows");
     random_steps();
     different += report("random");
+    kept();
+    different += report("kept");
     directed_steps();
-    return different + report("search");
+    different += report("search");
+    put_number("own cost ", own_cost);
+    put_text("\n");
+    return best.cost > own_cost ? different + report_best() : different;
 }

@@ -53,6 +53,16 @@ class Cost
     good.all?
   end
 
+  # Keeps each dearer sequence that a long search finds.
+  def search(seed)
+    kept = Kept.all
+    subjects = @subjects + @subjects.select(&:has_plain_c?).map(&:plain_c)
+    Host.in_parallel(subjects) do |subject|
+      found = Meter.of(subject).search(seed).found
+      @mutex.synchronize { keep(kept.find { |one| one.name == subject.controller.name }, subject, found) }
+    end
+  end
+
   def update
     all_parts.group_by(&:first).each do |path, parts|
       document = Document.new(path)
@@ -65,6 +75,15 @@ class Cost
   end
 
   private
+
+  # A run that is interrupted has kept what it found.
+  def keep(kept, subject, found)
+    return puts "#{subject}: #{found.own} is kept" if found.best.zero?
+
+    kept.replace(subject.key, found.steps)
+    kept.write
+    puts "#{subject}: #{found.best} found, #{found.own.zero? ? 'nothing' : found.own} was kept"
+  end
 
   def tell(good, what, *why)
     puts good ? "ok #{what}" : "FAILED #{what}"
@@ -149,17 +168,19 @@ def chosen(words)
   [subjects, modules]
 end
 
-# MODE ROOT WORD..., or `words WORD...`: only whether something is called so.
+# MODE ROOT WORD..., `search` ROOT SEED WORD..., or `words WORD...`: only whether something is called so.
 def main(mode, root = nil, *words)
   return chosen([root, *words].compact) if mode == 'words'
 
   Host.setup(root)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
+  seed = words.shift if mode == 'search'
   cost = Cost.new(*chosen(words))
   case mode
   when 'check' then cost.check
   when 'update' then cost.update
+  when 'search' then cost.search(seed)
   else words.empty? ? cost.print_all : cost.print
   end
 end

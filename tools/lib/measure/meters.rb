@@ -2,10 +2,12 @@
 # frozen_string_literal: true
 
 require_relative 'cores'
+require_relative 'kept'
 require_relative '../bound'
 
 RANDOM_STEPS = 20_000
-DIRECTED_STEPS = 100_000
+SEARCH = [30_000, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
+LONG_SEARCH = [200_000, 3].freeze
 QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
 
 # What one subject costs; `most` is over all questions, `mean` over the
@@ -18,16 +20,22 @@ Figures = Struct.new(:least, :mean, :most, :bound, :cycles, :step_flash, :needed
 
 # What a run prints, one line for each set of questions.
 class Answers
+  # What the kept sequence of the row costs, or 0, and a dearer one with its steps, or 0 and none.
+  Found = Struct.new(:own, :best, :steps)
+
   def initialize(text, subject)
-    @sets = text.scan(/^(rows|random|search) (.*)$/).to_h do |name, numbers|
+    @sets = text.scan(/^(rows|random|kept|search) (.*)$/).to_h do |name, numbers|
       [name, numbers.scan(/(\w+) (\d+)/).to_h { |key, value| [key, value.to_i] }]
     end
+    @found = Found.new(text[/^own cost (\d+)/, 1].to_i, text[/^best cost (\d+)/, 1].to_i, Kept.printed(text))
     @stack = text[/^stack (\d+)/, 1]&.to_i
-    raise Host::Failure, "#{subject}: no figures:\n#{text}" if @sets.size != 3
+    raise Host::Failure, "#{subject}: no figures:\n#{text}" if @sets.size != 4
     return if different.zero?
 
     raise Host::Failure, "#{subject}: #{different} answers differ from the definition's"
   end
+
+  attr_reader :found
 
   # Bytes, of what has a stack in RAM and counts it.
   attr_reader :stack
@@ -51,7 +59,7 @@ end
 
 # The harness: programs for this machine and objects for the others.
 module Harness
-  SHARED = %w[test/tools/cost/search.c test/chips/target/cases.c test/support/reference.c test/support/reference_pid.c
+  SHARED = %w[test/tools/cost/search.c test/tools/cost/sequence.c test/chips/target/cases.c test/support/reference.c test/support/reference_pid.c
               test/support/numbers.c test/support/numbers_pid.c].freeze
   INCLUDES = %w[include src test/support test/chips/target test/tools/cost].map { |folder| "-I#{folder}" }.freeze
   WARNINGS = %w[-Wall -Wextra -Werror].freeze
@@ -64,6 +72,7 @@ module Harness
     def build(kind)
       @mutex.synchronize do
         @built[kind] ||= begin
+          kept_table
           { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table }, riscv: -> { vectors_table } }[kind].call
           true
         end
@@ -77,7 +86,7 @@ module Harness
 
     # Objects that all programs of a core share.
     def objects_of(core)
-      files = SHARED + CORES.fetch(core).sources + ["#{Host.folder}/vectors_table.c"]
+      files = SHARED + CORES.fetch(core).sources + %W[#{Host.folder}/vectors_table.c #{Host.folder}/kept.c]
       files.map do |file|
         object = "#{Host.folder}/#{core}-#{File.basename(file, '.c')}.o"
         CORES.fetch(core).compile('-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
@@ -88,7 +97,7 @@ module Harness
     private
 
     def host_objects
-      @host_objects ||= (SHARED + %w[test/support/vectors_file.c]).map { |file| compile(file) }
+      @host_objects ||= (SHARED + %W[test/support/vectors_file.c #{Host.folder}/kept.c]).map { |file| compile(file) }
     end
 
     def compile(file)
@@ -105,6 +114,10 @@ module Harness
     def pic(objects)
       Host.output('g++', '-std=c++17', '-O2', *WARNINGS, '-Isim/chip', *INCLUDES, 'test/tools/cost/pic.cc',
                   'test/chips/target/driver.cc', *objects, 'build/gpsim/libchip.a', '-lgpsim', '-o', "#{Host.folder}/pic")
+    end
+
+    def kept_table
+      File.write("#{Host.folder}/kept.c", Kept.table)
     end
 
     # Without the firmware's own cycles.
@@ -132,6 +145,7 @@ class Meter
     @controller = subject.controller
     @path = "#{Host.folder}/#{subject.key}"
     @step = subject.step
+    @search = SEARCH
   end
 
   # Without a run: the longest path of a step, and the flash with init.
@@ -147,6 +161,14 @@ class Meter
     Harness.build(@subject.chip.kind)
     build
     Answers.new(run, @subject).most
+  end
+
+  # The answers of a long search.
+  def search(seed)
+    @search = [*LONG_SEARCH, seed]
+    Harness.build(@subject.chip.kind)
+    build
+    Answers.new(run, @subject)
   end
 
   def figures
@@ -185,7 +207,7 @@ class Meter
   # A straightforward form has neither flags nor refusals: only the outputs of
   # the rows are compared.
   def numbers
-    [RANDOM_STEPS, DIRECTED_STEPS, @subject.plain_c? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
+    [RANDOM_STEPS, *@search, @subject.plain_c? ? 1 : 0, QUESTIONS.index(@controller.questions)].map(&:to_s)
   end
 
   def needed(code)
@@ -248,7 +270,7 @@ class PicMeter < Meter
   end
 
   def run
-    Host.output("#{Host.folder}/pic", "#{@path}.cod", @controller.name, @step, *numbers)
+    Host.output("#{Host.folder}/pic", "#{@path}.cod", @controller.name, @step, @subject.key, *numbers)
   end
 
   def read_code
@@ -304,7 +326,8 @@ class AvrMeter < Meter
 
   def run
     symbols = ['main', @step, 'turn', "#{@controller.name}_exchange"].map { |name| read_code.symbol(name).to_s(16) }
-    Host.output("#{Host.folder}/avr", "#{@path}.elf", @subject.chip.name, @controller.name, *symbols, *numbers)
+    Host.output("#{Host.folder}/avr", "#{@path}.elf", @subject.chip.name, @controller.name, *symbols, @subject.key,
+                *numbers)
   end
 
   def read_code
@@ -344,9 +367,10 @@ class QemuMeter < AvrMeter
   end
 
   def definitions
-    random, directed, outputs, questions = numbers
+    random, directed, runs, seed, outputs, questions = numbers
     ["-DCONTROLLER=\"#{@controller.name}\"", "-DREPLY=#{@controller.name}_reply",
      "-DEXCHANGE=#{@controller.name}_exchange", "-DSTEP=\"#{@step}\"",
+     "-DROW=\"#{@subject.key}\"", "-DRUNS=#{runs}", "-DSEED=#{seed}",
      "-DRANDOM_STEPS=#{random}", "-DDIRECTED_STEPS=#{directed}", "-DOUTPUTS_ONLY=#{outputs}",
      "-DQUESTIONS=#{questions}"]
   end

@@ -178,6 +178,11 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
       end
     end
 
+    # And the straightforward forms.
+    def with_plain_c
+      all + all.select(&:has_plain_c?).map(&:plain_c)
+    end
+
     def of(controller, chip)
       plain = chip.builds.map { |build| new(controller, chip, build, nil) }
       variants = VARIANTS.select { |one| one.controller == controller.name && one.chip == chip.name }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a step costs on an AVR in simavr, in cycles:
 //
-//   meter FIRMWARE.elf MCU CONTROLLER MAIN STEP TURN EXCHANGE RANDOM DIRECTED
-//         OUTPUTS_ONLY QUESTIONS
+//   meter FIRMWARE.elf MCU CONTROLLER MAIN STEP TURN EXCHANGE ROW RANDOM
+//         DIRECTED RUNS SEED OUTPUTS_ONLY QUESTIONS
 //
 // The firmware is test/chips/target/driver_main.c with the controller's driver;
 // MAIN, STEP, TURN and EXCHANGE are the addresses of its symbols, in
@@ -61,7 +61,7 @@ int main(int argc, char *argv[])
 {
     uint32_t different;
 
-    if (argc != 12) {
+    if (argc != 15) {
         die("wrong use");
     }
     load(argv[1], argv[2]);
@@ -79,10 +79,13 @@ int main(int argc, char *argv[])
     (void)run_turn(); // up to the first wait
     const struct search_plan plan = {controller,
                                      step,
-                                     number(argv[8], 10),
+                                     argv[8],
                                      number(argv[9], 10),
-                                     (uint8_t)number(argv[10], 10),
-                                     (uint8_t)number(argv[11], 10)};
+                                     number(argv[10], 10),
+                                     number(argv[11], 10),
+                                     number(argv[12], 10),
+                                     (uint8_t)number(argv[13], 10),
+                                     (uint8_t)number(argv[14], 10)};
     different = search_run(&plan);
     (void)printf("stack %u\n", stack_most);
     return different == 0u ? 0 : 1;

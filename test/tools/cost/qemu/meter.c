@@ -30,8 +30,11 @@ int main(void)
 {
     const struct search_plan plan = {controller_named(CONTROLLER),
                                      step,
+                                     ROW,
                                      RANDOM_STEPS,
                                      DIRECTED_STEPS,
+                                     RUNS,
+                                     SEED,
                                      OUTPUTS_ONLY,
                                      QUESTIONS};
 
