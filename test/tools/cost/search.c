@@ -10,7 +10,7 @@
 #include "vectors.h"
 
 #define CANDIDATES 12u // random sequences, of which the dearest is improved
-#define PATIENCE 2000u // changes without success before another start
+#define PATIENCE 1000u // changes without success before another start
 
 struct figures {
     uint32_t steps;

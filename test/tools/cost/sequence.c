@@ -96,13 +96,25 @@ static const struct field pid_fields[] = {
     {NULL, 0, 0, 0, 0, 0},
 };
 
-static void swap_if_above(int16_t *low, int16_t *high)
+// Any of the three ways in which two limits can be put right.
+static void put_in_order(int16_t *low, int16_t *high)
 {
-    const int16_t kept = *low;
+    const int16_t from = *low;
 
-    if (*low > *high) {
+    if (*low <= *high) {
+        return;
+    }
+    switch (numbers_below(3)) {
+    case 0:
         *low = *high;
-        *high = kept;
+        break;
+    case 1:
+        *high = *low;
+        break;
+    default:
+        *low = *high;
+        *high = from;
+        break;
     }
 }
 
@@ -115,8 +127,8 @@ static void settle_pid(union question *question)
     if ((asked->options & 0x20u) != 0u) { // P on the measurement
         asked->setpoint_weight_q8 = 0;
     }
-    swap_if_above(&asked->output_min, &asked->output_max);
-    swap_if_above(&asked->integral_min, &asked->integral_max);
+    put_in_order(&asked->output_min, &asked->output_max);
+    put_in_order(&asked->integral_min, &asked->integral_max);
     if (asked->output_min == asked->output_max) {
         if (asked->output_max == INT16_MAX) {
             asked->output_min--;
@@ -310,20 +322,24 @@ static int64_t any_corner(const struct field *field)
     static const int8_t beside[] = {0, 0, 0, 1, -1};
     int64_t value = (int64_t)1 << numbers_below(8u * field->size);
 
-    switch (numbers_below(8)) {
+    switch (numbers_below(12)) {
     case 0:
+    case 1:
         value = field->least;
         break;
-    case 1:
+    case 2:
         value = field->most;
         break;
-    case 2:
+    case 3:
         value = 0;
         break;
-    case 3:
+    case 4:
+    case 5:
         value = 1;
         break;
-    case 4:
+    case 6:
+    case 7:
+    case 8:
         value = 256;
         break;
     default:
@@ -405,26 +421,30 @@ static void change_number(struct sequence *sequence)
     const uint32_t bit = numbers_below(8u * field->size);
     int64_t value = get(question, field);
 
-    switch (numbers_below(16)) {
+    switch (numbers_below(20)) {
     case 0:
     case 1:
     case 2:
-        value = any_corner(field);
-        break;
     case 3:
     case 4:
     case 5:
+    case 6:
+        value = any_corner(field);
+        break;
+    case 7:
+    case 8:
+    case 9:
         value += (int64_t)(1u << bit) * (numbers_below(2) == 0u ? 1 : -1);
         break;
-    case 6:
+    case 10:
         value += (int64_t)numbers_below(1u << (bit / 2u)) -
                  (int64_t)numbers_below(1u << (bit / 2u));
         break;
-    case 7:
+    case 11:
         value = field->least + (int64_t)(numbers_next() & 0x7FFFFFFFu) %
                                    ((int64_t)field->most - field->least + 1);
         break;
-    case 8:
+    case 12:
         value = any_other(sequence);
         break;
     default:
