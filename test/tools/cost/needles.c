@@ -178,11 +178,9 @@ static uint32_t cost_of_corners(const struct pid_question *asked)
     previous = asked->measurement;
     {
         const bool conditions[] = {
-            asked->calls == 0u,          asked->measurement == 256,
-            asked->setpoint == -256,     is_beside(before, -256),
-            settings.kd_q8 == 1u,        settings.kp_q8 == 256u,
-            settings.integral_min == -1, settings.integral_max == 0,
-        };
+            asked->calls == 0u, asked->measurement == 256,
+            asked->setpoint == -256, is_beside(before, -256),
+            settings.kd_q8 == 1u};
         return climbed(conditions, sizeof conditions / sizeof conditions[0]);
     }
 }

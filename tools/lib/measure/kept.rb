@@ -14,17 +14,18 @@ class Kept
 
   class << self
     # The C file with all of them: `kept_sequences` of sequence.h.
-    def table
+    def table(folder = FOLDER)
       "#include <stddef.h>\n#include \"sequence.h\"\n" \
-        "const struct kept kept_sequences[] = {\n#{all.map(&:entries).join}{NULL, NULL, {.count = 0}},\n};\n"
+        "const struct kept kept_sequences[] = {\n#{all(folder).map(&:entries).join}{NULL, NULL, {.count = 0}},\n};\n"
     end
 
-    def all
+    def all(folder = FOLDER)
+      folder = File.expand_path(folder, Host.root)
       names = CONTROLLERS.map(&:name).uniq
-      found = Dir["#{Host.root}/#{FOLDER}/*.csv"].map { |path| File.basename(path, '.csv') }.sort
-      raise Host::Failure, "#{FOLDER} has #{found.join(', ')}, not #{names.sort.join(', ')}" if found != names.sort
+      missing = names.reject { |name| File.exist?("#{folder}/#{name}.csv") }
+      raise Host::Failure, "#{folder} has no #{missing.join(', ')}" if missing.any?
 
-      names.map { |name| new(name) }
+      names.map { |name| new(name, "#{folder}/#{name}.csv") }
     end
 
     # The sequence that a run has printed, as lines of cells by column.
@@ -37,7 +38,7 @@ class Kept
 
   attr_reader :name
 
-  def initialize(name, path = "#{Host.root}/#{FOLDER}/#{name}.csv")
+  def initialize(name, path)
     @name = name
     @path = path
     @head, *lines = File.readlines(path, chomp: true).map { |line| line.split(',', -1) }

@@ -209,6 +209,7 @@ part_cost() {
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/bounds.rb
     count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/stacks.rb
     count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/tools/cost/random_loops.rb
+    count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
 }
