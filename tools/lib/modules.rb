@@ -11,29 +11,22 @@
 #   narrow   that it makes them for the arithmetic of an 8-bit chip, too
 #   rows     the columns of its recorded rows, with their types, that its calls_x.c takes
 #   calls    what tools/cost meters of its calls_x.c, and bounds: CalledModule in tools/lib/measure/
-#   limits   what these may cost at most: function, then chip and build
 #
 # A controller of the notes, and fixpid_pid, has its cost in CONTROLLERS of
-# tools/lib/measure/subjects.rb.
+# tools/lib/measure/subjects.rb. What any may cost at most is in tools/lib/measure/limits.csv.
 module Modules
   ALL = {
     'slew' => {
       title: 'Slew', what: 'A value that follows a target at limited speed',
       fuzz: [20_000, 256],
       rows: %w[event:uint8_t rise_q16:uint32_t fall_q16:uint32_t seed:int16_t target:int16_t],
-      calls: [{ object: 'slew', calls: 20_000, functions: { 'fixpid_slew_step' => 'step' } }],
-      limits: { 'fixpid_slew_step' => { 'pic18f4520 pointer' => { most: 395, flash: 1850, instance: 12 },
-                                        'atmega328p -Os' => { most: 118, flash: 330, instance: 12 },
-                                        'cortex-m0 -O2' => { most: 31, flash: 127 }, 'cortex-m4 -O2' => { most: 20, flash: 114 } } }
+      calls: [{ object: 'slew', calls: 20_000, functions: { 'fixpid_slew_step' => 'step' } }]
     },
     'tpo' => {
       title: 'Time-proportioned output', what: 'Time-proportioned output for relays and valves',
       fuzz: [20_000, 256],
       rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
-      calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }],
-      limits: { 'fixpid_tpo_step' => { 'pic18f4520 pointer' => { most: 1020, flash: 2960, instance: 20 },
-                                       'atmega328p -Os' => { most: 211, flash: 460, instance: 20 },
-                                       'cortex-m0 -O2' => { most: 52, flash: 210 }, 'cortex-m4 -O2' => { most: 46, flash: 255 } } }
+      calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }]
     },
     'gains' => {
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
@@ -42,13 +35,7 @@ module Modules
       # A turn for each bit of the quotient, and a shift by a filter of at most 7, each with
       # the test that ends it.
       calls: [{ calls: 2000, functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' },
-                turns: { 'scaled' => 33, 'fixpid_gains_from_milli' => 8, 'fixpid_gains_to_milli' => 8 } }],
-      limits: { 'fixpid_gains_from_milli' => { 'pic18f4520 pointer' => { most: 16_200, flash: 4860 },
-                                               'atmega328p -Os' => { most: 5700, flash: 1460 },
-                                               'cortex-m0 -O2' => { most: 1340, flash: 455 },
-                                               'cortex-m4 -O2' => { most: 1190, flash: 425 } },
-                'fixpid_gains_to_milli' => { 'pic18f4520 pointer' => { most: 11_100 }, 'atmega328p -Os' => { most: 3800 },
-                                             'cortex-m0 -O2' => { most: 915 }, 'cortex-m4 -O2' => { most: 805 } } }
+                turns: { 'scaled' => 33, 'fixpid_gains_from_milli' => 8, 'fixpid_gains_to_milli' => 8 } }]
     },
     'record' => {
       title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',
@@ -58,11 +45,7 @@ module Modules
       title: 'PID', what: 'The general-purpose controller',
       fuzz: [20_000, 1024], narrow: true,
       calls: [{ object: 'pid', calls: 5000, functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
-                program: %w[test/chips/modules/steps_pid.c] }],
-      limits: { 'pid_change' => { 'atmega328p -Os' => { most: 225 }, 'cortex-m0 -O2' => { most: 94 },
-                                  'pic18f4520 pointer' => { most: 840 } },
-                'fixpid_pid_track' => { 'atmega328p -Os' => { most: 193 }, 'cortex-m0 -O2' => { most: 70 },
-                                        'pic18f4520 pointer' => { most: 565 } } }
+                program: %w[test/chips/modules/steps_pid.c] }]
     },
     'autotune' => {
       title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',
@@ -75,9 +58,7 @@ module Modules
                 flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_end_cycle' => 17, 'amplitude_for' => 17, 'share' => 9 } },
               { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [],
                 functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' },
-                turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result] }],
-      limits: { 'autotune_ordinary_step' => { 'atmega328p -Os' => { most: 523, flash: 7900, instance: 66 } },
-                'autotune_cycle_step' => { 'atmega328p -Os' => { most: 1655 } } }
+                turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result] }]
     },
     'relay' => {
       title: 'Relay', what: 'A shorter experiment, in less room',

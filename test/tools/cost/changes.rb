@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What tools/cost says of tables that are not what was measured. Prints `ok` or
+# What tools/cost says of tables that are not what was measured, and of figures beyond
+# their limits; which limits it lowers and raises. Prints `ok` or
 # `FAILED` for each case:
 #
 #   ruby test/tools/cost/changes.rb [NAME]... | --failed | --list
+require 'ostruct'
 require_relative '../gates/gate'
 
 module Host
@@ -44,4 +46,49 @@ expect('no table', '', /new/)
 Gate.expect('a limit kept', Limit.new('', 410, 410, '').kept?, true)
 Gate.expect('a limit exceeded', Limit.new('', 410, 411, '').kept?, false)
 Gate.expect('a limit of nothing', Limit.new('', 410, nil, '').kept?, false)
+Gate.expect('a limit just above its figure', Limit.new('', 412, 400, '').good?, true)
+Gate.expect('a limit far above its figure', Limit.new('', 413, 400, 'cycles').then { |one| [one.good?, one.wrong] }.inspect, /false.*400 cycles, and 413 cycles.*--tighten/)
+Gate.expect('a limit far above its figure with a reason', Limit.new('', 500, 400, '', 'it will be').good?, true)
+
+# Of these lines, with a bound of 300 and a flash of 500 of two rows: what the block gives,
+# and the lines then.
+def limits(*lines)
+  rows = Subject.all.select { |one| one.controller.id == 'pid' && one.chip.name == 'atmega328p' }
+  measured = rows.to_h { |one| [one, OpenStruct.new(bound: 300, most: 281, needed: 500)] }
+  Dir.mktmpdir do |folder|
+    File.write("#{folder}/limits.csv", ['row,figure,limit,reason', *lines].map { |line| "#{line}\n" }.join)
+    given = yield Limits.new(measured, {}, {}, "#{folder}/limits.csv")
+    [given, File.readlines("#{folder}/limits.csv", chomp: true).drop(1)]
+  end
+rescue Host::Failure => e
+  e.message
+end
+
+FULL = ['pid-atmega328p-O2,bound,300,', 'pid-atmega328p-O2,flash with init,505,',
+        'pid-atmega328p-Os,bound,303,', 'pid-atmega328p-Os,flash with init,500,'].freeze
+
+# FULL with another limit, and a reason.
+def other(at, limit, reason = '')
+  FULL.dup.tap { |lines| lines[at] = lines[at].sub(/\d+,$/, "#{limit},#{reason}") }
+end
+
+def wrong(*lines)
+  limits(*lines) { |all| all.all.reject(&:good?).map(&:what) }.first
+end
+
+Gate.expect('limits of all rows', wrong(*FULL), [])
+Gate.expect('a row without a limit', wrong(*FULL[0, 3]), ['pid-atmega328p-Os, flash with init, of which there is no limit'])
+Gate.expect('a figure beyond its limit', wrong(*other(2, 299)), ['pid-atmega328p-Os, bound'])
+Gate.expect('a limit that is no promise', wrong(*other(2, 310)), ['pid-atmega328p-Os, bound'])
+Gate.expect('a limit that is none, with a reason', wrong(*other(2, 310, 'soon')), [])
+Gate.expect('a limit of no row', limits('pid-z80-O2,bound,1,') { nil }, /limits\.csv:2: no row is called pid-z80-O2/)
+Gate.expect('a limit of no figure', limits('pid-atmega328p-O2,beauty,1,') { nil }, /no figure is called beauty/)
+Gate.expect('a limit without a number', limits('pid-atmega328p-O2,bound,few,') { nil }, /few is no limit/)
+Gate.expect('tightening lowers', limits(*other(2, 310)) { |all| all.tighten }, [['pid-atmega328p-Os, bound: 303'], FULL])
+Gate.expect('tightening does not raise', limits(*other(2, 299)) { |all| all.tighten }, [[], other(2, 299)])
+Gate.expect('tightening keeps what has a reason', limits(*other(2, 310, 'soon')) { |all| all.tighten }, [[], other(2, 310, 'soon')])
+Gate.expect('tightening adds', limits(*FULL[1, 3]) { |all| all.tighten }, [['pid-atmega328p-O2, bound: 303'], other(0, 303)])
+Gate.expect('loosening raises', limits(*other(2, 299)) { |all| all.loosen(%w[pid]) }, [['pid-atmega328p-Os, bound: 300'], other(2, 300)])
+Gate.expect('loosening raises no others', limits(*other(2, 299)) { |all| all.loosen(%w[-O2]) }, [[], other(2, 299)])
+Gate.expect('loosening raises nothing that is kept', limits(*FULL) { |all| all.loosen(%w[pid]) }, [[], FULL])
 Gate.finish

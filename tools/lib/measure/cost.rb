@@ -39,18 +39,26 @@ class Cost
     parts.each { |_, _, rows| puts Tables.plain(rows), '' }
     Picture.new(measured).draw
     puts 'picture: build/cost/cost.png and .svg'
-    limits.all?(&:kept?)
+    limits.all.all?(&:kept?)
   end
 
   # A line for each figure that is kept and for each table.
   def check
-    good = limits.map { |limit| tell(limit.kept?, limit.what, limit.exceeded) }
+    good = limits.all.map { |limit| tell(limit.good?, limit.what, limit.wrong) }
     all_parts.each do |document, name, rows|
       changes = Document.new(document).replace(name, rows)
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
-    warn 'cost: tools/cost --update renews the tables' unless good.all?
+    warn 'cost: tools/cost --update renews the tables, --tighten and --loosen the limits' unless good.all?
     good.all?
+  end
+
+  def tighten
+    puts limits.tighten
+  end
+
+  def loosen(words)
+    puts limits.loosen(words)
   end
 
   # Keeps each dearer sequence that a long search finds.
@@ -71,7 +79,7 @@ class Cost
     end
     Picture.new(measured).draw
     FileUtils.cp("#{Host.folder}/cost.png", "#{Host.root}/docs/images/cost.png")
-    limits.reject(&:kept?).each { |limit| tell(false, limit.what, limit.exceeded) }.empty?
+    limits.all.reject(&:good?).each { |limit| tell(false, limit.what, limit.wrong) }.empty?
   end
 
   private
@@ -136,7 +144,7 @@ class Cost
   end
 
   def limits
-    @limits ||= Limits.modules(called) + Limits.all(measured, plain_c)
+    @limits ||= Limits.new(measured, called, plain_c)
   end
 
   def all_parts
@@ -149,7 +157,7 @@ class Cost
      [page, 'beside', Tables.beside(measured)],
      [page, 'pics', Tables.beside_pics(measured)],
      [page, 'quality', Tables.quality],
-     [page, 'limits', Tables.limits(limits)],
+     [page, 'limits', Tables.limits(limits.others)],
      ["#{Host.root}/README.md", 'cost', Tables.readme(measured)]]
   end
 end
@@ -176,11 +184,13 @@ def main(mode, root = nil, *words)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
   seed = words.shift if mode == 'search'
-  cost = Cost.new(*chosen(words))
+  cost = Cost.new(*chosen(mode == 'loosen' ? [] : words))
   case mode
   when 'check' then cost.check
   when 'update' then cost.update
   when 'search' then cost.search(seed)
+  when 'tighten' then cost.tighten
+  when 'loosen' then cost.loosen(words)
   else words.empty? ? cost.print_all : cost.print
   end
 end

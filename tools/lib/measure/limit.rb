@@ -1,14 +1,25 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# A figure that must not grow beyond a number, whatever the tables say.
-Limit = Struct.new(:what, :most, :now, :unit) do
+# A figure that must not grow beyond a number, whatever the tables say. A limit that
+# is far above its figure is no promise, unless it says why.
+Limit = Struct.new(:what, :most, :now, :unit, :reason) do
   def kept?
     !now.nil? && now <= most
   end
 
-  def exceeded
-    "#{shown(now)}, at most #{shown(most)} allowed"
+  def slack?
+    reason.to_s.empty? && kept? && most > now * (1 + Limit::SLACK)
+  end
+
+  def good?
+    kept? && !slack?
+  end
+
+  def wrong
+    return "#{shown(now)}, at most #{shown(most)} allowed" unless kept?
+
+    "#{shown(now)}, and #{shown(most)} allowed, more than #{(Limit::SLACK * 100).round} % above: tools/cost --tighten"
   end
 
   def shown(value)
@@ -22,3 +33,5 @@ Limit = Struct.new(:what, :most, :now, :unit) do
     [what, shown(most), shown(now)]
   end
 end
+
+Limit::SLACK = 0.03

@@ -1,134 +1,151 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative '../modules'
 require_relative 'limit'
 require_relative 'tables'
 
-# The promises.
-module Limits
-  BOUND_MOST = 1.10
-  RATIOS = { 'ATmega328P' => 1.00, 'Cortex-M0' => 1.25, 'Cortex-M4' => 1.25 }.freeze
+# The promises. Those of single figures are in limits.csv, a line each: the row
+# (Subject#key, or a function, chip and build), the figure in the words below, its
+# limit, and, if that is more than 3 % above the figure, the reason. Each row of the
+# steps has one of its bound and one of its flash.
+#
+# `tools/cost --tighten` lowers them and adds what is missing; only
+# `tools/cost --loosen WORD...` raises any.
+class Limits
+  FILE = 'tools/lib/measure/limits.csv'
+  HEAD = %w[row figure limit reason].freeze
+  WORDS = { 'worst found' => :most, 'bound' => :bound, 'flash of the step' => :step_flash, 'flash with init' => :needed,
+            'flash as linked' => :linked, 'variables of the step' => :step_variables, 'RAM in all' => :ram,
+            'flash' => :flash, 'RAM each' => :instance }.freeze
+  OF_EACH_ROW = ['bound', 'flash with init'].freeze
+  ROOM = 0.01 # above the figure, of a limit that is tightened
 
-  # Controller, chip, build, variant: the figures and their limits.
-  STEPS = {
-    ['an937', 'pic18f4520', 'object', nil] => { most: 292, step_flash: 900 },
-    ['an937', 'pic18f4520', 'object', 'C'] => { most: 411 },
-    ['an937', 'pic18f4520', 'object', 'access-RAM'] => { most: 252, needed: 1125, ram: 37 },
-    ['an937', 'pic18f4520', 'pointer', nil] => { most: 579 },
-    ['an964', 'pic16f684', 'object', nil] => { most: 525, step_flash: 365 },
-    ['an964', 'pic16f684', 'object', 'C'] => { most: 545, step_variables: 17 },
-    ['an964', 'pic16f684', 'pointer', nil] => { most: 1250 },
-    ['an964_8bit', 'pic16f684', 'object', nil] => { most: 340, step_flash: 360 },
-    ['an964_8bit', 'pic16f684', 'object', 'C'] => { most: 378 },
-    ['an964_8bit', 'pic16f684', 'pointer', nil] => { most: 1250 },
-    ['an964', 'pic16f887', 'object', nil] => { most: 690 },
-    ['an964', 'pic16f887', 'object', 'C'] => { most: 960 },
-    ['an964', 'pic16f887', 'pointer', nil] => { most: 960 },
-    ['an964_8bit', 'pic16f887', 'object', nil] => { most: 440 },
-    ['an964_8bit', 'pic16f887', 'object', 'C'] => { most: 520 },
-    ['an964_8bit', 'pic16f887', 'pointer', nil] => { most: 710 },
-    ['an964', 'pic16f1788', 'object', nil] => { most: 610 },
-    ['an964', 'pic16f1788', 'object', 'C'] => { most: 780 },
-    ['an964', 'pic16f1788', 'pointer', nil] => { most: 740 },
-    ['an964_8bit', 'pic16f1788', 'object', nil] => { most: 385 },
-    ['an964_8bit', 'pic16f1788', 'object', 'C'] => { most: 440 },
-    ['an964_8bit', 'pic16f1788', 'pointer', nil] => { most: 520 },
-    ['an937', 'pic18f26k22', 'object', nil] => { most: 345 },
-    ['pid', 'pic18f26k22', 'object', nil] => { most: 1700 },
-    ['an937', 'atmega328p', '-O2', nil] => { most: 265 },
-    ['an937', 'atmega328p', '-Os', nil] => { most: 270 },
-    ['an964', 'atmega328p', '-O2', nil] => { most: 228 },
-    ['an964', 'atmega328p', '-Os', nil] => { most: 240 },
-    ['an964_8bit', 'atmega328p', '-O2', nil] => { most: 152 },
-    ['an964_8bit', 'atmega328p', '-Os', nil] => { most: 191 },
-    ['pid_plain', 'pic18f4520', 'object', 'access-RAM'] => { most: 800 },
-    ['pid_plain', 'atmega328p', '-O2', nil] => { most: 360 },
-    ['pid_plain', 'cortex-m0', '-O2', nil] => { most: 110 },
-    ['pid_plain', 'cortex-m4', '-O2', nil] => { most: 75 },
-    ['pid', 'pic18f4520', 'object', nil] => { most: 1320, linked: 5180 },
-    ['pid', 'atmega328p', '-O2', nil] => { most: 519 },
-    ['pid', 'atmega328p', '-Os', nil] => { needed: 1800 },
-    ['pid', 'cortex-m0', '-O2', nil] => { most: 157, needed: 950 },
-    ['pid', 'cortex-m4', '-O2', nil] => { most: 112 },
-    ['pid_typical', 'pic18f4520', 'object', 'access-RAM'] => { most: 705, bound: 745, needed: 2950 },
-    ['pid_typical', 'atmega328p', '-O2', nil] => { most: 300, bound: 320, needed: 900 },
-    ['pid_typical', 'cortex-m0', '-O2', nil] => { most: 90, bound: 95, needed: 500 },
-    ['pid_typical', 'cortex-m4', '-O2', nil] => { most: 62, bound: 64, needed: 450 },
-    ['pid_typical', 'rv32imc', '-O2', nil] => { most: 74 },
-    ['an937', 'rv32imc', '-O2', nil] => { most: 47 },
-    ['an964', 'rv32imc', '-O2', nil] => { most: 93 },
-    ['an964_8bit', 'rv32imc', '-O2', nil] => { most: 90 },
-    ['pid_plain', 'rv32imc', '-O2', nil] => { most: 88 },
-    ['pid', 'rv32imc', '-O2', nil] => { most: 125, needed: 1050 },
-    ['an937', 'rv32ec', '-Os', nil] => { most: 210, needed: 400 },
-    ['an964', 'rv32ec', '-Os', nil] => { most: 232, needed: 910 },
-    ['an964_8bit', 'rv32ec', '-Os', nil] => { most: 186, needed: 750 },
-    ['pid', 'rv32ec', '-Os', nil] => { most: 480, needed: 1045 },
-    ['an937', 'attiny85', '-Os', nil] => { most: 675 },
-    ['an964', 'attiny85', '-Os', nil] => { most: 305 },
-    ['an964_8bit', 'attiny85', '-Os', nil] => { most: 230 },
-    ['pid', 'attiny85', '-O2', nil] => { most: 1360 }
-  }.freeze
+  BOUND_MOST = 1.08
+  # Of the worst found by that of the straightforward form, with the reason.
+  RATIOS = { 'ATmega328P' => [1.00, 'never slower'], 'Cortex-M0' => [1.25, 'what an 8-bit form may cost there'],
+             'Cortex-M4' => [1.25, 'what an 8-bit form may cost there'] }.freeze
 
-  # What stands beside a controller: [function, chip, build, figures].
-  CALLED = Modules::ALL.values.flat_map { |entry| entry.fetch(:limits, {}).to_a }.flat_map do |function, places|
-    places.map { |place, figures| [function, *place.split, figures] }
-  end.freeze
-
-  WORDS = { most: 'worst', bound: 'bound', step_flash: 'flash of the step', needed: 'flash with init', linked: 'flash as linked', step_variables: 'variables of the step',
-            ram: 'RAM in all' }.freeze
-
-  CALLED_WORDS = { most: 'worst', flash: 'flash', instance: 'RAM each' }.freeze
-
-  class << self
-    # Of what was measured of them.
-    def modules(called)
-      CALLED.flat_map do |function, chip, build, limits|
-        subject, functions = called.find { |one, all| one.chip.name == chip && one.build == build && all.key?(function) }
-        raise Host::Failure, "no #{function} #{chip} #{build} to limit" unless subject
-
-        limits.map do |figure, most|
-          what = "#{function}, #{subject.chip.title}, #{build}, #{CALLED_WORDS.fetch(figure)}"
-          Limit.new(what, most, functions[function][figure], figure == :most ? subject.chip.cost : 'bytes')
-        end
-      end
+  # A line of the file, the subject that it is of, and its figure now.
+  Line = Struct.new(:row, :figure, :most, :reason, :subject, :now, keyword_init: true) do
+    def limit
+      Limit.new("#{row}, #{figure}", most, now, unit, reason)
     end
 
-    def all(measured, plain_c)
-      steps(measured) + bounds(measured) + ratios(measured, plain_c)
+    # What it would be if it were new.
+    def tight
+      (now * (1 + ROOM)).floor
     end
 
-    # Of the worst found; the largest is in the table of limits. What plain
-    # questions find is no measure of the code's longest path. Nor is the bound of
-    # an ATtiny85, whose library turns 8 times for a weight and 16 times for a gain.
-    def bounds(measured)
-      subject, figures = measured.reject { |one, _| one.controller.questions == 'PLAIN' || one.chip.name == 'attiny85' }
-                                 .max_by { |_, one| one.bound.fdiv(one.most) }
-      [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
+    def cells
+      [row, figure, most, reason]
     end
 
     private
 
-    def steps(measured)
-      STEPS.flat_map do |(controller, chip, build, variant), limits|
-        subject = measured.keys.find { |one| one.is?(controller, chip, build, variant) } or
-          raise Host::Failure, "no #{[controller, chip, build, variant].compact.join(' ')} to limit"
-        limits.map { |figure, most| step(subject, measured[subject], figure, most) }
-      end
-    end
+    def unit
+      return subject.chip.cost if ['worst found', 'bound'].include?(figure)
 
-    def step(subject, figures, figure, most)
-      now = figure == :ram ? figures.instance + figures.fixed : figures[figure]
-      unit = { most: subject.chip.cost, bound: subject.chip.cost, step_variables: 'bytes', ram: 'bytes' }.fetch(figure, subject.chip.flash)
-      Limit.new("#{subject}, #{WORDS.fetch(figure)}", most, now, unit)
+      figure.start_with?('flash') ? subject.chip.flash : 'bytes'
     end
+  end
 
-    def ratios(measured, plain_c)
-      plain_c.map do |subject, most|
-        Limit.new("#{subject}, by the straightforward form", RATIOS.fetch(subject.chip.title),
-                  measured.fetch(subject).most.fdiv(most).round(2))
-      end
+  # What was measured: { subject => figures }, { subject => { function => figures } } and
+  # { subject => the worst of its straightforward form }.
+  def initialize(measured, called, plain_c, path = "#{Host.root}/#{FILE}")
+    @rows = rows(measured, called)
+    @measured = measured
+    @plain_c = plain_c
+    @path = path
+    @lines = read
+  end
+
+  def all
+    @lines.map(&:limit) + missing.map { |line| Limit.new("#{line.row}, #{line.figure}, of which there is no limit", 0, line.now, '') } + others
+  end
+
+  # Those that are not in the file.
+  def others
+    bounds + ratios
+  end
+
+  # Lowers what is too high, unless there is a reason for it.
+  def tighten
+    lowered = @lines.select { |line| line.reason.empty? && line.limit.kept? && line.tight < line.most }
+    lowered.each { |line| line.most = line.tight }
+    added = missing.each { |line| line.most = line.tight }
+    write(@lines + added)
+    (lowered + added).map { |line| "#{line.row}, #{line.figure}: #{line.most}" }
+  end
+
+  # Raises what is exceeded, of the subjects that match the words.
+  def loosen(words)
+    raised = @lines.reject { |line| line.limit.kept? }.select { |line| line.subject.matches?(words) }
+    raised.each { |line| line.most = line.now }
+    write(@lines)
+    raised.map { |line| "#{line.row}, #{line.figure}: #{line.most}" }
+  end
+
+  private
+
+  # { name => [subject, figures] }
+  def rows(measured, called)
+    functions = called.flat_map do |subject, all|
+      all.map { |name, figures| ["#{name}-#{subject.chip.name}-#{subject.build.delete('-')}", [subject, figures]] }
+    end
+    measured.to_h { |subject, figures| [subject.key, [subject, figures]] }.merge(functions.to_h)
+  end
+
+  def read
+    head, *lines = File.readlines(@path, chomp: true).map { |line| line.split(',', 4) }
+    raise Host::Failure, "#{FILE}:1: the columns are not #{HEAD.join(', ')}" if head != HEAD
+
+    lines.each_with_index.map { |cells, at| line(cells, "#{FILE}:#{at + 2}") }
+  end
+
+  def line((row, figure, most, reason), place)
+    subject, figures = @rows[row]
+    raise Host::Failure, "#{place}: no row is called #{row}" unless subject
+    raise Host::Failure, "#{place}: no figure is called #{figure}" unless WORDS.key?(figure)
+    raise Host::Failure, "#{place}: #{most} is no limit" unless most&.match?(/\A\d+\z/)
+
+    Line.new(row: row, figure: figure, most: most.to_i, reason: reason.to_s, subject: subject, now: figure_of(figures, figure))
+  end
+
+  def figure_of(figures, word)
+    name = WORDS.fetch(word)
+    name == :ram ? figures.instance + figures.fixed : figures[name]
+  end
+
+  def missing
+    there = @lines.map { |line| [line.row, line.figure] }
+    wanted = @measured.keys.map(&:key).product(OF_EACH_ROW) - there
+    wanted.map do |row, figure|
+      subject, figures = @rows[row]
+      Line.new(row: row, figure: figure, reason: '', subject: subject, now: figure_of(figures, figure))
+    end
+  end
+
+  # In the order of the tables.
+  def write(lines)
+    places = @rows.keys
+    sorted = lines.sort_by { |line| [places.index(line.row), WORDS.keys.index(line.figure)] }
+    File.write("#{@path}.new", [HEAD, *sorted.map(&:cells)].map { |cells| "#{cells.join(',')}\n" }.join)
+    File.rename("#{@path}.new", @path)
+  end
+
+  # Of the worst found; the largest is in the table of limits. What plain
+  # questions find is no measure of the code's longest path. Nor is the bound of
+  # an ATtiny85, whose library turns 8 times for a weight and 16 times for a gain.
+  def bounds
+    subject, figures = @measured.reject { |one, _| one.controller.questions == 'PLAIN' || one.chip.name == 'attiny85' }
+                                .max_by { |_, one| one.bound.fdiv(one.most) }
+    [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
+  end
+
+  def ratios
+    @plain_c.map do |subject, worst|
+      most, reason = RATIOS.fetch(subject.chip.title)
+      Limit.new("#{subject}, by the straightforward form", most, @measured.fetch(subject).most.fdiv(worst).round(2), nil, reason)
     end
   end
 end

@@ -4,10 +4,11 @@
 require_relative 'tables'
 require_relative '../demo/plot'
 
-# Dots of the worst step, a panel for each chip, on logarithmic axes: ours are
-# filled, with their bound as a tick; the notes' and the others' are hollow.
+# Dots of what a step costs at most, a panel for each chip, on logarithmic axes: ours are
+# filled and the bounds of their code, with the worst step found as a tick; the notes' and
+# the others' are hollow, and what was measured of them.
 class Picture
-  Dot = Struct.new(:title, :worst, :bound, :kind)
+  Dot = Struct.new(:title, :most, :found, :kind)
 
   OURS = Plot::BLUE
   NOTE = Plot::RED
@@ -43,9 +44,10 @@ class Picture
 
   def dots(chip, build)
     ours = @measured.select { |subject, _| subject.chip.name == chip && (build.nil? || subject.build == build) }
-    list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.most, figures.bound, :ours) }
+                    .reject { |subject, _| subject.controller.questions == 'PLAIN' }
+    list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.bound, figures.most, :ours) }
     list += others(NOTES, chip, build, :note) + others(PEERS, chip, build, :peer)
-    list.sort_by(&:worst)
+    list.sort_by(&:most)
   end
 
   def own_title(subject, build)
@@ -53,7 +55,7 @@ class Picture
   end
 
   def others(list, chip, build, kind)
-    list.map { |other| Dot.new(other.title, other.worst("#{chip}#{build}"), nil, kind) }.select(&:worst)
+    list.map { |other| Dot.new(other.title, other.worst("#{chip}#{build}"), nil, kind) }.select(&:most)
   end
 
   # In the plot's own rows, so that a row is as high in each panel.
@@ -75,20 +77,20 @@ class Picture
     curves = STYLES.map do |kind, style|
       points(name, kind, rows.select { |dot, _| dot.kind == kind }, style)
     end
-    curves.compact + [bounds(name, rows.select { |dot, _| dot.bound })].compact
+    curves.compact + [found(name, rows.select { |dot, _| dot.found })].compact
   end
 
   def points(name, kind, rows, style)
     return if rows.empty?
 
-    path = file("#{name}-#{kind}", rows.map { |dot, at| [dot.worst, at] })
+    path = file("#{name}-#{kind}", rows.map { |dot, at| [dot.most, at] })
     "'#{path}' using 1:2 with points pointsize 1.1 #{style} notitle"
   end
 
-  def bounds(name, rows)
+  def found(name, rows)
     return if rows.empty?
 
-    path = file("#{name}-bounds", rows.map { |dot, at| [dot.bound, at] })
+    path = file("#{name}-found", rows.map { |dot, at| [dot.found, at] })
     "'#{path}' using 1:2:(0):(0.42) with vectors nohead linewidth 1.6 linecolor '#{OURS}' notitle, " \
       "'' using 1:2:(0):(-0.42) with vectors nohead linewidth 1.6 linecolor '#{OURS}' notitle"
   end
@@ -99,11 +101,11 @@ class Picture
     path
   end
 
-  # The worst is a number at the right end of its row, too.
+  # The most is a number at the right end of its row, too.
   def settings(title, list)
-    low, high = list.flat_map { |dot| [dot.worst, dot.bound].compact }.minmax
+    low, high = list.flat_map { |dot| [dot.most, dot.found].compact }.minmax
     names = list.each_with_index.map { |dot, i| "\"#{dot.title}\" #{i}" }
-    numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.worst}\" at graph 1.17, first #{i} right font ',9'" }
+    numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.most}\" at graph 1.17, first #{i} right font ',9'" }
     ["set title \"{/:Bold #{title}}\" offset 0,-0.7", 'set logscale x', "set xrange [#{low * 0.8}:#{high * 1.25}]",
      "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) noenhanced scale 0 font ',9'",
      "set xtics (#{ticks(low, high)}) offset 0,0.4 font ',9'", "set grid linecolor '#e4e4e4' linetype 1", 'set border 1', *numbers]
@@ -117,8 +119,8 @@ class Picture
   # Below the first column, `top` pixels from above. gnuplot draws no key of
   # nothing, so there is a curve out of sight.
   def key(plot, top)
-    entries = [["pointtype 7 linecolor '#{OURS}'", 'fixpid, the worst step found'],
-               ["pointtype '|' linecolor '#{OURS}'", 'and the bound of its code'],
+    entries = [["pointtype 7 linecolor '#{OURS}'", 'fixpid, the bound of its code'],
+               ["pointtype '|' linecolor '#{OURS}'", 'and the worst step found'],
                [STYLES[:note], 'the notes\' own firmware'], [STYLES[:peer], 'other libraries, the worst of a trace']]
     curves = entries.map { |style, title| "keyentry with points pointsize 1.1 #{style} title \"#{title}\"" }
     plot.panel_at([PLACES[0][0], 0.55], [1.0 - (top + KEY - 30).fdiv(@height), 1.0 - (top - 10).fdiv(@height)],

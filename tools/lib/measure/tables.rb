@@ -5,7 +5,7 @@ require_relative 'published'
 
 # The figures as tables: rows of cells, the head first.
 module Tables
-  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'bound in cycles', 'flash of the step', 'with init', 'linked',
+  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash of the step', 'with init', 'linked',
           'RAM each', 'RAM once', 'stack'].freeze
   # Of the comparisons with others.
   COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
@@ -25,7 +25,7 @@ module Tables
 
     # What stands beside a controller, a row for each function.
     def modules(called)
-      [['', 'chip', 'built', 'least', 'mean', 'worst', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
+      [['', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
         functions.map do |name, figures|
           function = subject.called.functions.fetch(name)
           title = function == 'step' ? subject.called.id : "#{subject.called.id}, #{function}"
@@ -65,7 +65,7 @@ module Tables
       [QUALITY_HEAD] + QUALITY
     end
 
-    # Against the straightforward form: { subject => its worst }.
+    # The worst found against that of the straightforward form: { subject => its worst }.
     def ratios(measured, plain_c)
       [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + plain_c.map do |subject, most|
         [subject.controller.title, subject.chip.title, subject.build, measured.fetch(subject).most, most,

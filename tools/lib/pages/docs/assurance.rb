@@ -142,7 +142,7 @@ module Assurance
 
   def measured
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
-               "#{parts['cost']} checks: the worst that a search finds, and a bound of the linked code",
+               "#{parts['cost']} checks: a bound of the linked code, and the worst that a search finds",
                '`tools/test cost`'),
      Claim.new('measured', 'how good the gains of the autotuners are', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants",
                '`tools/demo random_plants`'),
