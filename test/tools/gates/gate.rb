@@ -12,6 +12,9 @@ require 'tmpdir'
 PROJECT = File.expand_path('../../..', __dir__)
 require "#{PROJECT}/tools/lib/test/named"
 
+# What they judge is not remembered.
+%w[FIXPID_TALLY FIXPID_FRESH].each { |name| ENV.delete(name) }
+
 module Gate
   @tests = NamedTests.new(File.expand_path($PROGRAM_NAME).delete_prefix("#{PROJECT}/"), 1)
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What tools/cost remembers: a figure is measured anew when anything that it depends
-# on is another one, here with a compiler that only says where its parts are.
+# What tools/cost and tools/test remember: a figure or a verdict is found out anew when
+# anything that it depends on is another one, here with a compiler that only says where its
+# parts are.
 require_relative 'gate'
 require "#{PROJECT}/tools/lib/measure/host"
-require "#{PROJECT}/tools/lib/measure/memory"
+require "#{PROJECT}/tools/lib/measure/remembered"
 
 Figures = Struct.new(:most, keyword_init: true)
 Subject = Struct.new(:key)
@@ -37,7 +38,7 @@ end
 # How often a figure is measured by a tools/cost that begins now.
 def measured
   times = 0
-  found = Memory.new.of(Subject.new('toy')) do
+  found = RememberedFigures.new.of(Subject.new('toy')) do
     times += 1
     Figures.new(most: 42)
   end
@@ -51,11 +52,60 @@ def anew_after(path)
   measured
 end
 
+def records
+  Dir['cache/fixpid/verdicts/cost/*.json']
+end
+
+def same_size_and_time(path)
+  status = File.stat(path)
+  File.write(path, File.read(path).swapcase)
+  File.utime(status.atime, status.mtime, path)
+end
+
+# A record that is whole, but for the clock.
+def at_another_time(days)
+  records.each do |path|
+    record = JSON.parse(File.read(path))
+    next unless record.is_a?(Hash)
+
+    record['when'] += 86_400 * days
+    record['seal'] = Digest::SHA256.hexdigest(JSON.generate(record.slice('key', 'name', 'when', 'value')))
+    File.write(path, JSON.generate(record))
+  end
+end
+
+# How often a verdict is found out by two runs; the block says what it is.
+def judged(name)
+  times = 0
+  2.times do
+    Remembered.new('toys', files: ['src/**/*']).of(name) do
+      times += 1
+      yield
+    end
+  end
+  times
+end
+
+def verdicts(folder)
+  Gate.expect('a test that is called by itself', judged('alone') { 'ok' }, 2)
+  ENV['FIXPID_TALLY'] = "#{folder}/tally"
+  now = Time.now.to_i
+  Gate.expect('a verdict that is good', judged('good') { 'ok' }, 1)
+  Gate.expect('and how old it is', (now..now + 60).cover?(File.read('tally')[/\A1 (\d+) checks\n\z/, 1].to_i), true)
+  Gate.expect('a verdict that is not good', judged('bad') { nil }, 2)
+  Gate.expect('a source that changes meanwhile', judged('changed') { File.write('src/pid/fixpid_pid.c', 'x', mode: 'a') && 'ok' }, 2)
+  ENV['XDG_CACHE_HOME'] = "#{folder}/bin/avr-gcc"
+  Gate.expect('a cache that cannot be written', judged('nowhere') { 'ok' }, 2)
+ensure
+  ENV.delete('FIXPID_TALLY')
+end
+
 Gate.tree(files) do |folder|
   FileUtils.ln_s('/bin/sh', 'bin/sh')
   ENV['PATH'] = "#{folder}/bin"
   ENV['SDCC'] = "#{folder}/sdcc/bin/sdcc"
   ENV['SDCC_LIB'] = "#{folder}/sdcc/share/sdcc/lib"
+  ENV['XDG_CACHE_HOME'] = "#{folder}/cache"
   Host.setup(folder)
   Gate.expect('the first time', measured, 1)
   Gate.expect('the second time', measured, 0)
@@ -65,6 +115,15 @@ Gate.tree(files) do |folder|
   Gate.expect('a file that is new', anew_after('src/fixpid_new.c') { |path| File.write(path, '') }, 1)
   Gate.expect('a file that is gone', anew_after('src/fixpid_new.c') { |path| File.delete(path) }, 1)
   Gate.expect('a file of no account', anew_after('notes.txt') { |path| File.write(path, '') }, 0)
-  Gate.expect('a memory that broke off', anew_after('build/cost/memory/toy.json') { |path| File.write(path, '{') }, 1)
+  Gate.expect('a record that broke off', anew_after('') { records.each { |path| File.truncate(path, 40) } }, 1)
+  Gate.expect('a record with another value', anew_after('') { records.each { |path| File.write(path, File.read(path).sub('42', '43')) } }, 1)
+  Gate.expect('a record that is no record', anew_after('') { records.each { |path| File.write(path, '[]') } }, 1)
+  Gate.expect('a source of the same size and time', anew_after('src/pid/fixpid_pid.c') { |path| same_size_and_time(path) }, 1)
+  Gate.expect('a record of the future, or older than a month', [-31, 1].sum { |days| anew_after('') { at_another_time(days) } }, 2)
+  ENV['FIXPID_FRESH'] = 'yes'
+  Gate.expect('what is asked for anew', anew_after('') {}, 1)
+  ENV.delete('FIXPID_FRESH')
+  Gate.expect('and is remembered then', measured, 0)
+  verdicts(folder)
 end
 Gate.finish

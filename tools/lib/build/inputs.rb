@@ -10,6 +10,13 @@ require 'pathname'
 module Inputs
   COMPILERS = %w[gcc g++ avr-gcc arm-none-eabi-gcc riscv64-unknown-elf-gcc].freeze
   PARTS = %w[cc1 cc1plus as ld].freeze # what a compiler starts
+  BESIDE = { # whatever else a program consists of
+    'clang' => %w[/usr/lib/*/libLLVM-*.so* /usr/lib/llvm-*/lib/libclang-cpp.so* /usr/lib/llvm-*/lib/clang/**/*],
+    'gcovr' => %w[/usr/lib/python3/dist-packages/{gcovr,jinja2,lxml}/**/*],
+    'simavr' => %w[/usr/lib/*/libsimavr*.so*],
+    'sdcc' => %w[/usr/bin/sd* /usr/share/sdcc/**/*]
+  }.freeze
+  C_LIBRARY = %w[/usr/lib/*/{libc,libm,libstdc++}.so.6 /usr/lib/*/{libc.a,crt1.o} /usr/include/{stdio,features}.h].freeze
   INCLUDE = /^[ \t]*#[ \t]*include[ \t]+["<]([^">]+)[">]/.freeze
 
   class << self
@@ -18,10 +25,30 @@ module Inputs
       Digest::SHA256.hexdigest(files.select { |file| File.file?(file) }.map { |file| "#{file} #{state(file)}\n" }.join)
     end
 
+    # What these names and patterns find in a folder, by content, wherever it is. Another
+    # name counts, too, and whether it can be run.
+    def tree(patterns, folder = '.')
+      files = Dir.glob(patterns, File::FNM_DOTMATCH, base: folder).uniq.sort
+      Digest::SHA256.hexdigest(files.map { |file| "#{file} #{content("#{folder}/#{file}")}\n" }.join)
+    end
+
     # Of a program's name.
     def tool(name)
       path = found(name)
-      [path, *(COMPILERS.include?(name) ? parts_of(name) : [])].compact
+      [path, *(COMPILERS.include?(name) ? parts_of(name) : []), *Dir.glob(BESIDE.fetch(name, [])).sort].compact
+    end
+
+    # What this machine's programs are linked to, and compiled with.
+    def c_library
+      Dir.glob(C_LIBRARY).sort
+    end
+
+    # A Ruby gem, with those that it needs.
+    def gem(name)
+      found = Gem::Specification.find_by_name(name)
+      Dir.glob("#{found.full_gem_path}/**/*").sort + found.runtime_dependencies.flat_map { |other| gem(other.name) }
+    rescue Gem::MissingSpecError
+      []
     end
 
     # The compiler for PICs, what it starts, its headers and libraries, and those of
@@ -46,6 +73,10 @@ module Inputs
     end
 
     private
+
+    def content(path)
+      "#{File.executable?(path)} #{Digest::SHA256.file(path).hexdigest}" if File.file?(path)
+    end
 
     def state(file)
       return Digest::SHA256.file(file).hexdigest unless file.start_with?('/usr/', '/opt/')

@@ -22,9 +22,13 @@ class EquivalentMutants
     @known.include?(key)
   end
 
+  def of(file)
+    @known.select { |line| line.start_with?("#{file}:", "#{file},") }
+  end
+
   # The equivalents for a file that none of these keys is.
   def stale(file, keys)
-    @known.select { |line| line.start_with?("#{file}:", "#{file},") } - keys
+    of(file) - keys
   end
 
   # EquivalentMutants for files that are not broken.

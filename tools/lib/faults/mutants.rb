@@ -4,7 +4,8 @@
 # notices each break: build/test/mutants.txt. A break that no test notices must stand in
 # test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
 # compiler refuses, what crashes and what does not end counts as neither. With
-# names of files only those are broken.
+# names of files only those are broken; within tools/test only those whose mutants
+# it does not remember.
 # The chips' own folders of src/ are not broken here: their files compile to
 # nothing on this machine. test/chips/target breaks each once (`seeded`), and
 # tools/lib/faults/assembly.rb each instruction.
@@ -13,6 +14,7 @@ require 'open3'
 require_relative 'breaks'
 require_relative 'equivalents'
 require_relative 'faults'
+require_relative '../remembered'
 
 ROOT = 'build/mutants'.freeze
 REPORT = 'build/test/mutants.txt'.freeze
@@ -32,6 +34,10 @@ COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definitio
 def noun(name)
   File.exist?("include/#{name}.h") ? name : noun(name[/.*(?=_)/])
 end
+
+# What the tests of the mutants are made from.
+POOL = Dir['{include,src,port,sim,examples,test/unit,test/support,test/tools/cost,test/model}/**/*.[ch]'].sort.freeze
+NAMED = /^[ \t]*#[ \t]*include[ \t]+["<](?:.*\/)?(?:mock_)?([^">\/]+)[">]|^TEST_SOURCE_FILE\(".*?([^"\/]+)"\)/.freeze
 
 # A test, what is compiled anew for it, and how.
 Run = Struct.new(:test, :sources, :options) do
@@ -90,6 +96,22 @@ def runs_of(file)
   when /_bytes$/ then [run_of("test_#{noun(name)}_arith_bytes")]
   else [run_of("test_#{name}")]
   end
+end
+
+# All that a program of these files may be made from: whatever has a name that they
+# include, the source of a header, and their folder of src/.
+def made_from(files)
+  found = files.dup
+  found.each do |file|
+    names = File.read(file).scan(NAMED).flatten.compact
+    names << "#{File.basename(file, '.h')}.c" if file.end_with?('.h')
+    folder = file.start_with?('src/') ? "#{File.dirname(file)}/" : nil
+    found.concat(POOL.select { |path| names.include?(File.basename(path)) || (folder && path.start_with?(folder)) } - found)
+  end
+end
+
+def program_of(test)
+  POOL.find { |path| path.start_with?('test/unit/') && File.basename(path) == "#{test}.c" }
 end
 
 def build_objects
@@ -223,64 +245,113 @@ def results_of(mutants)
   mutants.map { |mutant| [mutant, results.fetch(mutant)] }
 end
 
-# A line for a file: every survivor is named there, and survives.
-def judge(file, results, keys, equivalents)
+# The lines of a file, and whether they are good: every survivor is named there, and
+# survives.
+def judged(file, results, keys, equivalents)
   survivors = results.select { |_, caught| caught.nil? }.map { |mutant, _| keys.fetch(mutant) }
   unexplained = survivors.reject { |key| equivalents.cover?(key) }
   stale = equivalents.stale(file, survivors)
   good = unexplained.empty? && stale.empty?
-  puts "#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test"
-  puts unexplained.map { |key| "Nobody notices: #{key}" }
-  puts stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }
-  good
+  [good, ["#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test",
+          *unexplained.map { |key| "Nobody notices: #{key}" },
+          *stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }]]
+end
+
+# What breaking a file came to: its lines, the report's, and by what the mutants ended.
+# What is not good is told, and nil.
+def verdict_of(file, equivalents)
+  prepare
+  RUNS[file].each { |run| try_unbroken(run) }
+  UNBROKEN[file] = preprocessed(file, "#{ROOT}/0")
+  mutants = Breaks.of(file)
+  results = results_of(mutants)
+  ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught || :nobody }.transform_values(&:size)
+  good, lines = judged(file, results, EquivalentMutants.keys(mutants, File.read(file)), equivalents)
+  tell('lines' => lines, 'report' => results.map { |mutant, caught| "#{mutant}: #{caught || 'nobody'}" },
+       'ends' => ends.transform_keys(&:to_s))
+  good ? TOLD.last : nil
+end
+
+def tell(verdict)
+  TOLD << verdict
+  puts verdict['lines']
 end
 
 # What a compiler or an operating system ends is no test's merit.
-def tell(results)
-  ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught }.transform_values(&:size)
+def tell_all
+  ends = TOLD.map { |verdict| verdict['ends'] }.reduce({}) { |sum, more| sum.merge(more) { |_, one, other| one + other } }
   ends.default = 0
-  puts "#{results.size} mutants: #{ends[:named]} noticed by a test, #{ends[nil]} by none; see #{REPORT}"
-  puts "apart: #{ends[:refused]} refused by the compiler, #{ends[:crashed]} crashed, " \
-       "#{ends[:endless]} endless, #{ends[:not_compiled]} not compiled on this machine"
+  File.write(REPORT, TOLD.flat_map { |verdict| verdict['report'] }.map { |line| "#{line}\n" }.join)
+  puts "#{ends.values.sum} mutants: #{ends['named']} noticed by a test, #{ends['nobody']} by none; see #{REPORT}"
+  puts "apart: #{ends['refused']} refused by the compiler, #{ends['crashed']} crashed, " \
+       "#{ends['endless']} endless, #{ends['not_compiled']} not compiled on this machine"
+end
+
+# Whether all mutants of a file are noticed, now or when they were tried.
+def good?(file, equivalents)
+  tests = runs_of(file).map { |run| [run.test, run.options] }
+  inputs = made_from([file, *tests.map { |test, _| program_of(test) }.compact])
+  told = TOLD.size
+  verdict = REMEMBERED.of(file, files: inputs, words: [tests, equivalents.of(file)]) { verdict_of(file, equivalents) }
+  tell(verdict) if verdict && TOLD.size == told
+  !verdict.nil?
 end
 
 # Whether a fault of the table is noticed by the test that it names.
-def noticed_by_name?(fault, tree)
+def noticed_by_name?(fault)
   test = fault.words(1).first
   program = Dir['test/unit/*.c'].find { |path| File.read(path).include?("void #{test}(") } or
     abort "FAILED #{Faults::FILE}: no #{test}"
-  run = whole_run_of(File.basename(program, '.c'))
-  caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree, all: true) }
-  good = caught.is_a?(Array) && caught.include?(test)
-  puts "#{good ? 'ok' : 'FAILED'} #{test} notices #{fault}#{": #{caught.inspect}" unless good}"
-  good
+  line = REMEMBERED.of("#{test} #{fault}", files: made_from([program, fault.file])) { line_of(fault, test, program) }
+  puts line if line
+  !line.nil?
 rescue Faults::Gone => e
   puts "FAILED #{e.message}"
 end
 
-build_objects
-plant_trees
-RUNS = (Dir['src/*/*.[ch]', 'include/*.h'] - Dir[OF_CHIPS]).sort.reject { |file| Breaks.of(file).empty? }
-                                       .to_h { |file| [file, runs_of(file)] }.freeze
-RUNS.values.flatten.uniq.each do |run|
+# Its line, or nil if it is not noticed.
+def line_of(fault, test, program)
+  prepare
+  run = whole_run_of(File.basename(program, '.c'))
+  tree = "#{ROOT}/0"
+  caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree, all: true) }
+  return "ok #{test} notices #{fault}" if caught.is_a?(Array) && caught.include?(test)
+
+  puts "FAILED #{test} notices #{fault}: #{caught.inspect}"
+end
+
+# Once, before something is broken.
+def prepare
+  return unless PASSED.empty?
+
+  build_objects
+  plant_trees
+  PASSED << :objects
+end
+
+def try_unbroken(run)
+  return if PASSED.include?(run)
+
   caught = notice_in(run, "#{ROOT}/0")
   abort "FAILED #{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
+  PASSED << run
 end
-UNBROKEN = RUNS.keys.to_h { |file| [file, preprocessed(file, "#{ROOT}/0")] }.freeze
+
+REMEMBERED = Remembered.new('mutants', files: %w[project.yml test/support/vectors/**/*],
+                                       tools: [*%w[gcc ld ld.gold ceedling].flat_map { |name| Inputs.tool(name) }, *Inputs.gem('ceedling'), *Inputs.c_library],
+                                       words: [LINKER])
+PASSED = [] # without a break, and :objects once they are made
+TOLD = []
+UNBROKEN = {}
+RUNS = Hash.new { |runs, file| runs[file] = runs_of(file) }
 equivalents = EquivalentMutants.new(EQUIVALENT)
+FileUtils.mkdir_p(File.dirname(REPORT))
 only = ARGV # files
-files = RUNS.keys.select { |file| only.empty? || only.include?(file) }
-mutants = files.to_h { |file| [file, Breaks.of(file)] }
-results = results_of(mutants.values.flatten)
-File.open(REPORT, 'w') do |report|
-  results.each { |mutant, caught| report.puts "#{mutant}: #{caught || 'nobody'}" }
-end
-good = results.group_by { |mutant, _| mutant.file }.map do |file, found|
-  judge(file, found, EquivalentMutants.keys(mutants.fetch(file), File.read(file)), equivalents)
-end
-good += Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }
-              .map { |fault| noticed_by_name?(fault, "#{ROOT}/0") }
-strangers = equivalents.strangers(RUNS.keys)
+files = (Dir['src/*/*.[ch]', 'include/*.h'] - Dir[OF_CHIPS]).sort.reject { |file| Breaks.of(file).empty? }
+chosen = files.select { |file| only.empty? || only.include?(file) }
+good = chosen.map { |file| good?(file, equivalents) }
+good += Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }.map { |fault| noticed_by_name?(fault) }
+strangers = equivalents.strangers(files)
 puts strangers.map { |key| "FAILED #{EQUIVALENT} names what is not broken: #{key}" }
-tell(results)
+tell_all
 exit(good.all? && strangers.empty? ? 0 : 1)

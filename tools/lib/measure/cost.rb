@@ -13,7 +13,7 @@ require_relative 'limits'
 require_relative 'documents'
 require_relative 'picture'
 require_relative 'firmware'
-require_relative 'memory'
+require_relative 'remembered'
 require_relative 'modules'
 require_relative 'features'
 
@@ -24,7 +24,7 @@ class Cost
   def initialize(subjects, modules)
     @subjects = subjects
     @modules = modules
-    @memory = Memory.new
+    @remembered = RememberedFigures.new
     @done = 0
     @mutex = Mutex.new
   end
@@ -111,7 +111,7 @@ class Cost
   end
 
   def calls_of(one)
-    found = @memory.of(one) { ModuleMeter.of(one).figures }
+    found = @remembered.of(one) { ModuleMeter.of(one).figures }
     found.transform_values { |figures| ModuleFigures.new(**figures.transform_keys(&:to_sym)) }
   end
 
@@ -119,7 +119,7 @@ class Cost
   def prices
     @prices ||= begin
       all = Features.all
-      all.zip(Host.in_parallel(all) { |one| @memory.of(one) { Meter.of(one.subject).of_code } }).to_h
+      all.zip(Host.in_parallel(all) { |one| @remembered.of(one) { Meter.of(one.subject).of_code } }).to_h
     end
   end
 
@@ -132,7 +132,7 @@ class Cost
 
   def in_parallel(subjects)
     Host.in_parallel(subjects) do |subject|
-      found = @memory.of(subject) { yield(Meter.of(subject)) }
+      found = @remembered.of(subject) { yield(Meter.of(subject)) }
       @mutex.synchronize { progress }
       found
     end

@@ -45,9 +45,9 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
     printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
 }
 
-# run_mode NAME MODE FORM [MIXIN]: all unit tests so.
+# run_mode NAME MODE FORM [MIXIN]: all unit tests so; NAME is that of their sight, too.
 run_mode() {
-    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
+    run_ceedling "$1" "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
         ${4:+"$4"}
 }
 
@@ -55,7 +55,7 @@ part_quick() {
     need clang clang-format pmccabe
     need_ceedling
     for mode in pointer object; do
-        run_mode quick $mode "$first_form"
+        run_mode unit $mode "$first_form"
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
@@ -67,7 +67,7 @@ part_unit() {
     need cc:gcc :libc6-dev gcov:gcc gcovr
     need_ceedling
     for form in $forms; do
-        run_ceedling "coverage-$form" gcov:all \
+        run_ceedling unit "coverage-$form" gcov:all \
             "$(mode_and_form pointer "$form" gcov)
 :gcov:
   :gcovr:
@@ -83,7 +83,7 @@ limits() {
         chip=
         [ "$form" = wide ] || chip='
       - _PIC14'
-        run_ceedling "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
+        run_ceedling unit "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
             ":defines:
   :test:
     '*':$chip
