@@ -45,7 +45,9 @@ class Remembered
 
     # Removes what is old, and what was never finished.
     def sweep
-      Dir.glob("#{folder}/*/*").each do |path|
+      return unless folder
+
+      Dir.glob('*/*.json*', base: folder).map { |name| "#{folder}/#{name}" }.each do |path|
         File.delete(path) if Time.now - File.mtime(path) > DAYS_MOST * SECONDS_OF_DAY
       rescue SystemCallError
         nil # another one has removed it, or it is not ours

@@ -5,7 +5,9 @@
 # run, and that are fewer than its table has.
 require_relative 'gate'
 
-SHELL = %w[tools/test tools/lib/setup.sh tools/lib/build/sdcc.sh tools/lib/build/gpsim.sh tools/lib/test/checks.sh].freeze
+SHELL = %w[tools/test tools/lib/setup.sh tools/lib/build/sdcc.sh tools/lib/build/gpsim.sh tools/lib/test/checks.sh
+           tools/lib/remembered.rb tools/lib/build/inputs.rb tools/lib/test/once.rb tools/lib/test/sights.rb
+           tools/lib/test/told.rb].freeze
 
 # A run of the part `toy`, of three checks, whose runner is this script; `with` is what
 # stands before the command, `lock` whose the folder is.
@@ -30,6 +32,26 @@ def parts(*lines)
   -> { Gate.tree(files) { [lines.map { |line| Gate.run('sh', '-c', line.start_with?('-') ? "tools/test #{line}" : line).first }.last, true] } }
 end
 
+# What the last of these lines says in a project with a part whose runner is remembered, and
+# how often the runner ran: those that begin with a dash are tools/test's words, others
+# commands. The runner prints to both its outputs.
+def remembered(runner, *lines, with: %w[env CI=])
+  files = SHELL.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
+  files['tools/lib/test/parts.sh'] = "part_toy() {\n    count toy '^ok ' '^FAILED ' once unit ./runner word\n}\n"
+  files['test/parts.txt'] = "toy 3 1 a part\n"
+  files['runner'] = "#!/bin/sh\necho x >>build/runs\n#{runner}\n"
+  files['README.md'] = files['docs/a.md'] = files['src/a.c'] = files['.hidden'] = "a\n"
+  lambda do
+    Gate.tree(files) do |folder|
+      said = lines.map { |line| Gate.run(*with, "XDG_CACHE_HOME=#{folder}/build/cache", 'sh', '-c', line.start_with?('-') ? "tools/test #{line.delete_prefix('-')}" : line).first }
+      ["#{said.last}ran #{File.readlines('build/runs').size} times\n", true]
+    end
+  end
+end
+
+# A runner as tools/test calls it: what it says and its exit status, then the same once more.
+ONCE = 'FIXPID_TALLY=$PWD/build/tally ruby tools/lib/test/once.rb unit "^ok " "^FAILED " ./runner word'.freeze
+
 three = 'echo ok a; echo ok b; echo ok c'
 Gate.passed('a part with as many checks as it has', toy(three))
 Gate.passed('a part with more', toy("#{three}; echo ok d"))
@@ -53,5 +75,28 @@ Gate.said('only what failed last time', parts('tools/test', '--failed'), /\A\[1\
 Gate.said('what failed when it ran last', parts('tools/test', 'tools/test good', '--failed'), /^0 passed, 1 failed$/)
 Gate.said('what is mended', parts('tools/test', 'rm fault', '--failed'), /^1 passed, 0 failed$/)
 Gate.said('nothing left', parts('tools/test', 'rm fault', '--failed', '--failed'), /^nothing failed last time$/)
+Gate.said('a runner that passed is remembered', remembered(three, '-', '-'), /^3 passed, 0 failed$/, /^ran 1 times$/,
+          /^remembered: 3 checks, the oldest \d+ seconds? old; all anew: tools.test --fresh$/)
+Gate.said('and runs if all is asked for anew', remembered(three, '-', '---fresh'), /\A(?!.*remembered:).*^3 passed, 0 failed$/m, /^ran 2 times$/)
+Gate.said('and is remembered then', remembered(three, '---fresh', '-'), /^remembered: 3 checks/, /^ran 1 times$/)
+Gate.said('a runner that failed is not', remembered("#{three}; echo FAILED d; exit 1", '-', '-'), /^3 passed, 1 failed$/, /^ran 2 times$/)
+Gate.said('nor one that only says so', remembered("#{three}; echo FAILED d", '-', '-'), /^3 passed, 1 failed$/, /^ran 2 times$/)
+Gate.said('nor one that only ends so', remembered("#{three}; exit 1", '-', '-'), /^3 passed, 1 failed$/, /^ran 2 times$/)
+Gate.said('nor one that is killed', remembered("#{three}; kill -9 $$", '-', '-'), /^3 passed, 1 failed$/, /^ran 2 times$/)
+Gate.said('nor one without checks', remembered('echo nothing', '-', '-'), /^0 passed, 1 failed$/, /^ran 2 times$/)
+Gate.said('nor one that is skipped in part', remembered("#{three}; echo skipped d: why", '-', '-'), /3 passed, 0 failed, 1 skipped$/, /^ran 2 times$/)
+%w[src/a.c .hidden runner new.txt src/new/b.c tools/lib/remembered.rb].each do |path|
+  Gate.said("and runs anew with another #{path}", remembered(three, '-', "mkdir -p src/new; echo '# more' >>#{path}", '-'), /^3 passed, 0 failed$/, /^ran 2 times$/)
+end
+Gate.said('and not with another page', remembered(three, '-', 'echo b >>docs/a.md; echo b >>README.md', '-'), /^ran 1 times$/)
+Gate.said('nor in another folder', remembered(three, '-', 'mkdir build/copy; cp -r $(ls -A | grep -v build) build/copy; mkdir build/copy/build; cd build/copy; tools/test'),
+          /^remembered: 3 checks/, /^ran 1 times$/)
+Gate.said('and runs anew with another word of the environment', remembered(three, '-', 'CFLAGS=-O0 tools/test'), /^ran 2 times$/)
+Gate.said('what it prints is the same',
+          remembered('echo ok a; echo b >&2; echo "ok \303\244"; printf c', 'mkdir -p build', "#{ONCE} >build/one; #{ONCE} >build/two; cmp build/one build/two && echo same; cat build/two"),
+          /^same\nok a\nb\nok .*\ncran 1 times$/m)
+Gate.said('its exit status is kept', remembered('exit 7', 'mkdir -p build', "#{ONCE}; echo status $?; #{ONCE}; echo status $?"), /\Astatus 7\nstatus 7\nran 2 times/)
+Gate.said('what is old is removed at the end', remembered(three, '-', 'touch -d "40 days ago" build/cache/fixpid/verdicts/unit/*; echo b >>src/a.c', '-', 'ls build/cache/fixpid/verdicts/unit | wc -l'),
+          /\A1\n/)
 Gate.refused('no such part', Gate.run("#{PROJECT}/tools/test", 'nothing'), /no such part/)
 Gate.finish

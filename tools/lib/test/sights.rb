@@ -3,28 +3,34 @@
 
 require_relative '../build/inputs'
 
-# What is in the sight of a runner whose verdict tools/test remembers (once.rb): the files
-# that it reads and the programs that it starts. What is missing here changes, and nobody
-# looks; so a folder is rather named as a whole.
+# What is in the sight of a runner whose verdict tools/test remembers (once.rb): every file
+# of the tree but those that no test can read, and the programs that it starts. There is no
+# list of what a runner reads, which somebody would have to complete.
 module Sights
-  LIBRARY = %w[include/**/* src/**/*].freeze
-  UNIT = [*LIBRARY, *%w[project.yml port/**/* sim/**/* examples/**/* test/unit/**/* test/support/**/* test/tools/cost/**/* test/model/**/*
-                        tools/lib/test/ceedling tools/lib/modules.rb]].freeze
-  FILES = {
-    'unit' => UNIT,
-    'avr' => [*UNIT, 'test/chips/avr/**/*', 'tools/lib/setup.sh'],
-    'sanitize' => UNIT
-  }.freeze
+  # What git has and what is built, of whatever folder; and what is only for people, for
+  # Python and for a browser.
+  UNSEEN = %w[.git build docs python web .github].freeze
+  UNSEEN_NAMES = /\A(?:README|CHANGELOG|CONTRIBUTING|SECURITY)\.md\z/.freeze
   PROGRAMS = {
-    'unit' => %w[ceedling gcc gcov gcovr],
+    'unit' => %w[ceedling gcc gcov gcovr python3],
     'avr' => %w[ceedling avr-gcc simavr],
-    'sanitize' => %w[ceedling clang ld]
+    'sanitize' => %w[ceedling clang gcc ld]
   }.freeze
+  # What parts.sh makes in build/ before it calls the runner; the runner's words name the rest.
+  MADE = { 'avr' => %w[build/avr/**/*] }.freeze
 
-  # For Remembered.
-  def self.of(sight)
-    tools = PROGRAMS.fetch(sight).flat_map { |name| Inputs.tool(name) }
-    tools += Inputs.gem('ceedling') if PROGRAMS.fetch(sight).include?('ceedling')
-    { files: FILES.fetch(sight), tools: tools + Inputs.c_library }
+  class << self
+    # For Remembered.
+    def of(sight)
+      tools = PROGRAMS.fetch(sight).flat_map { |name| Inputs.tool(name) }
+      tools += Inputs.gem('ceedling') if PROGRAMS.fetch(sight).include?('ceedling')
+      { files: tree + MADE.fetch(sight, []), tools: tools + Inputs.c_library }
+    end
+
+    # Patterns of all files that can be seen.
+    def tree
+      names = Dir.children('.').reject { |name| UNSEEN.include?(name) || UNSEEN_NAMES.match?(name) }
+      names.sort.flat_map { |name| [name, "#{name}/**/*"] }
+    end
   end
 end

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# told.rb TALLY: what tools/test says of the checks that were remembered, whose lines in
-# the tally are tools/lib/remembered.rb's.
+# told.rb TALLY: the end of a tools/test. Forgets what is old, and says how many checks were
+# remembered; their lines in the tally are tools/lib/remembered.rb's.
+require_relative '../remembered'
 
 UNITS = { 'day' => 86_400, 'hour' => 3600, 'minute' => 60 }.freeze
 
@@ -12,7 +13,10 @@ def age_of(seconds)
   "#{count} #{unit}#{'s' unless count == 1} old"
 end
 
+Remembered.sweep
 rows = File.readlines(ARGV.fetch(0), chomp: true).map { |line| line.split(' ', 3) }
+exit if rows.empty?
+
 sums = rows.group_by(&:last).sort.map { |what, of_it| "#{of_it.sum { |count, _| count.to_i }} #{what}" }
 puts "remembered: #{sums.join(' and ')}, the oldest #{age_of(Time.now.to_i - rows.map { |_, at| at.to_i }.min)}; " \
      'all anew: tools/test --fresh'
