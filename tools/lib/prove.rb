@@ -9,8 +9,10 @@ require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
 require_relative 'prove/proofs'
 require_relative 'prove/seeded'
+require_relative 'remembered'
 
 BUILD = 'build/prove'.freeze
+INPUTS = %w[include/**/* src/**/* test/proof/**/*].freeze
 
 # Does the work of a list, so many things at a time; prints what each says, in a line
 # or several, and gives whether all were good.
@@ -41,6 +43,25 @@ def take(queue)
   queue.pop(true)
 rescue ThreadError
   nil # it is empty
+end
+
+# With what an answer is found: CBMC, of which a private one starts what is in its `root`, and
+# the compiler whose preprocessor it takes.
+def remembered
+  programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
+  private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
+  Remembered.new('proofs', files: INPUTS, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.c_library])
+end
+
+# Whether it is good, and its line, of a proof or a break by its name: remembered if it
+# was good.
+def answer_of(name, words)
+  said = nil
+  line = REMEMBERED.of(name, words: words) do
+    fine, said = yield
+    said if fine
+  end
+  [!line.nil?, line || said]
 end
 
 # Whether a proof holds, and its line.
@@ -112,8 +133,9 @@ breaks = seeded.select { |broken| chosen.include?(broken.proof) }
 breaks = breaks.uniq(&:proof) if mode == 'quick'
 complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
-proved = all_good?(chosen) { |proof| prove(proof) }
-noticed = all_good?(breaks) { |broken| refute(broken) }
+REMEMBERED = remembered
+proved = all_good?(chosen) { |proof| answer_of(proof.name, proof.options) { prove(proof) } }
+noticed = all_good?(breaks) { |broken| answer_of(broken.name, [broken.proof.options, broken.file, broken.source]) { refute(broken) } }
 choice = Choice.new(proofs, chosen, BUILD)
 drawn = all_good?(choice.places) { |place| choice.judge(place) }
 covered = mode == 'quick' || !words.empty? || covered?(proofs, words)
