@@ -21,8 +21,8 @@ Core = Struct.new(:tools, :options, :folder, :qemu, keyword_init: true) do
   end
 
   # Its note about a timer that is off is not ours.
-  def run(program)
-    Host.output('timeout', '300', *qemu, '-nographic', '-semihosting', '-kernel', program)
+  def run(program, seconds = 300)
+    Host.output('timeout', seconds.to_s, *qemu, '-nographic', '-semihosting', '-kernel', program)
   end
 end
 

@@ -376,7 +376,7 @@ class QemuMeter < AvrMeter
   end
 
   def run
-    core.run("#{@path}.elf")
+    core.run("#{@path}.elf", @search == SEARCH ? 300 : 3600)
   end
 
   def read_code
