@@ -61,26 +61,25 @@ static void print_row(const struct trial *trial, const char *controller,
 }
 
 // fixpid_pid, the law, and the law without a feature.
+static const struct {
+    const char *name;
+    bool fixed;
+    enum pid_double_without without;
+} controllers[] = {
+    {"fixpid_pid", true, PID_DOUBLE_WHOLE},
+    {"double", false, PID_DOUBLE_WHOLE},
+    {"no anti-windup", false, PID_DOUBLE_NO_ANTI_WINDUP},
+    {"sign-blind", false, PID_DOUBLE_SIGN_BLIND},
+    {"integral clamped", false, PID_DOUBLE_INTEGRAL_CLAMPED},
+};
+#define CONTROLLERS (sizeof(controllers) / sizeof(controllers[0]))
+
 static void print_all(const struct trial *trial)
 {
-    static const char *const names[] = {
-        "double",
-        "no anti-windup",
-        "sign-blind",
-        "integral clamped",
-    };
-    static const enum pid_double_without withouts[] = {
-        PID_DOUBLE_WHOLE,
-        PID_DOUBLE_NO_ANTI_WINDUP,
-        PID_DOUBLE_SIGN_BLIND,
-        PID_DOUBLE_INTEGRAL_CLAMPED,
-    };
-    const struct quality fixed = run(trial, true, PID_DOUBLE_WHOLE);
-
-    print_row(trial, "fixpid_pid", &fixed);
-    for (size_t i = 0; i < sizeof(withouts) / sizeof(withouts[0]); i++) {
-        const struct quality exact = run(trial, false, withouts[i]);
-        print_row(trial, names[i], &exact);
+    for (size_t i = 0; i < CONTROLLERS; i++) {
+        const struct quality quality =
+            run(trial, controllers[i].fixed, controllers[i].without);
+        print_row(trial, controllers[i].name, &quality);
     }
 }
 
@@ -115,6 +114,37 @@ void print_slow(void)
         trial.plant.name = cases[i].name;
         trial.gains.ki = cases[i].ki;
         print_all(&trial);
+    }
+}
+
+// After a setpoint out of reach: steps until the loop stays within 2 % of the
+// next one, and the sum of the magnitudes of its error.
+void print_recovery(void)
+{
+    static const double backs[] = {300.0, 700.0, 900.0, 1000.0};
+    struct trial trial = trials[0];
+
+    (void)printf("controller;back;settled;iae\n");
+    trial.steps = 1500;
+    for (size_t i = 0; i < CONTROLLERS; i++) {
+        for (size_t k = 0; k < sizeof(backs) / sizeof(backs[0]); k++) {
+            struct quality last = {0.0, 0, 0.0, 0.0, 0.0};
+            struct loop loop;
+
+            loop_start(&loop, &trial, controllers[i].fixed,
+                       controllers[i].without);
+            for (int step = 0; step < 2 * trial.steps; step++) {
+                loop_step(&loop, trial.setpoints[step / trial.steps]);
+            }
+            trial.setpoints[0] = backs[k];
+            for (int step = 0; step < trial.steps; step++) {
+                loop_step(&loop, backs[k]);
+                judge_first(&last, &trial, step, backs[k] - loop.motion.value);
+            }
+            trial.setpoints[0] = trials[0].setpoints[0];
+            (void)printf("%s;%.9g;%d;%.9g\n", controllers[i].name, backs[k],
+                         last.settled, last.iae);
+        }
     }
 }
 

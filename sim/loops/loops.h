@@ -34,6 +34,7 @@ void loop_set_auto(struct loop *self);
 void print_comparison(
     void); // fixpid_pid against it in double precision on five plants
 void print_slow(void);      // where the integral is far too slow
+void print_recovery(void);  // from a setpoint out of reach back to four others
 void print_agreement(void); // step by step, on the same readings
 void print_bumps(void);
 void print_drift(void);

@@ -15,7 +15,7 @@ int main(int count, char **arguments)
         {"comparison", print_comparison}, {"slow", print_slow},
         {"agreement", print_agreement},   {"bumps", print_bumps},
         {"drift", print_drift},           {"autotune", print_autotune},
-        {"failures", print_failures},
+        {"failures", print_failures},     {"recovery", print_recovery},
     };
 
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {

@@ -13,7 +13,7 @@ module Docs
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
                           'autotune' => :autotune, 'random_plants' => :random_plants,
                           'holding' => :holding, 'dangers' => :dangers },
-    'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow,
+    'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow, 'recovery' => :recovery,
                              'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }

@@ -59,10 +59,13 @@ BUMP_LIMITS = {
   'limits back to 0..255' => [80, 80]
 }.freeze
 
+LATER_THAN_CLAMPED = 40 # steps, at most, where the clamped rule is better
+
 def others
   comparison = Loops.table('comparison', 25).group_by { |row| row['plant'] }
   SETTLED_LIMITS.each_key { |plant| check_plant(plant, comparison.fetch(plant)) }
   check_slow(Loops.table('slow', 10))
+  check_recovery(Loops.table('recovery', 20))
   Loops.table('agreement', 5).each { |row| check_agreement(row) }
   check_bumps(Loops.table('bumps', 11))
   check_drift(Loops.table('drift', 6))
@@ -115,6 +118,19 @@ def check_slow(rows)
     Report.at_most("#{plant}: sum of errors, off double precision by", 100.0 * (ours / double - 1.0).abs, 1.0, '%')
     Report.at_most("#{plant}: sum of errors, by that of a clamped integral", ours / clamped, CLAMPED_LIMITS.fetch(plant))
     tell_values(plant, own.first)
+  end
+end
+
+# The two rules by turns: up to the middle of the range the integral that stands still
+# is back sooner, near its end the one that is clamped. A step is noise of the reading.
+def check_recovery(rows)
+  Report.number('recovery', rows)
+  rows.group_by { |row| row['back'] }.each do |back, own|
+    ours, double, *, clamped = own.map { |row| row['settled'].to_i }
+    Report.at_most("back from 1100 to #{back}: later than in double precision", ours - double, 1, 'steps')
+    Report.at_most("back from 1100 to #{back}: later than with a clamped integral", ours - clamped,
+                   back.to_i > 800 ? LATER_THAN_CLAMPED : 0, 'steps')
+    Report.unchanged("back from 1100 to #{back}: #{WHAT['settled']}", ours)
   end
 end
 

@@ -129,6 +129,15 @@ module Tables
       loops(Report.numbers['others']['slow'].map { |row| loop_row(row) })
     end
 
+    # Each rule beside the next, a column for each setpoint.
+    def recovery
+      rows = Report.numbers['others']['recovery'].group_by { |row| row['controller'] }
+      backs = rows.values.first.map { |row| "back to #{row['back']}" }
+      table('controller', *backs, rows.map do |name, own|
+        [controller_of(name), *own.map { |row| "#{row['settled']} / #{row['iae'].to_f.round}" }]
+      end)
+    end
+
     def bumps
       rows = Report.numbers['others']['bumps']
                    .select { |row| BUMP_LIMITS.key?(row['event']) }
@@ -176,11 +185,12 @@ module Tables
     end
 
     def loop_row(row)
-      name = row['controller']
-      shown = { 'fixpid_pid' => '`fixpid_pid`', 'double' => 'double precision' }
-              .fetch(name, "double, #{name}")
-      [row['plant'], shown, format('%.1f %%', row['overshoot']),
+      [row['plant'], controller_of(row['controller']), format('%.1f %%', row['overshoot']),
        row['settled'], row['iae'].to_f.round, row['iae_after'].to_f.round]
+    end
+
+    def controller_of(name)
+      { 'fixpid_pid' => '`fixpid_pid`', 'double' => 'double precision' }.fetch(name, "double, #{name}")
     end
 
     def stage_row(stage, numbers)
