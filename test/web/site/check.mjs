@@ -102,13 +102,13 @@ async function sorting() {
     const page = await tab();
     const problems = [];
     await page.goto(`${host}/docs/cost.html`);
-    const table = page.locator('table', { has: page.getByRole('button', { name: 'worst', exact: true }) }).first();
-    const column = (await table.locator('th').allInnerTexts()).findIndex((text) => text.trim() === 'worst');
+    const table = page.locator('table', { has: page.getByRole('button', { name: 'worst found', exact: true }) }).first();
+    const column = (await table.locator('th').allInnerTexts()).findIndex((text) => text.trim() === 'worst found');
     const values = async () => (await table.locator(`tbody td:nth-child(${column + 1})`).allInnerTexts()).map(Number);
     const before = await values();
     const ascending = [...before].sort((one, other) => one - other);
     for (const wanted of [ascending, [...ascending].reverse()]) {
-        await table.getByRole('button', { name: 'worst', exact: true }).press('Enter');
+        await table.getByRole('button', { name: 'worst found', exact: true }).press('Enter');
         if (String(await values()) !== String(wanted)) {
             problems.push(`sorted: ${await values()}`);
         }
