@@ -18,7 +18,7 @@ class MeteredRun < Run
     Harness.build(kind)
     asked = questions.of(controller, 'little', mode)
     build("#{folder}/firmware")
-    text, = Host.run("#{Host.folder}/#{kind}", *arguments("#{folder}/firmware"), asked.steps.to_s, '0', '0', '0')
+    text, = Host.run("#{Host.folder}/#{kind}", *arguments("#{folder}/firmware"), 'none', asked.steps.to_s, *%w[0 0 1 0 0]) # no search
     read(text, asked)
   end
 
