@@ -168,7 +168,7 @@ new = tables.reduce(old) do |text, (name, content)|
     abort "figures: #{document} has no markers of #{name}"
 end
 exceeded = limits.reject(&:kept?)
-abort exceeded.map { |limit| "figures: #{limit.what}: #{limit.exceeded}" }.join("\n") if exceeded.any?
+abort exceeded.map { |limit| "figures: #{limit.what}: #{limit.wrong}" }.join("\n") if exceeded.any?
 exit if new == old
 if ARGV[3] == '--update'
   File.write(document, new)

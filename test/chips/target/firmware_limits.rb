@@ -36,7 +36,7 @@ module FirmwareLimits
     end
 
     def exceeded(head, rows)
-      of(head, rows).reject(&:kept?).map { |limit| "#{limit.what}: #{limit.exceeded}" }
+      of(head, rows).reject(&:kept?).map { |limit| "#{limit.what}: #{limit.wrong}" }
     end
 
     # Raises unless just this fault is said, and nothing of the table without it.
