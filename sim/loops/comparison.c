@@ -6,17 +6,16 @@
 #include "loops.h"
 
 struct quality {
-    double overshoot;    // counts, of the first setpoint
+    double overshoot;    // counts, of the setpoint that is judged
     int settled;         // steps, until it stays within 2 % of it
     double steady_error; // mean over the last fifth of it
     double iae;          // sum of the magnitudes of the error
     double iae_after;    // the same for the last one
 };
 
-static void judge_first(struct quality *quality, const struct trial *trial,
-                        int step, double error)
+static void judge(struct quality *quality, const struct trial *trial,
+                  double setpoint, int step, double error)
 {
-    const double setpoint = trial->setpoints[0];
     const int tail = trial->steps / 5;
 
     quality->iae += fabs(error);
@@ -29,8 +28,9 @@ static void judge_first(struct quality *quality, const struct trial *trial,
     }
 }
 
+// Judges the setpoint of that number, from 0.
 static struct quality run(const struct trial *trial, bool fixed,
-                          enum pid_double_without without)
+                          enum pid_double_without without, int judged)
 {
     struct quality quality = {0.0, 0, 0.0, 0.0, 0.0};
     struct loop loop;
@@ -41,8 +41,8 @@ static struct quality run(const struct trial *trial, bool fixed,
         const double setpoint = trial->setpoints[part];
         loop_step(&loop, setpoint);
         const double error = setpoint - loop.motion.value;
-        if (part == 0) {
-            judge_first(&quality, trial, step, error);
+        if (part == judged) {
+            judge(&quality, trial, setpoint, step % trial->steps, error);
         }
         if (part == TRIAL_SETPOINTS - 1) {
             quality.iae_after += fabs(error);
@@ -78,7 +78,7 @@ static void print_all(const struct trial *trial)
 {
     for (size_t i = 0; i < CONTROLLERS; i++) {
         const struct quality quality =
-            run(trial, controllers[i].fixed, controllers[i].without);
+            run(trial, controllers[i].fixed, controllers[i].without, 0);
         print_row(trial, controllers[i].name, &quality);
     }
 }
@@ -122,28 +122,18 @@ void print_slow(void)
 void print_recovery(void)
 {
     static const double backs[] = {300.0, 700.0, 900.0, 1000.0};
+    const int last = TRIAL_SETPOINTS - 1;
     struct trial trial = trials[0];
 
     (void)printf("controller;back;settled;iae\n");
     trial.steps = 1500;
     for (size_t i = 0; i < CONTROLLERS; i++) {
         for (size_t k = 0; k < sizeof(backs) / sizeof(backs[0]); k++) {
-            struct quality last = {0.0, 0, 0.0, 0.0, 0.0};
-            struct loop loop;
-
-            loop_start(&loop, &trial, controllers[i].fixed,
-                       controllers[i].without);
-            for (int step = 0; step < 2 * trial.steps; step++) {
-                loop_step(&loop, trial.setpoints[step / trial.steps]);
-            }
-            trial.setpoints[0] = backs[k];
-            for (int step = 0; step < trial.steps; step++) {
-                loop_step(&loop, backs[k]);
-                judge_first(&last, &trial, step, backs[k] - loop.motion.value);
-            }
-            trial.setpoints[0] = trials[0].setpoints[0];
+            trial.setpoints[last] = backs[k];
+            const struct quality quality =
+                run(&trial, controllers[i].fixed, controllers[i].without, last);
             (void)printf("%s;%.9g;%d;%.9g\n", controllers[i].name, backs[k],
-                         last.settled, last.iae);
+                         quality.settled, quality.iae);
         }
     }
 }
