@@ -139,7 +139,7 @@ class CoreProgram
     @elf ||= "#{Host.folder}/core-#{@name}.elf".tap do |elf|
       each = routines.reject(&:refusal).map { |one| "EACH(#{one.name})" }.join(' ')
       object = elf.sub(/elf\z/, 'o')
-      @core.compile('-c', @source, '-o', object)
+      @core.compile('-c', @source, '-Wa,-Itest/tools/cost/cores', '-o', object)
       @core.link(elf, '-O2', *Harness::WARNINGS, "-DROUTINES=#{each}", '-Itest/support', '-Wl,--no-gc-sections',
                  'test/tools/cost/cores/meter.c', object, *@core.sources)
     end

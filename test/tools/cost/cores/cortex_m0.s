@@ -121,13 +121,7 @@ leaves_some:                    @ refused: not all returns leave the same
 leaves_some_end:
         bx lr
 
-        .macro sized names:vararg
-        .irp name, \names
-        .global \name
-        .type \name, %function
-        .size \name, 2
-        .endr
-        .endm
+        .include "sized.inc"
         sized plain, product, memory, constant, several, pushes, taken, not_taken
         sized jumps, calls, large, tail_call, call_and_tail_call, unknown, computed
         sized from_register, not_alike, leaves_some

@@ -23,11 +23,5 @@ of_cortex_m4:                   @ refused: no timing of smulbb
         smulbb r1, r1, r1
         bx lr
 
-        .macro sized names:vararg
-        .irp name, \names
-        .global \name
-        .type \name, %function
-        .size \name, 2
-        .endr
-        .endm
+        .include "sized.inc"
         sized products, accumulated, quotient, of_cortex_m4

@@ -136,13 +136,7 @@ pushed_sometimes:               @ refused: the stack pointer changes by what is 
         subeq sp, sp, #8
         bx lr
 
-        .macro sized names:vararg
-        .irp name, \names
-        .global \name
-        .type \name, %function
-        .size \name, 2
-        .endr
-        .endm
+        .include "sized.inc"
         sized plain, products, quotient, memory, constant, several, pushes
         sized wide_pushes, one_pushed, return_popped, taken, zero, not_taken, skipped
         sized return_skipped, calls, large, tail_call, unknown, computed

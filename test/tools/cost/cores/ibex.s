@@ -131,13 +131,7 @@ leaves_some:                    # refused: not all returns leave the same
 leaves_some_end:
         ret
 
-        .macro sized names:vararg
-        .irp name, \names
-        .global \name
-        .type \name, %function
-        .size \name, 2
-        .endr
-        .endm
+        .include "sized.inc"
         sized plain, products, quotients, memory, taken, not_taken, unaligned, jumps
         sized calls, large, tail_call, call_and_tail_call, three_turns, unknown
         sized computed, from_register, not_alike, leaves_some
