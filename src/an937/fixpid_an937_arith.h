@@ -76,7 +76,8 @@ FIXPID_INLINE int32_t fixpid_number_term(
 #endif
 
 #if (FIXPID_MULTIPLIER_BITS >= 16) ||                                          \
-    (defined(__AVR__) && !defined(__AVR_HAVE_MUL__))
+    (defined(__AVR__) && !defined(__AVR_HAVE_MUL__) &&                         \
+     defined(FIXPID_NO_ASSEMBLY))
 
 // sum + gain * number. pre: the result is within +-2^26
 FIXPID_INLINE int32_t
@@ -102,7 +103,7 @@ FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
 // The other forms of what Equation 4 needs.
 #elif defined(__SDCC_pic16)
 #include "fixpid_an937_pic18.h"
-#elif defined(__AVR_HAVE_MUL__) && !defined(FIXPID_NO_ASSEMBLY)
+#elif defined(__AVR__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an937_avr.h"
 #elif defined(__AVR__)
 #include "fixpid_an937_words_avr.h"

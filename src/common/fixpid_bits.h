@@ -35,6 +35,26 @@
 #error "fixpid needs a compiler whose shift to the right rounds down"
 #endif
 
+// True if `condition` is, which it seldom is: the other way has no jump then.
+// (Of a more seldom one gcc saves the code, of a less seldom one it makes
+// copies.)
+#if defined(__GNUC__) && (__GNUC__ >= 9)
+#define FIXPID_SELDOM(condition)                                               \
+    (__builtin_expect_with_probability((condition), 0, 0.95) != 0)
+#elif defined(__GNUC__)
+#define FIXPID_SELDOM(condition) (__builtin_expect((condition), 0) != 0)
+#else
+#define FIXPID_SELDOM(condition) (condition)
+#endif
+
+// Hides from gcc what made `word`: it is in one register then, not in two
+// copies of different widths, and what made it seldom is behind a jump.
+#if defined(__GNUC__) && !defined(FIXPID_NO_ASSEMBLY)
+#define FIXPID_OPAQUE(word) __asm__("" : "+r"(word))
+#else
+#define FIXPID_OPAQUE(word) ((void)0)
+#endif
+
 #if defined(__SDCC)
 #include "fixpid_bits_sdcc.h"
 #else
@@ -61,7 +81,8 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 // x * 2^n. pre: it fits
 FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
-    return x * (int32_t)(UINT32_C(1) << n);
+    // Deviation 10.8: a pattern of two's complement
+    return (int32_t)((uint32_t)x << n);
 }
 
 // `value` within low..high. pre: low <= high

@@ -10,17 +10,24 @@
 
 // SDCC negates this one in place. (Other compilers' sanitizers report a wrap.)
 #define fixpid_negated(bits) ((uint16_t)(0u - (bits)))
-#define complement(x) ((int16_t)(-1 - (x)))
+#define complement(x) ((int16_t) ~(x))
 #define shift_right_floor(x, n) ((x) >> (n))
 // With a product, as the C has it, SDCC would call its multiplication.
 #define shift_left(x, n) ((int32_t)((uint32_t)(x) << (n)))
 #define clamp32(value, low, high)                                              \
     (((value) > (high)) ? (high) : (((value) < (low)) ? (low) : (value)))
 
-// (is_just of fixpid_signed.h. Of an inline function SDCC mistakes the
-// integral's lowest byte, on an 8051 with --stack-auto.)
+// Of fixpid_signed.h. (Of an inline is_just SDCC mistakes the integral's lowest
+// byte, on an 8051 with --stack-auto.)
+typedef int16_t signal_word;
+typedef int32_t counts_word;
+#define whole_counts(counts) ((int32_t)((uint32_t)(uint16_t)(counts) << 16))
+#define reaches(limit, counts, integral) ((counts) >= (limit))
 #define is_just(limit, counts, integral, fraction)                             \
-    (((uint16_t)((limit) ^ (counts)) | (uint16_t)(integral) | (fraction)) == 0u)
+    (((counts) == (limit)) && (((uint16_t)(integral) | (fraction)) == 0u))
+#define rounded_counts(sum, integral)                                          \
+    shift_right_floor(                                                         \
+        fixpid_add32((sum), shift_right_floor((integral), 8) + 128), 8)
 
 // SDCC's own sums wrap.
 #define fixpid_add32(a, b) ((a) + (b))

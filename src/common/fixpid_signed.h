@@ -19,6 +19,11 @@
 #endif
 #endif
 
+// A Cortex-M0, M0+ or M23.
+#if defined(__thumb__) && !defined(__thumb2__)
+#define FIXPID_THUMB1
+#endif
+
 // (Older compilers for ARM say that they have the instructions and do not.)
 #if defined(__AVR_HAVE_MOVW__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_signed_avr.h"
@@ -26,7 +31,8 @@
 #elif (INT_MAX <= 32767) || !defined(FIXPID_HAS_ADD_OVERFLOW) ||               \
     ((FIXPID_MULTIPLIER_BITS < 16) && !defined(__riscv))
 #include "fixpid_signed_narrow.h"
-#elif defined(__ARM_FEATURE_SAT) && !defined(FIXPID_NO_ASSEMBLY) &&            \
+#elif (defined(__ARM_FEATURE_SAT) || defined(FIXPID_THUMB1)) &&                \
+    !defined(FIXPID_NO_ASSEMBLY) &&                                            \
     (!defined(__GNUC__) || defined(__clang__) || (__GNUC__ >= 10))
 #include "fixpid_signed_arm.h"
 #elif defined(__riscv)
@@ -34,14 +40,16 @@
 #else
 
 // a - b, saturated
-FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
 {
-    const int32_t difference = (int32_t)a - b;
+    const int32_t difference = a - b;
+    int32_t fitting = (int16_t)difference;
 
-    if (difference != (int16_t)difference) {
-        return (int16_t)(INT16_MAX ^ shift_right_floor(difference, 30));
+    if (difference != fitting) {
+        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
     }
-    return (int16_t)difference;
+    FIXPID_OPAQUE(fitting);
+    return fitting;
 }
 
 // a + b, saturated
@@ -56,14 +64,38 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 }
 
 // gain * x. pre: gain <= 32767; post: within 32767 * 32768 = 2^30 - 2^15
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int32_t x)
 {
     return (int32_t)gain * x;
 }
 
 #endif
 
+#if !defined(FIXPID_SIGNED_AVR_H) && !defined(__SDCC) // they have their own
+
+typedef int32_t counts_word;
+
+// `counts` of 1 in Q16.16.
+FIXPID_INLINE int32_t whole_counts(int16_t counts)
+{
+    // Deviation 10.8: a pattern of two's complement
+    return (int32_t)((uint32_t)(uint16_t)counts << 16);
+}
+
+// The output before its limits: floor((sum + floor(integral / 2^8) + 128) /
+// 2^8) pre: the sum is within 2^31 - 2^15 + 128, unless bits were flipped
+FIXPID_INLINE counts_word rounded_counts(int32_t sum, int32_t integral)
+{
+    return shift_right_floor(
+        fixpid_add32(sum, shift_right_floor(integral, 8) + 128), 8);
+}
+
+#endif
+
 #ifndef FIXPID_SIGNED_INT16_H // an int of 16 bits has its own
+
+// A signal of 16 bits in a register.
+typedef int32_t signal_word;
 
 // a + b, which fits unless bits were flipped: fixpid_add32 for a sum that gcc
 // for an AVR is not to merge with the sum before it, which takes it more
@@ -86,9 +118,37 @@ FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
                            uint8_t fraction)
 {
     (void)counts;
-    return ((integral ^ shift_left(limit, 16)) | fraction) == 0;
+    if (integral != whole_counts(limit)) {
+        return false;
+    }
+    return fraction == 0u;
+}
+
+// True if that integral is `limit` counts or more.
+FIXPID_INLINE bool reaches(int16_t limit, int16_t counts, int32_t integral)
+{
+    (void)counts;
+    return integral >= whole_counts(limit);
 }
 
 #endif
+
+// a + gain * x, saturated; or, `fine`, of a word and a byte, which is its next
+// eight bits: their sum with gain * x in 40 bits.
+#define add_product(a, fraction, gain, x, fine)                                \
+    fixpid_add_product((a), &(fraction), (gain), (x), (fine))
+FIXPID_INLINE int32_t fixpid_add_product(int32_t a, uint8_t *fraction,
+                                         uint16_t gain, signal_word x,
+                                         bool fine)
+{
+    int32_t change = mul16(gain, x);
+
+    if (fine) {
+        change += (int32_t)*fraction;
+        *fraction = (uint8_t)change;
+        change = shift_right_floor(change, 8);
+    }
+    return add32_sat(a, change);
+}
 
 #endif

@@ -1,22 +1,55 @@
 // SPDX-License-Identifier: MIT
-// The functions of fixpid_signed.h for an ARM with saturating instructions:
-// SSAT, and QADD where the core has the DSP extension. Both set the sticky flag
-// Q when they saturate.
+// The functions of fixpid_signed.h for an ARM: with the saturating instructions
+// SSAT and, where the core has the DSP extension, QADD, both of which set the
+// sticky flag Q when they saturate; and for Thumb of the first generation, with
+// the overflow flag.
 #ifndef FIXPID_SIGNED_ARM_H
 #define FIXPID_SIGNED_ARM_H
-#include <arm_acle.h>
 #include <stdint.h>
 
 #include "fixpid_bits.h"
+
+#if defined(FIXPID_THUMB1)
+FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
+{
+    const int32_t difference = a - b;
+    int32_t fitting = (int16_t)difference;
+
+    if (difference != fitting) {
+        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
+    }
+    FIXPID_OPAQUE(fitting);
+    return fitting;
+}
+
+FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
+{
+    int32_t sum;
+
+    __asm__(".syntax unified\n\t"
+            "adds %0, %2, %1\n\t"
+            "bvc 1f\n\t"
+            "sbcs %0, %0\n\t"
+            "movs %1, #128\n\t"
+            "lsls %1, %1, #24\n\t"
+            "eors %0, %1\n"
+            "1:"
+            : "=&l"(sum), "+l"(b)
+            : "l"(a)
+            : "cc");
+    return sum;
+}
+#else
+#include <arm_acle.h>
 
 // GCC's __ssat is a macro, in which an unsigned int becomes an int32_t.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
 {
-    return (int16_t)__ssat((int32_t)a - b, 16);
+    return __ssat(a - b, 16);
 }
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -38,8 +71,9 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     return sum;
 }
 #endif
+#endif
 
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int32_t x)
 {
     return (int32_t)gain * x;
 }

@@ -26,7 +26,16 @@ FIXPID_INLINE int32_t shift_right_by(int32_t x, uint8_t places)
     return quotient;
 }
 
-#if !defined(__SDCC) // a macro of fixpid_bits_sdcc.h
+#if !defined(__SDCC) // which has macros in fixpid_bits_sdcc.h
+// A signal of 16 bits in a register.
+typedef int16_t signal_word;
+
+FIXPID_INLINE bool reaches(int16_t limit, int16_t counts, int32_t integral)
+{
+    (void)integral;
+    return counts >= limit;
+}
+
 FIXPID_INLINE bool is_just(int16_t limit, int16_t counts, int32_t integral,
                            uint8_t fraction)
 {

@@ -9,33 +9,41 @@
 #include "fixpid_bits.h"
 #include "fixpid_shift_add.h"
 
-FIXPID_INLINE int16_t sub16_sat(int16_t a, int16_t b)
+FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
 {
-    const int32_t difference = (int32_t)a - b;
+    const int32_t difference = a - b;
+    int32_t fitting = (int16_t)difference;
 
-    if (difference != (int16_t)difference) {
-        return (difference < 0) ? INT16_MIN : INT16_MAX;
+    if (difference != fitting) {
+        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
     }
-    return (int16_t)difference;
+    FIXPID_OPAQUE(fitting);
+    return fitting;
 }
 
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
-    int32_t sum;
+    int32_t sum = fixpid_add32(a, b);
 
-    if (__builtin_add_overflow(a, b, &sum)) {
-        return (a < 0) ? INT32_MIN : INT32_MAX;
+    if (b < 0) {
+        if (FIXPID_SELDOM(sum > a)) {
+            sum = INT32_MIN;
+        }
+    } else if (FIXPID_SELDOM(sum < a)) {
+        sum = INT32_MAX;
+    } else {
     }
+    FIXPID_OPAQUE(sum);
     return sum;
 }
 
 #if defined(__riscv_mul)
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int32_t x)
 {
     return (int32_t)gain * x;
 }
 #else
-FIXPID_INLINE int32_t mul16(uint16_t gain, int16_t x)
+FIXPID_INLINE int32_t mul16(uint16_t gain, int32_t x)
 {
     return fixpid_product_in_turns(gain, x, 15);
 }

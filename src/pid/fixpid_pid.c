@@ -10,9 +10,9 @@
 // the PID is plain, which has none of the three. WEIGHTED is set if the
 // setpoint weight is below 1. With proportional_on_measurement the weight is 0.
 // Each is its feature's bit, moved, and 0 without the feature.
-#define REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) << 5)              // 0x80
-#define ON_ERROR ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) << 3) // 0x40
-#define WEIGHTED ((FEATURES & FIXPID_PID_HAS_WEIGHT) << 4)              // 0x20
+#define REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) << 4)              // 0x40
+#define ON_ERROR ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) << 2) // 0x20
+#define WEIGHTED ((FEATURES & FIXPID_PID_HAS_WEIGHT) << 2)              // 0x08
 #define SPECIAL (REVERSE | ON_ERROR | WEIGHTED)
 
 // What a configuration must not have without the feature: a bool, or a weight
@@ -22,9 +22,10 @@
 #define NO_WEIGHT (HAS_WEIGHT ? 0u : 0xFEFFu)
 #define ONE_IF_WEIGHT (HAS_WEIGHT ? 1u : 0u) // NO_WEIGHT says more
 
-// The lowest three bits of `options` are the derivative filter.
+// The lowest three bits of `options` are the derivative filter. The sign bit is
+// what a PID with small gains asks in each step.
 #define FILTER (HAS_FILTER ? 0x07u : 0u)
-#define KI_FINE 0x08u // ki has 24 fractional bits; neither bit: 16
+#define KI_FINE 0x80u // ki has 24 fractional bits; neither bit: 16
 #define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
 
 #define FEEDFORWARD (HAS_FEEDFORWARD ? SELF.feedforward : 0)
@@ -38,21 +39,46 @@
 struct signals {
     int32_t p_d_ff;   // P + D + feed-forward, Q24.8
     int32_t integral; // the candidate, Q16.16
-    int16_t error;
-    int16_t derivative_input; // falls with the error
-    uint8_t fraction;         // the candidate's next eight bits
+    signal_word error;
+    signal_word derivative_input; // falls with the error
+    int16_t setpoint;             // for special_errors
+    uint8_t fraction;             // the candidate's next eight bits
 };
 
 #if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
 FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
-#define SIGNALS (*((void)signals, &fixpid_pid_signals)) // it counts as used
-#define LOCAL_SIGNALS                                                          \
-    FIXPID_DATA struct signals *const signals = &fixpid_pid_signals
+#define SIGNALS fixpid_pid_signals
+#define LOCAL_SIGNALS (void)self
 #else
 #define SIGNALS (*signals)
 #define LOCAL_SIGNALS                                                          \
     struct signals now;                                                        \
     struct signals *const signals = &now
+#endif
+
+// The fall of the derivative's input since the last step, saturated, or 0 in
+// the first one, for which ASKED_FIRST is asked before. In a word of 32 bits
+// `previous` itself can say that there is none: the upper half of the fall from
+// NO_PREVIOUS is INT16_MAX, whatever the input. That of a fall which does not
+// fit is 0 or -1, and of a flipped `previous` any 16 bits.
+#if UINT_MAX > 65535u
+#define NO_PREVIOUS INT32_C(0x7FFF7FFF)
+#define ASKED_FIRST 0u
+FIXPID_INLINE signal_word fall_from(int32_t previous, int32_t input)
+{
+    const int32_t fall = fixpid_sub32(previous, input);
+    int32_t fitting = (int16_t)fall;
+
+    if (FIXPID_SELDOM(fall != fitting)) {
+        fitting = INT16_MAX ^ shift_right_floor(fall, 16);
+        FIXPID_OPAQUE(fitting);
+    }
+    return (signal_word)fitting;
+}
+#else
+#define NO_PREVIOUS 0
+#define ASKED_FIRST FIXPID_PID_FIRST
+#define fall_from sub16_sat
 #endif
 
 // ki becomes 15 bits with one of three exponents, rounded to the nearest. Each
@@ -116,7 +142,7 @@ static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
         return false;
     }
     SELF.options =
-        (uint8_t)((uint8_t)((uint8_t)(reverse << 1) | on_error) << 6) & SPECIAL;
+        (uint8_t)((uint8_t)((uint8_t)(reverse << 1) | on_error) << 5) & SPECIAL;
     if (HAS_WEIGHT) {
         // A weight of 0 or WEIGHT_ONE is the plain PID's.
         if ((SELF.setpoint_weight | weightless) != 0u) {
@@ -175,10 +201,10 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
     if (SELF.integral_max < 0) {
         start = SELF.integral_max;
     }
-    SELF.integral = shift_left(start, 16);
+    SELF.integral = whole_counts(start);
     SELF.integral_fraction = 0;
     SELF.derivative = 0;
-    SELF.previous = 0;
+    SELF.previous = NO_PREVIOUS;
     SELF.proportional_error = 0;
     SELF.feedforward = 0;
     SELF.output = 0;
@@ -196,56 +222,69 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
     return accept_gains(self, gains);
 }
 
-// The proportional term's error is that of b * setpoint, rounded half up.
-static void weighted_error(FIXPID_DATA struct fixpid_pid *self,
-                           FIXPID_DATA struct signals *signals,
-                           int16_t setpoint)
+// What the parts of a step are given. Where a name is enough, it is not passed:
+// a call of SDCC's takes ten cycles of a PIC18 for the two addresses.
+#if !defined(__SDCC_pic14) && !defined(__SDCC_pic16) && !defined(__SDCC_mcs51)
+#define GIVEN FIXPID_DATA struct fixpid_pid *self, struct signals *signals
+#define PASSED self, signals
+#elif defined(OBJECT)
+#undef SELF
+#define SELF OBJECT
+#define GIVEN void
+#define PASSED
+#else
+#define GIVEN FIXPID_DATA struct fixpid_pid *self
+#define PASSED self
+#endif
+
+// Returns the proportional term's error, which is that of b * setpoint, rounded
+// half up.
+static signal_word weighted_error(GIVEN)
 {
     // within 255 * 32768 + 128
-    const int32_t product = mul16(SELF.setpoint_weight, setpoint) + 128;
+    const int32_t product = mul16(SELF.setpoint_weight, SIGNALS.setpoint) + 128;
     int16_t weighted = (int16_t)shift_right_floor(product, 8);
 
     if ((SELF.options & REVERSE) != 0u) {
         weighted = complement(weighted);
     }
-    SELF.proportional_error = sub16_sat(weighted, SIGNALS.derivative_input);
+    return sub16_sat(weighted, SIGNALS.derivative_input);
 }
 
 // Computes the errors in reverse, with a setpoint weight, or with the
 // derivative on the error. Reverse takes the mirror images of all inputs, which
-// changes the signs of their differences.
-static void special_errors(FIXPID_DATA struct fixpid_pid *self,
-                           FIXPID_DATA struct signals *signals,
-                           int16_t setpoint, int16_t measurement)
+// changes the signs of their differences. Returns the proportional term's.
+static signal_word special_errors(GIVEN)
 {
-    int16_t goal = setpoint;
+    int16_t goal = SIGNALS.setpoint;
+    signal_word p_error;
 
-    SIGNALS.derivative_input = measurement;
     if ((SELF.options & REVERSE) != 0u) {
-        goal = complement(setpoint);
-        SIGNALS.derivative_input = complement(measurement);
+        goal = complement(goal);
+        SIGNALS.derivative_input =
+            complement((int16_t)SIGNALS.derivative_input);
     }
     SIGNALS.error = sub16_sat(goal, SIGNALS.derivative_input);
-    SELF.proportional_error = SIGNALS.error;
+    p_error = SIGNALS.error;
     if ((SELF.options & WEIGHTED) != 0u) {
-        weighted_error(self, signals, setpoint);
+        p_error = weighted_error(PASSED);
     }
     if ((SELF.options & ON_ERROR) != 0u) {
-        SIGNALS.derivative_input = complement(SIGNALS.error);
+        SIGNALS.derivative_input = complement((int16_t)SIGNALS.error);
     }
+    return p_error;
 }
 
 // D = kd * (fall of the input), through the filter.
-static void differentiate(FIXPID_DATA struct fixpid_pid *self,
-                          FIXPID_DATA struct signals *signals)
+static void differentiate(GIVEN)
 {
     int32_t derivative;
-    int16_t fall;
+    signal_word fall;
 
-    if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
+    if ((SELF.status & ASKED_FIRST) != 0u) {
         SELF.previous = SIGNALS.derivative_input;
     }
-    fall = sub16_sat(SELF.previous, SIGNALS.derivative_input);
+    fall = fall_from(SELF.previous, SIGNALS.derivative_input);
     SELF.previous = SIGNALS.derivative_input;
     derivative = mul16(SELF.kd, fall);
     if ((SELF.options & FILTER) != 0u) {
@@ -264,10 +303,9 @@ static void differentiate(FIXPID_DATA struct fixpid_pid *self,
     SELF.derivative = derivative;
 }
 
-// Sets the candidate, saturated. That is safe: every value that is cut off here
-// is beyond the integral's limits anyway.
-static void set_candidate(FIXPID_DATA struct signals *signals,
-                          int32_t integral_q8)
+// Returns the candidate, saturated. That is safe: every value that is cut off
+// here is beyond the integral's limits anyway.
+static int32_t candidate_from(int32_t integral_q8)
 {
     int32_t limited = integral_q8;
 
@@ -277,40 +315,34 @@ static void set_candidate(FIXPID_DATA struct signals *signals,
     if (limited < -COUNTS_MAX_Q8) {
         limited = -COUNTS_MAX_Q8;
     }
-    SIGNALS.integral = shift_left(limited, 8);
+    return shift_left(limited, 8);
 }
 
 // Sets the candidate to I + ki * error. The limits of the integral are -32767
 // and 32767 at most, so a sum that saturates lies beyond them.
-static void integrate(FIXPID_DATA struct fixpid_pid *self,
-                      FIXPID_DATA struct signals *signals)
+static void integrate(GIVEN)
 {
-    int32_t change = mul16(SELF.ki, SIGNALS.error);
-
     SIGNALS.fraction = SELF.integral_fraction;
     if ((SELF.options & KI_COARSE) != 0u) {
         // within 2^23 + 2^30
-        set_candidate(
-            signals, fixpid_add32(shift_right_floor(SELF.integral, 8), change));
+        SIGNALS.integral =
+            candidate_from(fixpid_add32(mul16(SELF.ki, SIGNALS.error),
+                                        shift_right_floor(SELF.integral, 8)));
         SIGNALS.integral += (int32_t)(uint8_t)SELF.integral;
-        return;
+    } else {
+        SIGNALS.integral =
+            add_product(SELF.integral, SIGNALS.fraction, SELF.ki, SIGNALS.error,
+                        (SELF.options & KI_FINE) != 0u);
     }
-    if ((SELF.options & KI_FINE) != 0u) {
-        change += (int32_t)SIGNALS.fraction;
-        SIGNALS.fraction = (uint8_t)change;
-        change = shift_right_floor(change, 8);
-    }
-    SIGNALS.integral = add32_sat(SELF.integral, change);
 }
 
 // Sets the candidate that makes the sum equal to the output held. The step
 // keeps it, as if there were no error.
-static void take_over(FIXPID_DATA struct fixpid_pid *self,
-                      FIXPID_DATA struct signals *signals)
+static void take_over(GIVEN)
 {
     // within 2^31 - 2^15
-    set_candidate(signals, fixpid_sub32(shift_right_floor(SELF.integral, 8),
-                                        SIGNALS.p_d_ff));
+    SIGNALS.integral = candidate_from(
+        fixpid_sub32(shift_right_floor(SELF.integral, 8), SIGNALS.p_d_ff));
     SIGNALS.fraction = 0;
     SIGNALS.error = 0;
 }
@@ -319,49 +351,46 @@ static void take_over(FIXPID_DATA struct fixpid_pid *self,
 // output's. Anti-windup: a candidate that pushes a limited output further is
 // forgotten.
 // Deviation 40 lines: splitting it would cost 50 cycles on a PIC18.
-static int16_t limit_and_remember(FIXPID_DATA struct fixpid_pid *self,
-                                  FIXPID_DATA struct signals *signals)
+static int16_t limit_and_remember(GIVEN)
 {
     const int16_t counts = (int16_t)shift_right_floor(SIGNALS.integral, 16);
-    uint8_t flags = 0;
-    int32_t output;
+    uint_fast8_t flags = 0;
+    counts_word output;
 
-    if (counts >= SELF.integral_max) {
+    if (FIXPID_SELDOM(reaches(SELF.integral_max, counts, SIGNALS.integral))) {
         if (!is_just(SELF.integral_max, counts, SIGNALS.integral,
                      SIGNALS.fraction)) {
             flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
         }
-        SIGNALS.integral = shift_left(SELF.integral_max, 16);
+        SIGNALS.integral = whole_counts(SELF.integral_max);
         SIGNALS.fraction = 0;
-    } else if (counts < SELF.integral_min) {
+    } else if (FIXPID_SELDOM(
+                   !reaches(SELF.integral_min, counts, SIGNALS.integral))) {
         flags = FIXPID_PID_INTEGRAL_AT_LIMIT;
-        SIGNALS.integral = shift_left(SELF.integral_min, 16);
+        SIGNALS.integral = whole_counts(SELF.integral_min);
         SIGNALS.fraction = 0;
     } else {
         // inside
     }
-    // within 2^31 - 2^15 + 128
-    output = fixpid_add32(SIGNALS.p_d_ff,
-                          shift_right_floor(SIGNALS.integral, 8) + 128);
-    output = shift_right_floor(output, 8);
-    if (output > SELF.output_max) {
+    output = rounded_counts(SIGNALS.p_d_ff, SIGNALS.integral);
+    if (FIXPID_SELDOM(output > SELF.output_max)) {
         output = SELF.output_max;
         flags |= FIXPID_PID_AT_MAX;
         if (SIGNALS.error > 0) {
-            SELF.status = flags;
+            SELF.status = (uint8_t)flags;
             return (int16_t)output;
         }
-    } else if (output < SELF.output_min) {
+    } else if (FIXPID_SELDOM(output < SELF.output_min)) {
         output = SELF.output_min;
         flags |= FIXPID_PID_AT_MIN;
         if (SIGNALS.error < 0) {
-            SELF.status = flags;
+            SELF.status = (uint8_t)flags;
             return (int16_t)output;
         }
     } else {
         // inside
     }
-    SELF.status = flags;
+    SELF.status = (uint8_t)flags;
     SELF.integral = SIGNALS.integral;
     SELF.integral_fraction = SIGNALS.fraction;
     return (int16_t)output;
@@ -378,6 +407,7 @@ static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
     const int_fast16_t output =
         (int_fast16_t)shift_right_floor(SELF.integral, 16);
 
+    (void)self;
     if (output > SELF.output_max) {
         return SELF.output_max;
     }
@@ -390,30 +420,33 @@ static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
 #define held_output(self) ((int16_t)0)
 #endif
 
+// P + D + feed-forward is within 2^30 - 2^15 + 2^30 - 2^24 + 2^23.
 int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
                         int16_t measurement)
 {
     LOCAL_SIGNALS;
+    signal_word p_error;
     int16_t output;
 
     FIXPID_ASSERT(VALID(self));
+    SIGNALS.derivative_input = measurement;
     if ((SELF.options & SPECIAL) == 0u) {
         SIGNALS.error = sub16_sat(setpoint, measurement);
-        SELF.proportional_error = SIGNALS.error;
-        SIGNALS.derivative_input = measurement;
+        p_error = SIGNALS.error;
     } else {
-        special_errors(self, signals, setpoint, measurement);
+        SIGNALS.setpoint = setpoint;
+        p_error = special_errors(PASSED);
     }
-    SIGNALS.p_d_ff = mul16(SELF.kp, SELF.proportional_error);
-    differentiate(self, signals);
-    // within 2^30 - 2^15 + 2^30 - 2^24 + 2^23
+    SELF.proportional_error = (int16_t)p_error;
+    SIGNALS.p_d_ff = mul16(SELF.kp, p_error);
+    differentiate(PASSED);
     SIGNALS.p_d_ff =
         add32_apart(fixpid_add32(SIGNALS.p_d_ff, shift_left(FEEDFORWARD, 8)),
                     SELF.derivative);
     if ((SELF.status & HELD) == 0u) {
-        integrate(self, signals);
+        integrate(PASSED);
     } else if ((SELF.status & FIXPID_PID_MANUAL) == 0u) {
-        take_over(self, signals);
+        take_over(PASSED);
     } else {
         SELF.status = FIXPID_PID_MANUAL;
         output = held_output(self);
@@ -422,7 +455,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
         }
         return output;
     }
-    output = limit_and_remember(self, signals);
+    output = limit_and_remember(PASSED);
     if (HAS_TRACK) {
         SELF.output = output;
     }

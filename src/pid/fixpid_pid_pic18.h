@@ -33,6 +33,7 @@ extern FIXPID_DATA struct fixpid_pid_operands FIXPID_PID_OPERANDS_PLACE
 void fixpid_pid_sub16_sat(void);   // left -= right
 void fixpid_pid_add32_sat(void);   // wide += wide_right
 void fixpid_pid_mul16(void);       // wide = left * right
+void fixpid_pid_add_byte(void);    // wide += right; right = wide; wide >>= 8
 void fixpid_pid_shift_right(void); // wide >>= right & 7
 
 #define add32_apart fixpid_add32
@@ -49,6 +50,15 @@ void fixpid_pid_shift_right(void); // wide >>= right & 7
     (fixpid_pid_operands.left.gain = (factor),                                 \
      fixpid_pid_operands.right.value = (x), fixpid_pid_mul16(),                \
      fixpid_pid_operands.wide)
+#define add_product(a, fraction, factor, x, fine)                              \
+    (fixpid_pid_operands.left.gain = (factor),                                 \
+     fixpid_pid_operands.right.value = (x),                                    \
+     fixpid_pid_operands.wide_right = (a), fixpid_pid_mul16(),                 \
+     (void)((fine) ? (fixpid_pid_operands.right.shift = (fraction),            \
+                      fixpid_pid_add_byte(),                                   \
+                      (fraction) = fixpid_pid_operands.right.shift)            \
+                   : 0u),                                                      \
+     fixpid_pid_add32_sat(), fixpid_pid_operands.wide)
 #define shift_right_by(x, places)                                              \
     (fixpid_pid_operands.wide = (x),                                           \
      fixpid_pid_operands.right.shift = (places), fixpid_pid_shift_right(),     \

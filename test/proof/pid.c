@@ -30,14 +30,25 @@ static struct fixpid_pid_config any_config(void)
 
 struct signals nondet_signals(void);
 
+// Those of a step: a signal may have a wider word.
+static struct signals any_signals(void)
+{
+    struct signals signals = nondet_signals();
+
+    assume(inside(signals.error, INT16_MIN, INT16_MAX));
+    assume(inside(signals.derivative_input, INT16_MIN, INT16_MAX));
+    return signals;
+}
+
 #define COUNT 65536                // an output count in `integral`
 #define PART ((number)256 * COUNT) // and in 1/2^24
 #define D_MAX ((number)DERIVATIVE_MAX)
 #define TIMES(gain, x) times((gain), (x), (uint32_t)(gain) << 15) // |x| <= 2^15
 
-int32_t mul16_contract(uint16_t gain, int16_t x)
+int32_t mul16_contract(uint16_t gain, signal_word x)
 {
     pre(gain <= 32767u);
+    pre(inside(x, INT16_MIN, INT16_MAX));
     return (int32_t)TIMES(gain, (number)x);
 }
 
@@ -82,11 +93,20 @@ static bool sound_integral(const struct fixpid_pid *x)
     return inside(whole(x), x->integral_min * PART, x->integral_max * PART);
 }
 
+// Before the first step a `previous` of 32 bits says so, too.
+static bool sound_previous(const struct fixpid_pid *x)
+{
+    if ((x->status & FIXPID_PID_FIRST) != 0u) {
+        return x->previous == NO_PREVIOUS;
+    }
+    return inside(x->previous, INT16_MIN, INT16_MAX);
+}
+
 // What init establishes from any bytes and every function keeps.
 static bool sound(const struct fixpid_pid *x)
 {
     return sound_settings(x) && inside(x->derivative, -D_MAX, D_MAX) &&
-           sound_integral(x);
+           sound_previous(x) && sound_integral(x);
 }
 
 static bool same_settings(const struct fixpid_pid *a,
@@ -207,25 +227,25 @@ static number candidate_of(const struct signals *signals)
 // By contract: mul16.
 void prove_special_errors(void)
 {
-    struct signals signals = nondet_signals();
-    const int16_t r = nondet_int16();
-    const int16_t y = nondet_int16();
+    struct signals signals = any_signals();
+    const number r = signals.setpoint;
+    const number y = signals.derivative_input; // the measurement still
     struct fixpid_pid was;
+    signal_word p_error;
 
     c = nondet_pid();
     was = c;
-    special_errors(&c, &signals, r, y);
+    p_error = special_errors(&c, &signals);
+    claim(p_error == error_of(&was, weighted(&was, r), y));
     claim(signals.error == error_of(&was, r, y));
-    claim(c.proportional_error == error_of(&was, weighted(&was, r), y));
     claim(signals.derivative_input == input_of(&was, r, y));
-    was.proportional_error = c.proportional_error;
     claim(same(&c, &was));
 }
 
 // By contract: mul16.
 void prove_differentiate(void)
 {
-    struct signals signals = nondet_signals();
+    struct signals signals = any_signals();
     const struct signals signals_were = signals;
     struct fixpid_pid was;
     number d;
@@ -233,6 +253,7 @@ void prove_differentiate(void)
     c = nondet_pid();
     assume(c.kd <= FIXPID_PID_KD_MAX);
     assume(inside(c.derivative, -D_MAX, D_MAX));
+    assume(sound_previous(&c));
     was = c;
     differentiate(&c, &signals);
     d = derivative_of(&was, signals_were.derivative_input);
@@ -250,7 +271,7 @@ void prove_differentiate(void)
 // contract: mul16.
 void prove_integrate(void)
 {
-    struct signals signals = nondet_signals();
+    struct signals signals = any_signals();
     const struct signals signals_were = signals;
     struct fixpid_pid was;
     number candidate;
@@ -271,7 +292,7 @@ void prove_integrate(void)
 
 void prove_take_over(void)
 {
-    struct signals signals = nondet_signals();
+    struct signals signals = any_signals();
     struct fixpid_pid was;
     number candidate;
     number p_d_ff;
@@ -294,7 +315,7 @@ void prove_take_over(void)
 
 void prove_limit(void)
 {
-    struct signals signals = nondet_signals();
+    struct signals signals = any_signals();
     const number e = signals.error;
     const number p_d_ff = signals.p_d_ff;
     const number candidate = candidate_of(&signals);
@@ -321,13 +342,15 @@ void prove_limit(void)
 
 // ---- The whole step ----
 
-void special_errors_contract(struct fixpid_pid *self, struct signals *signals,
-                             int16_t setpoint, int16_t measurement)
+signal_word special_errors_contract(struct fixpid_pid *self,
+                                    struct signals *signals)
 {
+    const number setpoint = signals->setpoint;
+    const number measurement = signals->derivative_input;
+
     signals->error = (int16_t)error_of(self, setpoint, measurement);
     signals->derivative_input = (int16_t)input_of(self, setpoint, measurement);
-    self->proportional_error =
-        (int16_t)error_of(self, weighted(self, setpoint), measurement);
+    return (signal_word)error_of(self, weighted(self, setpoint), measurement);
 }
 
 void differentiate_contract(struct fixpid_pid *self, struct signals *signals)
@@ -336,6 +359,7 @@ void differentiate_contract(struct fixpid_pid *self, struct signals *signals)
 
     pre(self->kd <= FIXPID_PID_KD_MAX);
     pre(inside(self->derivative, -D_MAX, D_MAX));
+    pre(sound_previous(self));
     assume(inside(d, -D_MAX, D_MAX));
     self->derivative = (int32_t)d;
     self->previous = signals->derivative_input;
@@ -505,7 +529,7 @@ static void claim_gains(const struct fixpid_pid_gains *gains)
 static bool at_rest(const struct fixpid_pid *x)
 {
     return (whole(x) == limited(x, 0)) && (x->derivative == 0) &&
-           (x->previous == 0) && (x->proportional_error == 0) &&
+           (x->previous == NO_PREVIOUS) && (x->proportional_error == 0) &&
            (x->feedforward == 0) && (x->output == 0) &&
            (x->status == FIXPID_PID_FIRST);
 }
@@ -582,7 +606,7 @@ void prove_set_gains(void)
         was.kp = c.kp;
         was.ki = c.ki;
         was.kd = c.kd;
-        claim((c.options & 0xE0u) == (was.options & 0xE0u));
+        claim((c.options & SPECIAL) == (was.options & SPECIAL));
         was.options = c.options;
     }
     claim(same(&c, &was));

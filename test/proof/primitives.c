@@ -158,6 +158,31 @@ static void differences(void)
     }
 }
 
+// Sums around 0 and around both ends, with and without an overflow.
+static void sums(void)
+{
+    static const int32_t middles[] = {INT32_MIN, -65536, 0, 65536, INT32_MAX};
+
+    for (unsigned i = 0; i < 25u; i++) {
+        for (int64_t a = -300; a <= 300; a++) {
+            for (int64_t b = -300; b <= 300; b++) {
+                const int64_t left = middles[i % 5u] + a;
+                const int64_t right = middles[i / 5u] + b;
+                const int64_t sum = left + right;
+
+                if ((left != (int32_t)left) || (right != (int32_t)right)) {
+                    continue;
+                }
+                same("add32_sat", left, right,
+                     add32_sat((int32_t)left, (int32_t)right),
+                     (sum > INT32_MAX)   ? INT32_MAX
+                     : (sum < INT32_MIN) ? INT32_MIN
+                                         : sum);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     bytes_times_bytes();
@@ -166,6 +191,7 @@ int main(void)
     error_terms();
     products();
     differences();
+    sums();
     printf("%" PRIu64 " cases\n", cases);
     return 0;
 }

@@ -9,6 +9,7 @@
 unsigned poison_left(void *object, size_t size, void (*init)(void));
 
 // The padding behind the last member, a byte; there is no other.
-#define POISON_PADDING(type, last) (sizeof(type) - offsetof(type, last) - 1u)
+#define POISON_PADDING(type, last)                                             \
+    (sizeof(type) - offsetof(type, last) - sizeof(((type *)0)->last))
 
 #endif

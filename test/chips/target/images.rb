@@ -75,7 +75,7 @@ module Images
   FORMS = {
     '' => [], 'plain' => %w[-DFIXPID_NO_ASSEMBLY],
     'placed' => %w[-DFIXPID_AN937_PLACE=__at(0x20) -DFIXPID_AN937_SIGNALS_PLACE=__at(0x38) -DFIXPID_PID_PLACE=__at(0x58)
-                   -DFIXPID_PID_SIGNALS_PLACE=__at(0x3F) -DFIXPID_PID_OPERANDS_PLACE=__at(0x4C)]
+                   -DFIXPID_PID_SIGNALS_PLACE=__at(0x3D) -DFIXPID_PID_OPERANDS_PLACE=__at(0x4C)]
   }.freeze
 
   class << self

@@ -10,8 +10,7 @@ class ElfCode < Code
 
   def initialize(path, tools)
     @tools = tools
-    @symbols = `#{tools}-nm -S #{path}`.scan(/^(\h+) (?:(\h+) )?\w (\S+)$/)
-                                       .to_h { |address, bytes, name| [name, [address.hex, bytes.to_s.hex]] }
+    @symbols = named_apart(`#{tools}-nm -S #{path}`.scan(/^(\h+) (?:(\h+) )?\w (\S+)$/))
     super(@symbols.select { |_, (_, bytes)| bytes.positive? }.transform_values { |address, _| address & mask })
     @lines = {}
     `#{tools}-objdump -d -z -w #{path}`.scan(LINE) do |address, raw, mnemonic, operands|
@@ -38,6 +37,15 @@ class ElfCode < Code
   end
 
   private
+
+  # Each source may have a static function of one name: all but the first get a number.
+  def named_apart(lines)
+    lines.group_by(&:last).flat_map do |name, like|
+      like.each_with_index.map do |(address, bytes, _), i|
+        [i.zero? ? name : "#{name}~#{i + 1}", [address.hex, bytes.to_s.hex]]
+      end
+    end.to_h
+  end
 
   def line(at)
     @lines[at] or missing(at, 'no instruction')

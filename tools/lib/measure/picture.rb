@@ -6,7 +6,8 @@ require_relative '../demo/plot'
 
 # Dots of what a step costs at most, a panel for each chip, on logarithmic axes: ours are
 # filled and the bounds of their code, with the worst step found as a tick; the notes' and
-# the others' are hollow, and what was measured of them.
+# the others' are hollow, and what was measured of them. Each panel has one order: ours,
+# the notes', the others by what they take on an ATmega.
 class Picture
   Dot = Struct.new(:title, :most, :found, :kind)
 
@@ -15,12 +16,12 @@ class Picture
   PEER = '#555555'
   # Columns of panels: chip, build, and its title.
   COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles'],
-              ['rv32imc', '-O2', 'RV32IMC, -O2, instructions']],
-             [['atmega328p', '-O2', 'ATmega328P, -O2, cycles'],
-              ['cortex-m0', '-O2', 'Cortex-M0, -O2, instructions'],
-              ['cortex-m4', '-O2', 'Cortex-M4, -O2, instructions']]].freeze
+              ['atmega328p', '-O2', 'ATmega328P, -O2, cycles']],
+             [['cortex-m0', '-O2', 'Cortex-M0, -O2, instructions'],
+              ['cortex-m4', '-O2', 'Cortex-M4, -O2, instructions'],
+              ['rv32imc', '-O2', 'RV32IMC, -O2, instructions']]].freeze
   # From where to where the axes of a column go; its names are on their left.
-  PLACES = [[0.245, 0.485], [0.7, 0.94]].freeze
+  PLACES = [[0.28, 0.5], [0.73, 0.94]].freeze
   ROW = 18 # pixels
   HEAD = 58 # a panel's axis and the next one's title
   TOP = 60
@@ -46,12 +47,15 @@ class Picture
     ours = @measured.select { |subject, _| subject.chip.name == chip && (build.nil? || subject.build == build) }
                     .reject { |subject, _| subject.controller.questions == 'PLAIN' }
     list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.bound, figures.most, :ours) }
-    list += others(NOTES, chip, build, :note) + others(PEERS, chip, build, :peer)
-    list.sort_by(&:most)
+    list + others(NOTES, chip, build, :note) + others(PEERS.sort_by { |peer| rank(peer) }, chip, build, :peer)
+  end
+
+  def rank(peer)
+    peer.worst('atmega328p-O2') || Float::INFINITY
   end
 
   def own_title(subject, build)
-    [subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')
+    "fixpid #{[subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')}"
   end
 
   def others(list, chip, build, kind)
@@ -104,15 +108,21 @@ class Picture
   # The most is a number at the right end of its row, too.
   def settings(title, list)
     low, high = list.flat_map { |dot| [dot.most, dot.found].compact }.minmax
-    names = list.each_with_index.map { |dot, i| "\"#{dot.title}\" #{i}" }
+    names = list.each_with_index.map { |dot, i| "\"#{name_of(dot)}\" #{i}" }
     numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.most}\" at graph 1.17, first #{i} right font ',9'" }
     ["set title \"{/:Bold #{title}}\" offset 0,-0.7", 'set logscale x', "set xrange [#{low * 0.8}:#{high * 1.25}]",
-     "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) noenhanced scale 0 font ',9'",
+     "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) scale 0 font ',9'",
      "set xtics (#{ticks(low, high)}) offset 0,0.4 font ',9'", "set grid linecolor '#e4e4e4' linetype 1", 'set border 1', *numbers]
   end
 
+  # Ours in bold. The others' may have what gnuplot takes for a subscript.
+  def name_of(dot)
+    dot.kind == :ours ? "{/:Bold #{dot.title}}" : dot.title.gsub('_') { '\\\\_' }
+  end
+
   def ticks(low, high)
-    tens = [1, 2, 5].product([10, 100, 1000, 10_000]).map { |digit, ten| digit * ten }
+    digits = high > 30 * low ? [1, 3] : [1, 2, 5] # as many as have room
+    tens = digits.product([10, 100, 1000, 10_000]).map { |digit, ten| digit * ten }
     tens.select { |value| value.between?(low * 0.8, high * 1.25) }.sort.join(', ')
   end
 

@@ -59,7 +59,7 @@ VARIANTS = [
   Variant.new('an937', 'pic18f4520', 'access-RAM',
               %w[FIXPID_AN937_PLACE=__at(0x20) FIXPID_AN937_SIGNALS_PLACE=__at(0x38)], []),
   Variant.new('pid', 'pic18f4520', 'access-RAM',
-              %w[FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3F)
+              %w[FIXPID_PID_PLACE=__at(0x58) FIXPID_PID_SIGNALS_PLACE=__at(0x3D)
                  FIXPID_PID_OPERANDS_PLACE=__at(0x4C)],
               []),
   Variant.new('an937', 'atmega328p', 'C', %w[FIXPID_NO_ASSEMBLY], []),

@@ -169,7 +169,7 @@ part_consumers() {
 }
 
 part_packages() {
-    count packages '^ok ' '^FAILED ' test/use/packages/run
+    count packages '^ok ' '^FAILED ' once packages test/use/packages/run
 }
 
 part_firmware() {
@@ -184,7 +184,7 @@ part_target() {
     need qemu-system-arm simavr avr-gcc:gcc-avr
     need_sdcc
     build_gpsim
-    count 'test/chips/target/run' '^ok ' '^FAILED ' test/chips/target/run
+    count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run
     count 'test/model/relay/chips' '^ok ' '^FAILED ' test/model/relay/chips
     count 'test/model/autotune/chips' '^ok ' '^FAILED ' test/model/autotune/chips
 }
@@ -199,7 +199,9 @@ part_site() {
 
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
-    count 'test/chips/families/run' '^ok ' '^FAILED ' test/chips/families/run
+    need_sdcc
+    need_spdk
+    count 'test/chips/families/run' '^ok ' '^FAILED ' once families test/chips/families/run
 }
 
 part_cost() {

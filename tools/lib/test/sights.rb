@@ -14,8 +14,16 @@ module Sights
   PROGRAMS = {
     'unit' => %w[ceedling gcc gcov gcovr python3],
     'avr' => %w[ceedling avr-gcc simavr],
-    'sanitize' => %w[ceedling clang gcc ld]
+    'sanitize' => %w[ceedling clang gcc ld],
+    'target' => %w[gcc g++ gpasm gplink avr-gcc simavr arm-none-eabi-gcc qemu-system-arm riscv64-unknown-elf-gcc
+                   qemu-system-riscv32],
+    'families' => %w[gcc g++ gpasm gplink avr-gcc simavr sdcc clang ld.lld mspdebug],
+    'packages' => %w[gcc g++ clang avr-gcc arm-none-eabi-gcc riscv64-unknown-elf-gcc sdcc cmake make git xz meson pkg-config]
   }.freeze
+  # Those whose simulators and tools are many take all that Debian has installed.
+  OF_DEBIAN = %w[target families packages].freeze
+  # What they read of what the others do not see.
+  SEEN = { 'target' => %w[docs/chips.md], 'families' => %w[docs/chips.md], 'packages' => %w[*.md {docs,python,web,.github}/**/*] }.freeze
   # What parts.sh makes in build/ before it calls the runner; the runner's words name the rest.
   MADE = { 'avr' => %w[build/avr/**/*] }.freeze
 
@@ -24,7 +32,13 @@ module Sights
     def of(sight)
       tools = PROGRAMS.fetch(sight).flat_map { |name| Inputs.tool(name) }
       tools += Inputs.gem('ceedling') if PROGRAMS.fetch(sight).include?('ceedling')
-      { files: tree + MADE.fetch(sight, []), tools: tools + Inputs.c_library }
+      tools += [*Inputs.sdcc, ENV['SPDK'], '/var/lib/dpkg/status'].compact if OF_DEBIAN.include?(sight)
+      { files: tree + MADE.fetch(sight, []) + SEEN.fetch(sight, []), tools: tools + Inputs.c_library, words: [tracked(sight)] }
+    end
+
+    # A release has what git has.
+    def tracked(sight)
+      sight == 'packages' ? `git ls-files 2>/dev/null` : ''
     end
 
     # Patterns of all files that can be seen.
