@@ -237,4 +237,114 @@ static inline uint32_t is_just_all_wrong(void)
     return wrong;
 }
 
+static inline uint32_t whole_counts_all_wrong(void)
+{
+    uint32_t wrong = 0;
+
+    for (int32_t x = INT16_MIN; x <= INT16_MAX; x++) {
+        wrong += (whole_counts((int16_t)x) != x * 65536) ? 1u : 0u;
+    }
+    return wrong;
+}
+
+// A limit with each neighbour of its integral.
+static inline uint32_t reaches_all_wrong(void)
+{
+    static const int16_t limits[] = {0, 1, -1, 255, -256, 32767, -32767};
+    uint32_t wrong = 0;
+
+    for (unsigned i = 0; i < sizeof limits / sizeof limits[0]; i++) {
+        for (unsigned j = 0; j < NASTY32_COUNT; j++) {
+            const int64_t integral = (int64_t)limits[i] * 65536 + nasty32[j];
+            if (integral != reference_clamp(integral, INT32_MIN, INT32_MAX)) {
+                continue;
+            }
+            const int16_t counts =
+                (int16_t)((integral - (integral & 0xFFFF)) / 65536);
+            wrong += (reaches(limits[i], counts, (int32_t)integral) !=
+                      (nasty32[j] >= 0))
+                         ? 1u
+                         : 0u;
+        }
+    }
+    return wrong;
+}
+
+static inline uint32_t rounded_counts_wrong(int32_t sum, int32_t integral)
+{
+    const int64_t in_256ths =
+        sum + (((int64_t)integral - (integral & 0xFF)) / 256) + 128;
+
+    return (rounded_counts(sum, integral) !=
+            (in_256ths - (in_256ths & 0xFF)) / 256)
+               ? 1u
+               : 0u;
+}
+
+// Sums of a step, with every kind of integral.
+static inline uint32_t rounded_counts_all_wrong(void)
+{
+    const int32_t most = INT32_MAX - 0x1000000;
+    uint32_t wrong = 0;
+
+    for (unsigned i = 0; i < NASTY32_COUNT; i++) {
+        const int32_t sum = (int32_t)reference_clamp(nasty32[i], -most, most);
+
+        for (unsigned j = 0; j < NASTY32_COUNT; j++) {
+            wrong += rounded_counts_wrong(sum, nasty32[j]);
+        }
+    }
+    for (uint32_t i = 0; i < RANDOM_CASES; i++) {
+        const int32_t sum = (int32_t)numbers_next() >> numbers_below(32);
+        const int32_t integral = (int32_t)numbers_next() >> numbers_below(32);
+
+        wrong += rounded_counts_wrong(
+            (int32_t)reference_clamp(sum, -most, most), integral);
+    }
+    return wrong;
+}
+
+static inline uint32_t add_product_wrong(int32_t a, uint8_t fraction,
+                                         uint16_t gain, int16_t x)
+{
+    const int64_t product = (int64_t)gain * x;
+    const int64_t fine = (int64_t)a * 256 + fraction + product;
+    uint8_t left = fraction;
+    uint32_t wrong = 0;
+
+    wrong += (add_product(a, left, gain, x, false) !=
+              reference_clamp(a + product, INT32_MIN, INT32_MAX))
+                 ? 1u
+                 : 0u;
+    wrong += (left != fraction) ? 1u : 0u;
+    wrong +=
+        (add_product(a, left, gain, x, true) !=
+         reference_clamp((fine - (fine & 0xFF)) / 256, INT32_MIN, INT32_MAX))
+            ? 1u
+            : 0u;
+    wrong += (left != (uint8_t)fine) ? 1u : 0u;
+    return wrong;
+}
+
+static inline uint32_t add_product_all_wrong(void)
+{
+    uint32_t wrong = 0;
+
+    for (unsigned i = 0; i < NASTY32_COUNT; i++) {
+        wrong += add_product_wrong(nasty32[i], 0, 32767, INT16_MIN);
+        wrong += add_product_wrong(nasty32[i], 255, 32767, INT16_MAX);
+        wrong += add_product_wrong(nasty32[i], 255, 1, 1);
+        wrong += add_product_wrong(nasty32[i], 0, 1, -1);
+    }
+    for (uint32_t i = 0; i < RANDOM_CASES; i++) {
+        const int32_t a = (int32_t)numbers_next() >> numbers_below(32);
+        const uint8_t fraction = (uint8_t)numbers_below(256);
+        const uint16_t gain =
+            (uint16_t)(numbers_below(32768) >> numbers_below(16));
+
+        wrong += add_product_wrong(a, fraction, gain, numbers_int16());
+    }
+    return wrong;
+}
+
 #endif

@@ -55,3 +55,23 @@ void test_portable_is_just_the_limit_its_neighbours_and_fractions(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, is_just_all_wrong());
 }
+
+void test_portable_whole_counts_every_value(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, whole_counts_all_wrong());
+}
+
+void test_portable_reaches_the_limit_and_its_neighbours(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, reaches_all_wrong());
+}
+
+void test_portable_rounded_counts_nasty_and_random_values(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, rounded_counts_all_wrong());
+}
+
+void test_portable_add_product_nasty_and_random_values_fine_and_not(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(0, add_product_all_wrong());
+}

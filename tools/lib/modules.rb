@@ -39,12 +39,20 @@ module Modules
     },
     'record' => {
       title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',
-      fuzz: [20_000, 256]
+      fuzz: [20_000, 256],
+      # A turn for each byte of the check and one for each of its bits, and where the loop is
+      # left; by whatever name a compiler has it.
+      calls: [{ calls: 2000, functions: { 'fixpid_record_pack' => 'pack', 'fixpid_record_unpack' => 'unpack' },
+                program: %w[test/support/numbers_pid.c test/support/numbers_control.c],
+                turns: %w[check_of fixpid_record_pack fixpid_record_unpack].to_h { |name| [name, [22, 9]] } }]
     },
     'pid' => {
       title: 'PID', what: 'The general-purpose controller',
       fuzz: [20_000, 1024], narrow: true,
       calls: [{ object: 'pid', calls: 5000, functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
+                program: %w[test/chips/modules/steps_pid.c] },
+              { object: 'pid', calls: 5000,
+                functions: { 'fixpid_pid_set_limits' => 'set_limits', 'fixpid_pid_set_integral_limits' => 'set_integral_limits' },
                 program: %w[test/chips/modules/steps_pid.c] }]
     },
     'autotune' => {

@@ -43,6 +43,21 @@ static void change(void)
     answer(fixpid_pid_output(&pid));
 }
 
+static void limit(void)
+{
+    const int16_t a = numbers_int16();
+    const int16_t b = numbers_int16();
+
+    (void)fixpid_pid_set_limits(&pid, -32768, 32767);
+    (void)fixpid_pid_set_integral_limits(&pid, -32767, 32767);
+    answer(fixpid_pid_step(&pid, a, b));
+    answer(fixpid_pid_step(&pid, b, a));
+    (void)fixpid_pid_set_limits(&pid, a, b);
+    (void)fixpid_pid_set_limits(&pid, b, a);
+    (void)fixpid_pid_set_integral_limits(&pid, a, b);
+    (void)fixpid_pid_set_integral_limits(&pid, b, a);
+}
+
 void calls_random(uint32_t count)
 {
     struct fixpid_pid_config config = {{256, 65536, 0, 0},
@@ -58,6 +73,7 @@ void calls_random(uint32_t count)
     (void)fixpid_pid_init(&pid, &config);
     for (uint32_t i = 0; i < count; i++) {
         step();
+        limit();
         change();
     }
 }

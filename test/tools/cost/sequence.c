@@ -258,14 +258,12 @@ bool sequence_begin(const struct controller *of, uint8_t kind)
 
 // ---- Questions of a kind ----
 
-// Proportional, integral and derivative, with limits. The integral's gain is
-// one of 2^-16, as others have it, in plain questions.
+// Proportional, integral and derivative, with limits.
 static void restrict_pid(struct pid_question *asked)
 {
     const uint32_t scaled = (asked->ki_q24 & 0x7FFFu) << 8;
-    const bool fine = (asked->ki_q24 & 0xFFu) != 0u;
 
-    if (asked->ki_q24 > 0x7FFF7Fu || (questions == QUESTIONS_PLAIN && fine)) {
+    if (asked->ki_q24 > 0x7FFF7Fu) {
         asked->ki_q24 = scaled;
     }
     asked->setpoint_weight_q8 = 256;

@@ -28,8 +28,7 @@ struct sequence {
 // Which questions are asked of a controller that has features.
 enum search_questions {
     QUESTIONS_ALL,
-    QUESTIONS_PLAIN,   // without what fewer users want
-    QUESTIONS_TYPICAL, // without what FIXPID_PID_FEATURES can leave out
+    QUESTIONS_REDUCED, // without what FIXPID_PID_FEATURES can leave out
 };
 
 // The functions below are about this controller's questions, of this kind.

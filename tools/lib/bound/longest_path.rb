@@ -112,9 +112,16 @@ class LongestPath
   def turns(flow, component, head)
     CountedLoop.new(@code, flow, component, head).turns
   rescue Flow::Unknown => e
-    @turns[@code.name(head)] || @turns.find { |name, _| @code.name(head).start_with?("#{name}_") }&.last or
+    stated = @turns[@code.name(head)] || @turns.find { |name, _| @code.name(head).start_with?("#{name}_") }&.last
+    stated = stated[around_a_loop?(flow, component, head) ? 0 : 1] if stated.is_a?(Array)
+    stated or
       raise Failure, format('a loop of %<name>s, at %<at>05x, counts no constant down%<why>s',
                             name: @code.name(head), at: head, why: e.message.empty? ? '' : ": #{e.message}")
+  end
+
+  def around_a_loop?(flow, component, head)
+    inside = component.to_h { |at| [at, flow.edges[at].select { |to, _| to != head && component.include?(to) }] }
+    components(inside, head).any? { |one| loop?(inside, one) }
   end
 
   def leave(inside, component, best)

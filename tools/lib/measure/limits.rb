@@ -137,7 +137,7 @@ class Limits
   # questions find is no measure of the code's longest path. Nor is the bound of
   # an ATtiny85, whose library turns 8 times for a weight and 16 times for a gain.
   def bounds
-    subject, figures = @measured.reject { |one, _| one.controller.questions == 'PLAIN' || one.chip.name == 'attiny85' }
+    subject, figures = @measured.reject { |one, _| one.controller.id == 'pid_plain' || one.chip.name == 'attiny85' }
                                 .max_by { |_, one| one.bound.fdiv(one.most) }
     [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
   end

@@ -8,7 +8,7 @@ require_relative '../bound'
 RANDOM_STEPS = 20_000
 SEARCH = [30_000, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
 LONG_SEARCH = [200_000, 3].freeze
-QUESTIONS = [nil, 'PLAIN', 'TYPICAL'].freeze # of enum search_questions
+QUESTIONS = [nil, 'REDUCED'].freeze # of enum search_questions
 
 # What one subject costs; `most` is over all questions, `mean` over the
 # recorded rows, `bound`, `levels` and `stack` from the code, and so are `cycles`, the

@@ -38,7 +38,7 @@ end.freeze
 # One of them in one build on one chip, through a pointer.
 ModuleSubject = Struct.new(:called, :chip, :build) do
   def key
-    "module-#{called.id}-#{chip.name}-#{build.delete('-')}"
+    "module-#{called.functions.keys.first}-#{chip.name}-#{build.delete('-')}"
   end
 
   def to_s

@@ -45,7 +45,7 @@ class Picture
 
   def dots(chip, build)
     ours = @measured.select { |subject, _| subject.chip.name == chip && (build.nil? || subject.build == build) }
-                    .reject { |subject, _| subject.controller.questions == 'PLAIN' }
+                    .reject { |subject, _| subject.controller.id == 'pid_plain' }
     list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.bound, figures.most, :ours) }
     list + others(NOTES, chip, build, :note) + others(PEERS.sort_by { |peer| rank(peer) }, chip, build, :peer)
   end

@@ -35,9 +35,9 @@ CONTROLLERS = [
   Controller.new(id: 'an964_8bit', name: 'an964_8bit', title: 'AN964 8-bit', pics: %w[pic16f684 pic18f4520],
                  calls: %w[init step], plain_c: true),
   Controller.new(id: 'pid_typical', name: 'pid', title: 'PID, typical', pics: %w[pic18f4520], calls: %w[init step],
-                 questions: 'TYPICAL', turns: GAIN_TURNS, defines: %w[FIXPID_PID_FEATURES=0x00]),
+                 questions: 'REDUCED', turns: GAIN_TURNS, defines: %w[FIXPID_PID_FEATURES=0x00]),
   Controller.new(id: 'pid_plain', name: 'pid', title: 'PID, plain', pics: %w[pic18f4520], calls: %w[init step],
-                 questions: 'PLAIN', turns: FILTER_TURNS),
+                 questions: 'REDUCED', turns: FILTER_TURNS),
   Controller.new(id: 'pid', name: 'pid', title: 'PID', pics: %w[pic18f4520], calls: %w[init step],
                  turns: FILTER_TURNS)
 ].freeze
