@@ -87,6 +87,9 @@ end
 
 Programs.all('bounds').each do |chip, program|
   Expected.of(program.source).each { |one| judge(chip, program, one) }
+  next unless chip == 'avr'
+
+  Gate.expect('bound of a loop in a loop, as stated', -> { bound(program.code, 'stated', { 'stated' => [3, 2] }) }, 30)
 end
 
 def judge_core(program, one)

@@ -75,6 +75,16 @@ nested_turn:
         brne nested_outer
         ret
 
+; 30 if the outer loop is stated to turn three times and the inner one twice.
+stated:                         ; refused: no constant is loaded
+        mov r18, r20
+stated_inner:
+        dec r18
+        brne stated_inner
+        dec r21
+        brne stated
+        ret
+
 ; The second time the inner loop begins with 0.
 not_nested:                     ; refused: no constant is loaded
         ldi r21, 2
@@ -276,5 +286,5 @@ jumping:                        ; refused: ijmp
         sized leaves_elsewhere, stays, z_of_other, not_every_turn, written
         sized through_x, direct, pointer, product, pair, reading
         sized from_before, changed, from_call, nine, skips_two_words
-        sized itself, two_entrances, sleeping, jumping
+        sized itself, two_entrances, sleeping, jumping, stated
         .lcomm done, 1
