@@ -738,8 +738,12 @@ static const struct recording pid_recordings[] = {
     {"track", 1000, track_row},
     {NULL, 0, NULL}};
 
-// The size of an object whose last member is a byte.
-#define UP_TO(type, last) (offsetof(type, last) + 1u)
+// The size of an object without padding at its end.
+#define UP_TO(type, last) (offsetof(type, last) + sizeof(((type *)0)->last))
+
+// On the chips whose memory is filled, an int and `previous` have 16 bits.
+#define PID_SIZE                                                               \
+    (UP_TO(struct fixpid_pid, output) - sizeof(fixpid_pid_previous) + 2u)
 
 const struct controller controllers[CONTROLLERS] = {
     {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
@@ -754,8 +758,8 @@ const struct controller controllers[CONTROLLERS] = {
      UP_TO(struct fixpid_an964_8bit, ready), an964_members,
      an964_8bit_recordings, an964_8bit_ask, an964_8bit_define},
     {"pid", sizeof(struct pid_question), sizeof(struct pid_answer),
-     offsetof(struct pid_question, calls), UP_TO(struct fixpid_pid, status),
-     pid_members, pid_recordings, pid_ask, pid_define},
+     offsetof(struct pid_question, calls), PID_SIZE, pid_members,
+     pid_recordings, pid_ask, pid_define},
 };
 
 const struct controller *controller_named(const char *name)

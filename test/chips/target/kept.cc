@@ -106,7 +106,7 @@ void Bench::take_eeprom()
 bool Bench::is_expected() const
 {
     for (unsigned i = 0; i < kept_object_size; i++) {
-        if (chip.peek(object + i) != kept_object[i]) {
+        if (chip.peek(object + i) != kept_byte(i)) {
             return false;
         }
     }

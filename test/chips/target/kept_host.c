@@ -9,9 +9,26 @@ int application_main(void);
 #undef main
 
 uint8_t kept_eeprom[KEPT_EEPROM];
-const unsigned char *const kept_object = (const unsigned char *)&oven;
-const unsigned kept_object_size =
-    offsetof(struct fixpid_pid, status) + sizeof oven.status;
+
+// Here `previous` is a word of 32 bits, and there one of 16, which is 0 before
+// the first step.
+#define PREVIOUS_AT offsetof(struct fixpid_pid, previous)
+#define REST_AT (PREVIOUS_AT + sizeof oven.previous)
+#define REST_SIZE                                                              \
+    (offsetof(struct fixpid_pid, output) + sizeof oven.output - REST_AT)
+
+uint8_t kept_byte(unsigned at)
+{
+    const uint8_t *const bytes = (const uint8_t *)&oven;
+
+    if (at < PREVIOUS_AT) {
+        return bytes[at];
+    }
+    return (at < PREVIOUS_AT + 2u) ? 0u
+                                   : bytes[REST_AT + at - PREVIOUS_AT - 2u];
+}
+
+const unsigned kept_object_size = PREVIOUS_AT + 2u + REST_SIZE;
 
 void port_init(void)
 {

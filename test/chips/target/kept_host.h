@@ -10,8 +10,9 @@
 
 extern uint8_t kept_eeprom[KEPT_EEPROM];
 
-// Its controller's object, and the size of that without padding at its end.
-extern const unsigned char *const kept_object;
+// Its controller's object before the first step, byte by byte as a chip has it,
+// and the size of that without padding at its end.
+uint8_t kept_byte(unsigned at);
 extern const unsigned kept_object_size;
 
 // Stores a record: 0 gentle, 1 brisk, 2 one that the firmware does not have, 3
