@@ -133,22 +133,4 @@ FIXPID_INLINE bool reaches(int16_t limit, int16_t counts, int32_t integral)
 
 #endif
 
-// a + gain * x, saturated; or, `fine`, of a word and a byte, which is its next
-// eight bits: their sum with gain * x in 40 bits.
-#define add_product(a, fraction, gain, x, fine)                                \
-    fixpid_add_product((a), &(fraction), (gain), (x), (fine))
-FIXPID_INLINE int32_t fixpid_add_product(int32_t a, uint8_t *fraction,
-                                         uint16_t gain, signal_word x,
-                                         bool fine)
-{
-    int32_t change = mul16(gain, x);
-
-    if (fine) {
-        change += (int32_t)*fraction;
-        *fraction = (uint8_t)change;
-        change = shift_right_floor(change, 8);
-    }
-    return add32_sat(a, change);
-}
-
 #endif

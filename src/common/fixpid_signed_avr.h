@@ -5,6 +5,7 @@
 // Only the product needs upper registers, r16 to r23, of which a step has few.
 #ifndef FIXPID_SIGNED_AVR_H
 #define FIXPID_SIGNED_AVR_H
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_bits.h"
@@ -188,6 +189,25 @@ static int32_t mul16(uint16_t gain, int16_t x)
             : "=&r"(product), "=&d"(turn)
             : "r"(gain), "r"(x));
     return product;
+}
+#endif
+
+#if defined(__AVR_HAVE_MUL__)
+// a + gain * x, saturated; or, `fine`, of a word and a byte, which is its next
+// eight bits: their sum with gain * x in 40 bits.
+#define add_product(a, fraction, gain, x, fine)                                \
+    fixpid_add_product((a), &(fraction), (gain), (x), (fine))
+FIXPID_INLINE int32_t fixpid_add_product(int32_t a, uint8_t *fraction,
+                                         uint16_t gain, int16_t x, bool fine)
+{
+    int32_t change = mul16(gain, x);
+
+    if (fine) {
+        change += (int32_t)*fraction;
+        *fraction = (uint8_t)change;
+        change = shift_right_floor(change, 8);
+    }
+    return add32_sat(a, change);
 }
 #endif
 

@@ -319,7 +319,9 @@ static int32_t candidate_from(int32_t integral_q8)
 }
 
 // Sets the candidate to I + ki * error. The limits of the integral are -32767
-// and 32767 at most, so a sum that saturates lies beyond them.
+// and 32767 at most, so a sum that saturates lies beyond them. (A PIC18's
+// product stays where it is, and gcc for an AVR keeps more registers.)
+#if defined(add_product)
 static void integrate(GIVEN)
 {
     SIGNALS.fraction = SELF.integral_fraction;
@@ -335,6 +337,27 @@ static void integrate(GIVEN)
                         (SELF.options & KI_FINE) != 0u);
     }
 }
+#else
+static void integrate(GIVEN)
+{
+    int32_t change = mul16(SELF.ki, SIGNALS.error);
+
+    SIGNALS.fraction = SELF.integral_fraction;
+    if ((SELF.options & KI_COARSE) != 0u) {
+        // within 2^23 + 2^30
+        SIGNALS.integral = candidate_from(
+            fixpid_add32(shift_right_floor(SELF.integral, 8), change));
+        SIGNALS.integral += (int32_t)(uint8_t)SELF.integral;
+    } else {
+        if ((SELF.options & KI_FINE) != 0u) {
+            change += (int32_t)SIGNALS.fraction;
+            SIGNALS.fraction = (uint8_t)change;
+            change = shift_right_floor(change, 8);
+        }
+        SIGNALS.integral = add32_sat(SELF.integral, change);
+    }
+}
+#endif
 
 // Sets the candidate that makes the sum equal to the output held. The step
 // keeps it, as if there were no error.

@@ -304,47 +304,4 @@ static inline uint32_t rounded_counts_all_wrong(void)
     return wrong;
 }
 
-static inline uint32_t add_product_wrong(int32_t a, uint8_t fraction,
-                                         uint16_t gain, int16_t x)
-{
-    const int64_t product = (int64_t)gain * x;
-    const int64_t fine = (int64_t)a * 256 + fraction + product;
-    uint8_t left = fraction;
-    uint32_t wrong = 0;
-
-    wrong += (add_product(a, left, gain, x, false) !=
-              reference_clamp(a + product, INT32_MIN, INT32_MAX))
-                 ? 1u
-                 : 0u;
-    wrong += (left != fraction) ? 1u : 0u;
-    wrong +=
-        (add_product(a, left, gain, x, true) !=
-         reference_clamp((fine - (fine & 0xFF)) / 256, INT32_MIN, INT32_MAX))
-            ? 1u
-            : 0u;
-    wrong += (left != (uint8_t)fine) ? 1u : 0u;
-    return wrong;
-}
-
-static inline uint32_t add_product_all_wrong(void)
-{
-    uint32_t wrong = 0;
-
-    for (unsigned i = 0; i < NASTY32_COUNT; i++) {
-        wrong += add_product_wrong(nasty32[i], 0, 32767, INT16_MIN);
-        wrong += add_product_wrong(nasty32[i], 255, 32767, INT16_MAX);
-        wrong += add_product_wrong(nasty32[i], 255, 1, 1);
-        wrong += add_product_wrong(nasty32[i], 0, 1, -1);
-    }
-    for (uint32_t i = 0; i < RANDOM_CASES; i++) {
-        const int32_t a = (int32_t)numbers_next() >> numbers_below(32);
-        const uint8_t fraction = (uint8_t)numbers_below(256);
-        const uint16_t gain =
-            (uint16_t)(numbers_below(32768) >> numbers_below(16));
-
-        wrong += add_product_wrong(a, fraction, gain, numbers_int16());
-    }
-    return wrong;
-}
-
 #endif

@@ -70,8 +70,3 @@ void test_portable_rounded_counts_nasty_and_random_values(void)
 {
     TEST_ASSERT_EQUAL_UINT32(0, rounded_counts_all_wrong());
 }
-
-void test_portable_add_product_nasty_and_random_values_fine_and_not(void)
-{
-    TEST_ASSERT_EQUAL_UINT32(0, add_product_all_wrong());
-}
