@@ -82,7 +82,7 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
     // Deviation 10.8: a pattern of two's complement
-    return (int32_t)((uint32_t)x << n);
+    return (int32_t)((uint32_t)x * (UINT32_C(1) << n));
 }
 
 // `value` within low..high. pre: low <= high
