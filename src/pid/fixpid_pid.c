@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_pid.h"
 
+#include <limits.h>
+
 #include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
@@ -61,6 +63,7 @@ FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
 // `previous` itself can say that there is none: the upper half of the fall from
 // NO_PREVIOUS is INT16_MAX, whatever the input. That of a fall which does not
 // fit is 0 or -1, and of a flipped `previous` any 16 bits.
+// Deviation 20.9: UINT_MAX is a macro of <limits.h>.
 #if UINT_MAX > 65535u
 #define NO_PREVIOUS INT32_C(0x7FFF7FFF)
 #define ASKED_FIRST 0u

@@ -742,8 +742,7 @@ static const struct recording pid_recordings[] = {
 #define UP_TO(type, last) (offsetof(type, last) + sizeof(((type *)0)->last))
 
 // On the chips whose memory is filled, an int and `previous` have 16 bits.
-#define PID_SIZE                                                               \
-    (UP_TO(struct fixpid_pid, output) - sizeof(fixpid_pid_previous) + 2u)
+#define PID_SIZE (UP_TO(struct fixpid_pid, output) - sizeof(int) + 2u)
 
 const struct controller controllers[CONTROLLERS] = {
     {"an937", sizeof(struct an937_question), sizeof(struct an937_answer),
