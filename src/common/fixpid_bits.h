@@ -81,8 +81,7 @@ FIXPID_INLINE int32_t shift_right_floor(int32_t x, uint8_t n)
 // x * 2^n. pre: it fits
 FIXPID_INLINE int32_t shift_left(int32_t x, uint8_t n)
 {
-    // Deviation 10.8: a pattern of two's complement
-    return (int32_t)((uint32_t)x * (UINT32_C(1) << n));
+    return x * (int32_t)(UINT32_C(1) << n);
 }
 
 // `value` within low..high. pre: low <= high
