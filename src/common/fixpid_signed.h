@@ -39,19 +39,6 @@
 #include "fixpid_signed_riscv.h"
 #else
 
-// a - b, saturated
-FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
-{
-    const int32_t difference = a - b;
-    int32_t fitting = (int16_t)difference;
-
-    if (difference != fitting) {
-        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
-    }
-    FIXPID_OPAQUE(fitting);
-    return fitting;
-}
-
 // a + b, saturated
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
@@ -82,8 +69,9 @@ FIXPID_INLINE int32_t whole_counts(int16_t counts)
     return (int32_t)((uint32_t)(uint16_t)counts << 16);
 }
 
-// The output before its limits: floor((sum + floor(integral / 2^8) + 128) /
-// 2^8) pre: the sum is within 2^31 - 2^15 + 128, unless bits were flipped
+// The output before its limits, of P + D + feed-forward and the integral in
+// Q16.16, rounded. The sum is within 2^31 - 2^15 + 128, unless bits were
+// flipped.
 FIXPID_INLINE counts_word rounded_counts(int32_t sum, int32_t integral)
 {
     return shift_right_floor(
@@ -96,6 +84,21 @@ FIXPID_INLINE counts_word rounded_counts(int32_t sum, int32_t integral)
 
 // A signal of 16 bits in a register.
 typedef int32_t signal_word;
+
+#if !defined(FIXPID_HAS_SSAT)
+// a - b, saturated
+FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
+{
+    const int32_t difference = a - b;
+    int32_t fitting = (int16_t)difference;
+
+    if (difference != fitting) {
+        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
+    }
+    FIXPID_OPAQUE(fitting);
+    return fitting;
+}
+#endif
 
 // a + b, which fits unless bits were flipped: fixpid_add32 for a sum that gcc
 // for an AVR is not to merge with the sum before it, which takes it more

@@ -10,18 +10,6 @@
 #include "fixpid_bits.h"
 
 #if defined(FIXPID_THUMB1)
-FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
-{
-    const int32_t difference = a - b;
-    int32_t fitting = (int16_t)difference;
-
-    if (difference != fitting) {
-        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
-    }
-    FIXPID_OPAQUE(fitting);
-    return fitting;
-}
-
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum;
@@ -42,6 +30,7 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 #else
 #include <arm_acle.h>
 
+#define FIXPID_HAS_SSAT
 // GCC's __ssat is a macro, in which an unsigned int becomes an int32_t.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

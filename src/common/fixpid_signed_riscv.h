@@ -9,18 +9,6 @@
 #include "fixpid_bits.h"
 #include "fixpid_shift_add.h"
 
-FIXPID_INLINE int32_t sub16_sat(int32_t a, int32_t b)
-{
-    const int32_t difference = a - b;
-    int32_t fitting = (int16_t)difference;
-
-    if (difference != fitting) {
-        fitting = INT16_MAX ^ shift_right_floor(difference, 30);
-    }
-    FIXPID_OPAQUE(fitting);
-    return fitting;
-}
-
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum = fixpid_add32(a, b);
@@ -32,6 +20,7 @@ FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
     } else if (FIXPID_SELDOM(sum < a)) {
         sum = INT32_MAX;
     } else {
+        // it fits
     }
     FIXPID_OPAQUE(sum);
     return sum;

@@ -49,6 +49,7 @@ struct signals {
 
 #if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
 FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
+#define NAMED_SIGNALS
 #define SIGNALS fixpid_pid_signals
 #define LOCAL_SIGNALS (void)self
 #else
@@ -227,7 +228,7 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
 
 // What the parts of a step are given. Where a name is enough, it is not passed:
 // a call of SDCC's takes ten cycles of a PIC18 for the two addresses.
-#if !defined(__SDCC_pic14) && !defined(__SDCC_pic16) && !defined(__SDCC_mcs51)
+#if !defined(NAMED_SIGNALS)
 #define GIVEN FIXPID_DATA struct fixpid_pid *self, struct signals *signals
 #define PASSED self, signals
 #elif defined(OBJECT)

@@ -211,8 +211,32 @@ static inline uint32_t complement_all_wrong(void)
     return wrong;
 }
 
-// A limit with each neighbour of its integral, and with each bit of a fraction.
-static inline uint32_t is_just_all_wrong(void)
+// An integral `apart` from a limit, of which `counts` is the integer part, with
+// each bit of a fraction.
+static inline uint32_t is_just_wrong(int16_t limit, int16_t counts,
+                                     int32_t integral, int32_t apart)
+{
+    uint32_t wrong = 0;
+
+    for (unsigned fraction = 0; fraction < 256u; fraction++) {
+        const bool expected = apart == 0 && fraction == 0;
+        wrong +=
+            (is_just(limit, counts, integral, (uint8_t)fraction) != expected)
+                ? 1u
+                : 0u;
+    }
+    return wrong;
+}
+
+static inline uint32_t reaches_wrong(int16_t limit, int16_t counts,
+                                     int32_t integral, int32_t apart)
+{
+    return (reaches(limit, counts, integral) != (apart >= 0)) ? 1u : 0u;
+}
+
+// A limit with each neighbour of its integral.
+static inline uint32_t neighbours_wrong(uint32_t (*wrong_of)(
+    int16_t limit, int16_t counts, int32_t integral, int32_t apart))
 {
     static const int16_t limits[] = {0, 1, -1, 255, -256, 32767, -32767};
     uint32_t wrong = 0;
@@ -225,16 +249,20 @@ static inline uint32_t is_just_all_wrong(void)
             }
             const int16_t counts =
                 (int16_t)((integral - (integral & 0xFFFF)) / 65536);
-            for (unsigned fraction = 0; fraction < 256u; fraction++) {
-                const bool expected = nasty32[j] == 0 && fraction == 0;
-                wrong += (is_just(limits[i], counts, (int32_t)integral,
-                                  (uint8_t)fraction) != expected)
-                             ? 1u
-                             : 0u;
-            }
+            wrong += wrong_of(limits[i], counts, (int32_t)integral, nasty32[j]);
         }
     }
     return wrong;
+}
+
+static inline uint32_t is_just_all_wrong(void)
+{
+    return neighbours_wrong(is_just_wrong);
+}
+
+static inline uint32_t reaches_all_wrong(void)
+{
+    return neighbours_wrong(reaches_wrong);
 }
 
 static inline uint32_t whole_counts_all_wrong(void)
@@ -243,29 +271,6 @@ static inline uint32_t whole_counts_all_wrong(void)
 
     for (int32_t x = INT16_MIN; x <= INT16_MAX; x++) {
         wrong += (whole_counts((int16_t)x) != x * 65536) ? 1u : 0u;
-    }
-    return wrong;
-}
-
-// A limit with each neighbour of its integral.
-static inline uint32_t reaches_all_wrong(void)
-{
-    static const int16_t limits[] = {0, 1, -1, 255, -256, 32767, -32767};
-    uint32_t wrong = 0;
-
-    for (unsigned i = 0; i < sizeof limits / sizeof limits[0]; i++) {
-        for (unsigned j = 0; j < NASTY32_COUNT; j++) {
-            const int64_t integral = (int64_t)limits[i] * 65536 + nasty32[j];
-            if (integral != reference_clamp(integral, INT32_MIN, INT32_MAX)) {
-                continue;
-            }
-            const int16_t counts =
-                (int16_t)((integral - (integral & 0xFFFF)) / 65536);
-            wrong += (reaches(limits[i], counts, (int32_t)integral) !=
-                      (nasty32[j] >= 0))
-                         ? 1u
-                         : 0u;
-        }
     }
     return wrong;
 }
