@@ -8,8 +8,8 @@ require_relative 'exhaustion'
 require_relative 'seeded'
 
 # Of each function of more than five statements breaks of tools/lib/faults are drawn,
-# always the same, one of each line before the second ones: five of them must be noticed
-# before fifteen were missed. What is known to change nothing is not drawn. A break is
+# always the same, one of each line before the second ones: five of them, or all if there
+# are fewer, must be noticed before fifteen were missed. What is known to change nothing is not drawn. A break is
 # shown to the proofs that come to the function, first to those that come to the fewest
 # others.
 class Choice
@@ -35,12 +35,13 @@ class Choice
   # unproved, so many in a row would be enough to refute that.
   def judge(place)
     unproved = Seeded.unproved?(*place)
-    noticed, tried = draw(*place, unproved ? 0 : MISSED_MOST)
-    enough = noticed.size == Seeded::BREAKS
+    noticed, tried, drawn = draw(*place, unproved ? 0 : MISSED_MOST)
+    wanted = drawn.clamp(1, Seeded::BREAKS)
+    enough = noticed.size == wanted
     return [true, unproved ? [] : noticed] if enough ^ unproved
 
     where = place.join(', ')
-    [false, unproved ? "#{Seeded::UNPROVED}: no longer true: #{where}" : "#{where}: #{noticed.size} breaks noticed of #{tried}, not #{Seeded::BREAKS}"]
+    [false, unproved ? "#{Seeded::UNPROVED}: no longer true: #{where}" : "#{where}: #{noticed.size} breaks noticed of #{tried}, not #{wanted}"]
   end
 
   private
@@ -51,8 +52,8 @@ class Choice
     ((of_module.empty? ? proofs : of_module) - chosen).empty?
   end
 
-  # The lines about those that are noticed, and how many were tried, until as many as are
-  # allowed were missed.
+  # The lines about those that are noticed, how many were tried, until as many as are
+  # allowed were missed, and how many there are.
   def draw(file, function, missed_most)
     proofs = proofs_of(file, function)
     proofs = proofs.reject { |proof| Equivalents::WEAK.include?(proof.what) } if missed_most.zero?
@@ -66,7 +67,7 @@ class Choice
       noticed << line if proof
       proofs = better(proofs, proof, failures)
     end
-    [noticed, tried.size]
+    [noticed, tried.size, drawn.size]
   end
 
   # The one that noticed a break first; those that never did not any more.
