@@ -73,17 +73,23 @@ FIXPID_INLINE void fixpid_number_add(
     number->parts.magnitude = sum;
 }
 
-// The term is made of two 8 x 8 products. The upper one and what the lower one
-// carries into it are at most 65025 + 254.
-FIXPID_INLINE int32_t fixpid_number_term(
+// gain * the number's magnitude, of two 8 x 8 products. The upper one and what
+// the lower one carries into it are at most 65025 + 254.
+FIXPID_INLINE uint32_t fixpid_number_product(
     uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
     const uint8_t low_byte = (uint8_t)(number->parts.magnitude & 0xFFu);
     const uint8_t high_byte = (uint8_t)(number->parts.magnitude >> 8);
     const uint16_t low = fixpid_8x8(gain, low_byte);
     const uint16_t high = (uint16_t)(fixpid_8x8(gain, high_byte) + (low >> 8));
-    // Deviation 10.8: at most 24 bits, never negative.
-    const int32_t product = (int32_t)(((uint32_t)high << 8) | (low & 0xFFu));
+
+    return ((uint32_t)high << 8) | (low & 0xFFu);
+}
+
+FIXPID_INLINE int32_t fixpid_number_term(
+    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
+{
+    const int32_t product = (int32_t)fixpid_number_product(gain, number);
 
     return ((number->parts.negative & 1u) != 0u) ? -product : product;
 }
@@ -93,7 +99,17 @@ FIXPID_INLINE int32_t
 fixpid_sum_with_term(int32_t sum, uint8_t gain,
                      FIXPID_DATA const union fixpid_an937_number *number)
 {
+// An 8051 and a Z80 lack the registers for a choice between two sums.
+#if defined(__SDCC_mcs51) || defined(__SDCC_z80)
     return fixpid_add32(sum, fixpid_number_term(gain, number));
+#else
+    const int32_t product = (int32_t)fixpid_number_product(gain, number);
+
+    if ((number->parts.negative & 1u) != 0u) {
+        return sum - product;
+    }
+    return fixpid_add32(sum, product);
+#endif
 }
 
 // gain * error

@@ -30,6 +30,16 @@ int32_t fixpid_number_term_contract(uint8_t gain,
     return (int32_t)TIMES(gain, value_of(n));
 }
 
+// And for fixpid_sum_with_term: sum + gain * n.
+int32_t
+fixpid_sum_with_term_contract(int32_t sum, uint8_t gain,
+                              const union fixpid_an937_number *n)
+{
+    pre(inside(value_of(n), -65535, 65535));
+    pre(inside(sum, -2 * TERM_MAX, 2 * TERM_MAX));
+    return (int32_t)(sum + TIMES(gain, value_of(n)));
+}
+
 static bool sound_number(const union fixpid_an937_number *n, number most)
 {
     return inside(value_of(n), -most - 1, most);
@@ -102,7 +112,7 @@ static bool at_rest(const struct fixpid_an937 *x)
            (x->tick_overrun == 0u) && (x->step_flags == 0u);
 }
 
-// Equations 2 to 4. By contract: fixpid_number_term.
+// Equations 2 to 4. By contract: fixpid_number_term, fixpid_sum_with_term.
 void prove_step(void)
 {
     const int16_t error = nondet_int16();

@@ -105,7 +105,8 @@ static union fixpid_an937_number number_of(int32_t x)
     return number;
 }
 
-// A term by itself, and as a step adds it to the largest sum of two.
+// A term by itself, and as a step adds it to the least and the largest sum of
+// two.
 static void terms(void)
 {
     const int32_t most = 2 * 255 * 65535;
@@ -119,6 +120,9 @@ static void terms(void)
             same("sum_with_term", gain, x,
                  fixpid_sum_with_term(most, (uint8_t)gain, &number),
                  most + gain * x);
+            same("sum_with_term", gain, x,
+                 fixpid_sum_with_term(-most, (uint8_t)gain, &number),
+                 gain * x - most);
         }
     }
 }
