@@ -31,9 +31,8 @@ int32_t fixpid_number_term_contract(uint8_t gain,
 }
 
 // And for fixpid_sum_with_term: sum + gain * n.
-int32_t
-fixpid_sum_with_term_contract(int32_t sum, uint8_t gain,
-                              const union fixpid_an937_number *n)
+int32_t fixpid_sum_with_term_contract(int32_t sum, uint8_t gain,
+                                      const union fixpid_an937_number *n)
 {
     pre(inside(value_of(n), -65535, 65535));
     pre(inside(sum, -2 * TERM_MAX, 2 * TERM_MAX));
