@@ -208,6 +208,24 @@ static uint32_t cost_of_saturations(const struct pid_question *asked)
     }
 }
 
+// A bit of each of three fields at a time: one or two that are turned make
+// nothing dearer yet.
+static uint32_t cost_of_plains(const struct pid_question *asked)
+{
+    const uint32_t levels = 8;
+    uint32_t right = 0;
+    uint32_t wrong;
+
+    take(asked);
+    wrong = ((uint16_t)asked->setpoint ^ 0x5A96u) |
+            ((uint16_t)asked->measurement ^ 0x39C5u) |
+            (settings.kp_q8 ^ 0x2C6Bu);
+    while (right < levels && ((wrong >> right) & 1u) == 0u) {
+        right++;
+    }
+    return MOST - levels + right;
+}
+
 // No other step is near to it: it must be known.
 static uint32_t cost_of_known(const struct pid_question *asked)
 {
@@ -281,6 +299,7 @@ static const struct named {
     {"pid gains", step_made_up, cost_of_gains},
     {"pid corners", step_made_up, cost_of_corners},
     {"pid saturations", step_made_up, cost_of_saturations},
+    {"pid plains", step_made_up, cost_of_plains},
     {"pid known", step_made_up, cost_of_known},
 };
 

@@ -86,6 +86,20 @@ def judged(name)
   times
 end
 
+# How often a verdict with a file and a word of its own is found out by two runs, between
+# which the block may change something.
+def own(words = %w[same same])
+  words.each_with_index.sum do |word, run|
+    runs = 0
+    yield if run == 1 && block_given?
+    Remembered.new('toys').of('own', files: ['sim/**/*'], words: [word]) do
+      runs += 1
+      'ok'
+    end
+    runs
+  end
+end
+
 # A file that is another one while a verdict is found out, and again as it was before the
 # next run.
 def changed_meanwhile(path)
@@ -119,6 +133,11 @@ def verdicts(folder)
   Gate.expect('a verdict that is good', judged('good') { 'ok' }, 1)
   Gate.expect('and how old it is', (now..now + 60).cover?(File.read('tally')[/\A1 (\d+) checks\n\z/, 1].to_i), true)
   Gate.expect('a verdict that is not good', judged('bad') { nil }, 2)
+  Gate.expect('a verdict with a file of its own', own, 1)
+  Gate.expect('another file of its own', own { File.write('sim/gpsim/chip.cc', 'x', mode: 'a') }, 1)
+  Gate.expect('another word of its own', own(%w[same other]), 1)
+  Gate.expect('another variable of a compiler', own { ENV['CFLAGS'] = '-O3' }, 1)
+  ENV.delete('CFLAGS')
   Gate.expect('a source that changes meanwhile', changed_meanwhile('src/pid/fixpid_pid.c'), 2)
   ENV['XDG_CACHE_HOME'] = "#{folder}/bin/avr-gcc"
   Gate.expect('a cache that cannot be written', judged('nowhere') { 'ok' }, 2)
