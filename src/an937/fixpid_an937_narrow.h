@@ -106,7 +106,7 @@ fixpid_sum_with_term(int32_t sum, uint8_t gain,
     const int32_t product = (int32_t)fixpid_number_product(gain, number);
 
     if ((number->parts.negative & 1u) != 0u) {
-        return sum - product;
+        return fixpid_sub32(sum, product);
     }
     return fixpid_add32(sum, product);
 #endif

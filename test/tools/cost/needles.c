@@ -212,18 +212,17 @@ static uint32_t cost_of_saturations(const struct pid_question *asked)
 // nothing dearer yet.
 static uint32_t cost_of_plains(const struct pid_question *asked)
 {
-    const uint32_t levels = 8;
-    uint32_t right = 0;
+    bool conditions[8];
     uint32_t wrong;
 
     take(asked);
     wrong = ((uint16_t)asked->setpoint ^ 0x5A96u) |
             ((uint16_t)asked->measurement ^ 0x39C5u) |
             (settings.kp_q8 ^ 0x2C6Bu);
-    while (right < levels && ((wrong >> right) & 1u) == 0u) {
-        right++;
+    for (uint32_t bit = 0; bit < 8u; bit++) {
+        conditions[bit] = ((wrong >> bit) & 1u) == 0u;
     }
-    return MOST - levels + right;
+    return climbed(conditions, 8);
 }
 
 // No other step is near to it: it must be known.

@@ -74,40 +74,37 @@ def at_another_time(days)
   end
 end
 
-# How often a verdict is found out by two runs; the block says what it is.
-def judged(name)
+# How often a verdict is found out by one run: once or, if it is remembered, never.
+# The block says what it is.
+def asked(name, remembered = Remembered.new('toys', files: ['src/**/*']), **of_its_own)
   times = 0
-  2.times do
-    Remembered.new('toys', files: ['src/**/*']).of(name) do
-      times += 1
-      yield
-    end
+  remembered.of(name, **of_its_own) do
+    times += 1
+    yield
   end
   times
 end
 
-# How often a verdict with a file and a word of its own is found out by two runs, between
-# which the block may change something.
+# The same of two runs.
+def judged(name, &block)
+  2.times.sum { asked(name, &block) }
+end
+
+# Of two runs with a file and a word of the verdict's own, between which the block may
+# change something.
 def own(words = %w[same same])
   words.each_with_index.sum do |word, run|
-    runs = 0
     yield if run == 1 && block_given?
-    Remembered.new('toys').of('own', files: ['sim/**/*'], words: [word]) do
-      runs += 1
-      'ok'
-    end
-    runs
+    asked('own', Remembered.new('toys'), files: ['sim/**/*'], words: [word]) { 'ok' }
   end
 end
 
-# A file that is another one while a verdict is found out, and again as it was before the
-# next run.
+# Of two runs with a file that is another one while the verdict is found out, and again
+# as it was before the next run.
 def changed_meanwhile(path)
   before = File.read(path)
   2.times.sum do |run|
-    runs = 0
-    Remembered.new('toys', files: ['src/**/*']).of('changed') do
-      runs += 1
+    runs = asked('changed') do
       File.write(path, 'x', mode: 'a') if run.zero?
       'ok'
     end
