@@ -38,7 +38,7 @@ static bool ranges_legal(const struct fixpid_autotune_config *config)
     return config->output_rest <= config->output_max;
 }
 
-static bool config_legal(const struct fixpid_autotune_config *config)
+bool fixpid_autotune_legal(const struct fixpid_autotune_config *config)
 {
     if (!ranges_legal(config)) {
         return false;
@@ -51,10 +51,7 @@ static bool config_legal(const struct fixpid_autotune_config *config)
     if (!between(config->timeout_steps, TIMEOUT_MIN, TIMEOUT_MAX)) {
         return false;
     }
-    if (!between(config->cycles, 1u, AVERAGED_MAX)) {
-        return false;
-    }
-    return (config->options & (uint8_t)~FIXPID_AUTOTUNE_REVERSE) == 0u;
+    return between(config->cycles, 1u, AVERAGED_MAX);
 }
 
 bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
@@ -64,7 +61,7 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
-    accepted = config_legal(config);
+    accepted = fixpid_autotune_legal(config);
     // SDCC's pic16 port cannot assign a structure.
     SELF.config.output_min = config->output_min;
     SELF.config.output_max = config->output_max;
@@ -74,7 +71,7 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
     SELF.config.swing = config->swing;
     SELF.config.timeout_steps = config->timeout_steps;
     SELF.config.cycles = config->cycles;
-    SELF.config.options = config->options;
+    SELF.config.reverse = config->reverse;
     if (!accepted) {
         SELF.config.cycles = 0;
         SELF.config.output_min = 0;
@@ -99,6 +96,8 @@ void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
     SELF.elapsed = 0;
     SELF.period = 0;
     SELF.last_period = 0;
+    SELF.edge = 0;
+    SELF.first_on = 0;
     SELF.noise = 0;
     SELF.highest = 0;
     SELF.lowest = 0;
@@ -112,6 +111,16 @@ uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
     FIXPID_ASSERT(VALID(self));
     return (SELF.state >= PHASE_NOISE) ? (uint8_t)FIXPID_AUTOTUNE_RUNNING
                                        : SELF.state;
+}
+
+// 3/16 of the wanted swing, or what the noise asks for: 1..6912
+static uint16_t relay_hysteresis(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t least = fixpid_autotune_noise_band(self);
+    const uint16_t wanted = fixpid_autotune_wanted_swing(self);
+    const uint16_t counts = (uint16_t)((wanted >> 3) + (wanted >> 4));
+
+    return (counts < least) ? least : counts;
 }
 
 static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
@@ -134,6 +143,8 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
         SELF.state = PHASE_FIND;
         SELF.side = (deviation <= 0) ? AT_HIGH : AT_LOW;
         SELF.elapsed = 0;
+        SELF.lowest = deviation;
+        SELF.edge = relay_hysteresis(self);
         fixpid_autotune_drive(self);
     }
 }
@@ -174,16 +185,14 @@ static void add_deviation(FIXPID_DATA struct fixpid_autotune *self,
 static void turn_relay(FIXPID_DATA struct fixpid_autotune *self,
                        int16_t deviation)
 {
-    const int16_t hysteresis = fixpid_autotune_hysteresis(self);
-
     if (SELF.side == AT_HIGH) {
-        if (deviation > hysteresis) {
+        if (deviation > (int16_t)SELF.edge) {
             SELF.side = AT_LOW;
             SELF.elapsed = 0;
             fixpid_autotune_drive(self);
         }
     } else {
-        if (deviation < -hysteresis) {
+        if (deviation < (int16_t)fixpid_negated(SELF.edge)) {
             SELF.side = AT_HIGH;
             fixpid_autotune_end_cycle(self, deviation);
         }
@@ -274,7 +283,7 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
         } else {
             int16_t deviation = deviation_from(setpoint, measurement);
 
-            if ((SELF.config.options & FIXPID_AUTOTUNE_REVERSE) != 0u) {
+            if (SELF.config.reverse) {
                 deviation = (int16_t)-deviation;
             }
             if (SELF.state == PHASE_NOISE) {

@@ -22,15 +22,27 @@ void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums)
     sums->on_steps = 0;
 }
 
-// A second difference of noise is 1.95 standard deviations in the mean; the sum
-// of 32 is at most 32 * 1023 = 32736, and with its half 49104.
-int16_t fixpid_autotune_hysteresis(
+// 3 standard deviations and 1 count: a second difference of noise is 1.95
+// standard deviations in the mean. The sum of 32 is at most 32 * 1023 = 32736,
+// and with its half 49104.
+uint16_t fixpid_autotune_noise_band(
     FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t sum = (uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u);
-    const uint16_t counts = (uint16_t)((sum >> 5) + 1u);
 
-    return (int16_t)counts;
+    return (uint16_t)((sum >> 5) + 1u);
+}
+
+uint16_t fixpid_autotune_wanted_swing(
+    FIXPID_DATA const struct fixpid_autotune *self)
+{
+    uint16_t wanted = SELF.config.swing;
+
+    if (wanted == 0u) { // 24 bands; SDCC would link a multiplication
+        wanted = (uint16_t)(fixpid_autotune_noise_band(self) << 3);
+        wanted = (uint16_t)(wanted + wanted + wanted);
+    }
+    return wanted;
 }
 
 // How far a side is from the centre. `half` is at most 21759, so that twice of
@@ -110,24 +122,37 @@ static uint8_t share(uint16_t part, uint16_t whole)
     return quotient;
 }
 
-// The relay that would make the wanted swing of this one.
-static uint32_t amplitude_for(uint16_t wanted_swing, uint16_t swing,
+// The relay that would overshoot its hysteresis as far as wanted, where one of
+// relay_counts overshoots it by `over`.
+static uint32_t amplitude_for(uint16_t wanted_counts, uint16_t over,
                               uint16_t relay_counts)
 {
-    uint16_t wanted = wanted_swing;
+    uint16_t wanted = wanted_counts;
     uint32_t amplitude = relay_counts;
 
-    while (wanted > swing) {
+    while (wanted > over) {
         wanted >>= 1; // rounded towards a smaller swing
         amplitude <<= 1;
     }
     if (amplitude > AMPLITUDE_MAX) {
         amplitude = AMPLITUDE_MAX;
     }
-    if (wanted < swing) {
-        amplitude = (amplitude * share(wanted, swing)) >> 8;
+    if (wanted < over) {
+        amplitude = (amplitude * share(wanted, over)) >> 8;
     }
     return amplitude;
+}
+
+// Of both sides: what the hysteresis leaves of the wanted swing, but one
+// hysteresis at least, which is at most 6912.
+static uint16_t wanted_overshoot(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t wanted = fixpid_autotune_wanted_swing(self);
+
+    if (wanted < (uint16_t)(SELF.edge << 1)) {
+        return SELF.edge;
+    }
+    return (uint16_t)(wanted - SELF.edge);
 }
 
 // counts * share / 256, to the nearest: 65535 * 255 + 128 < 2^24
@@ -136,30 +161,26 @@ static uint16_t counts_of(uint16_t counts, uint8_t share_q8)
     return (uint16_t)((((uint32_t)counts * share_q8) + 128u) >> 8);
 }
 
-// What a half cycle overshoots is in proportion to the drive that is left on
-// its side. So where the setpoint cuts the swing, the output that holds it cuts
-// the relay: true of every lag with every dead time. The lowest deviation is
-// below 0 and the highest above, as the relay switched on both sides.
+// What overshoots the hysteresis on each side is in proportion to the drive
+// that is left on that side. So where the setpoint cuts the overshoot, the
+// output that holds it cuts the relay: true of every lag with every dead time.
+// The relay switched on both sides, so that each side overshoots by 1 at least.
 static void recentre(FIXPID_DATA struct fixpid_autotune *self)
 {
     const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
-    const uint16_t swing =
-        (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
-    const uint16_t below = fixpid_negated((uint16_t)SELF.lowest);
+    const uint16_t below =
+        (uint16_t)(fixpid_negated((uint16_t)SELF.lowest) - SELF.edge);
+    const uint16_t over =
+        (uint16_t)((uint16_t)SELF.highest - SELF.edge + below);
     const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
                                        (uint16_t)SELF.config.output_min);
-    uint16_t wanted = SELF.config.swing;
-    uint32_t amplitude;
+    uint32_t amplitude =
+        amplitude_for(wanted_overshoot(self), over, relay_counts);
 
-    if (wanted == 0u) { // 24 hystereses; SDCC would link a multiplication
-        wanted = (uint16_t)((uint16_t)fixpid_autotune_hysteresis(self) << 3);
-        wanted = (uint16_t)(wanted + wanted + wanted);
-    }
-    amplitude = amplitude_for(wanted, swing, relay_counts);
     SELF.centre =
         (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
                                                             AT_LOW) +
-                            counts_of(relay_counts, share(below, swing)));
+                            counts_of(relay_counts, share(below, over)));
     if (amplitude > widest) { // or the two relays would not differ
         amplitude = widest;
     }
@@ -231,6 +252,7 @@ static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t swing =
         (uint16_t)((uint16_t)SELF.highest - (uint16_t)SELF.lowest);
+    const uint16_t band = fixpid_autotune_noise_band(self);
 
     if (lopsided(&SELF.sums[0])) {
         return FIXPID_AUTOTUNE_IRREGULAR;
@@ -241,28 +263,10 @@ static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
     if (SELF.last_period < LAST_PERIOD_MIN) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
-    if ((swing >> 2) < (uint16_t)fixpid_autotune_hysteresis(self)) {
+    if (swing < (uint16_t)((uint16_t)(band << 2) + band)) { // 7680 at most
         return FIXPID_AUTOTUNE_TOO_SMALL;
     }
     return FIXPID_AUTOTUNE_DONE;
-}
-
-// The cycles of a relay are complete, or one more is averaged.
-static void average(FIXPID_DATA struct fixpid_autotune *self)
-{
-    SELF.averaged++;
-    if (SELF.averaged < SELF.config.cycles) {
-        return;
-    }
-    SELF.averaged = FRESH;
-    if (SELF.state == PHASE_THIRD) {
-        fixpid_autotune_finish(self, ending(self));
-        return;
-    }
-    if (SELF.state == PHASE_FIRST) {
-        fixpid_autotune_clear(&SELF.sums[1]);
-    }
-    SELF.state++; // the third phase goes on with the sums of the first
 }
 
 // A cycle unlike the one before may be the first of new ones.
@@ -273,6 +277,38 @@ static void start_average_again(FIXPID_DATA struct fixpid_autotune *self)
     }
     fixpid_autotune_clear(fixpid_autotune_sums_of_phase(self));
     SELF.averaged = 0;
+}
+
+// The last cycles were as long at high as the first, within a 128th of both.
+static bool same_sums(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    const uint16_t twice = (uint16_t)(SELF.first_on << 1);
+
+    return distance(SELF.sums[0].on_steps, twice) <=
+           (uint16_t)((SELF.sums[0].steps >> 7) + 2u);
+}
+
+// The cycles of a relay are complete, or one more is averaged.
+static void average(FIXPID_DATA struct fixpid_autotune *self)
+{
+    SELF.averaged++;
+    if (SELF.averaged < SELF.config.cycles) {
+        return;
+    }
+    if (SELF.state == PHASE_THIRD) {
+        if (same_sums(self)) {
+            fixpid_autotune_finish(self, ending(self));
+        } else {
+            start_average_again(self);
+        }
+        return;
+    }
+    if (SELF.state == PHASE_FIRST) {
+        SELF.first_on = SELF.sums[0].on_steps;
+        fixpid_autotune_clear(&SELF.sums[1]);
+    }
+    SELF.averaged = FRESH;
+    SELF.state++; // the third phase goes on with the sums of the first
 }
 
 // A cycle is a half at high and the half at low that ends now.

@@ -30,11 +30,15 @@
 #define fixpid_autotune_clear FIXPID_MARKED(autotune, clear)
 #define fixpid_autotune_level FIXPID_MARKED(autotune, level)
 #define fixpid_autotune_span FIXPID_MARKED(autotune, span)
-#define fixpid_autotune_hysteresis FIXPID_MARKED(autotune, hysteresis)
+#define fixpid_autotune_legal FIXPID_MARKED(autotune, legal)
+#define fixpid_autotune_noise_band FIXPID_MARKED(autotune, noise_band)
+#define fixpid_autotune_wanted_swing FIXPID_MARKED(autotune, wanted_swing)
 #define fixpid_autotune_drive FIXPID_MARKED(autotune, drive)
 #define fixpid_autotune_finish FIXPID_MARKED(autotune, finish)
 #define fixpid_autotune_end_cycle FIXPID_MARKED(autotune, end_cycle)
 #define fixpid_autotune_find_again FIXPID_MARKED(autotune, find_again)
+
+bool fixpid_autotune_legal(const struct fixpid_autotune_config *config);
 
 // The sums that the present phase adds to.
 FIXPID_DATA struct fixpid_autotune_sums *fixpid_autotune_sums_of_phase(
@@ -50,9 +54,12 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
 uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase);
 
-// Counts on each side of the setpoint within which the relay does not switch:
-// 1..1536.
-int16_t fixpid_autotune_hysteresis(
+// The hysteresis that the noise asks for, counts each side: 1..1536.
+uint16_t fixpid_autotune_noise_band(
+    FIXPID_DATA const struct fixpid_autotune *self);
+
+// Of the measurement, peak to peak: 8..36864.
+uint16_t fixpid_autotune_wanted_swing(
     FIXPID_DATA const struct fixpid_autotune *self);
 
 // Outputs what phase and side ask for.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_record.h"
 
+#include "../common/fixpid_bytes.h"
+
 // Where each number begins.
 #define VERSION_AT 0u
 #define KP_AT 1u
@@ -18,42 +20,6 @@
 #define OPTIONS                                                                \
     (FIXPID_RECORD_REVERSE | FIXPID_RECORD_DERIVATIVE_ON_ERROR |               \
      FIXPID_RECORD_PROPORTIONAL_ON_MEASUREMENT)
-
-#define CHECK_BEGIN 0xFFFFu // else bytes of 0 at the front would change nothing
-#define CHECK_POLYNOMIAL 0x1021u
-
-// CRC-16 of the bytes before the check, the highest bit first. Its polynomial
-// has a Hamming distance of 4 up to 32751 bits; a record has 23 * 8 = 184.
-static uint16_t check_of(const uint8_t bytes[])
-{
-    uint16_t check = CHECK_BEGIN;
-    uint8_t at;
-    uint8_t bit;
-
-    for (at = 0; at < CHECK_AT; at++) {
-        check ^= (uint16_t)((uint16_t)bytes[at] << 8);
-        for (bit = 8; bit != 0u; bit--) {
-            const uint16_t out = check & 0x8000u;
-
-            check = (uint16_t)((check & 0x7FFFu) << 1);
-            if (out != 0u) {
-                check ^= CHECK_POLYNOMIAL;
-            }
-        }
-    }
-    return check;
-}
-
-static void put(uint8_t bytes[], uint16_t value)
-{
-    bytes[0] = (uint8_t)(value & 0xFFu);
-    bytes[1] = (uint8_t)(value >> 8);
-}
-
-static uint16_t get(const uint8_t bytes[])
-{
-    return (uint16_t)(bytes[0] | ((uint16_t)bytes[1] << 8));
-}
 
 static uint8_t options_of(const struct fixpid_pid_config *config)
 {
@@ -81,8 +47,7 @@ void fixpid_record_pack(struct fixpid_record *record,
     bytes = record->bytes;
     bytes[VERSION_AT] = FIXPID_RECORD_VERSION;
     put(&bytes[KP_AT], config->gains.kp_q8);
-    put(&bytes[KI_AT], (uint16_t)(config->gains.ki_q24 & 0xFFFFu));
-    put(&bytes[KI_AT + 2u], (uint16_t)(config->gains.ki_q24 >> 16));
+    put32(&bytes[KI_AT], config->gains.ki_q24);
     put(&bytes[KD_AT], config->gains.kd_q8);
     bytes[FILTER_AT] = config->gains.derivative_filter;
     put(&bytes[OUTPUT_MIN_AT], (uint16_t)config->output_min);
@@ -91,7 +56,7 @@ void fixpid_record_pack(struct fixpid_record *record,
     put(&bytes[INTEGRAL_MAX_AT], (uint16_t)config->integral_max);
     put(&bytes[WEIGHT_AT], config->setpoint_weight_q8);
     bytes[OPTIONS_AT] = options_of(config);
-    put(&bytes[CHECK_AT], check_of(bytes));
+    put(&bytes[CHECK_AT], check_of(bytes, CHECK_AT));
 }
 
 bool fixpid_record_unpack(const struct fixpid_record *record,
@@ -105,15 +70,14 @@ bool fixpid_record_unpack(const struct fixpid_record *record,
     if (bytes[VERSION_AT] != FIXPID_RECORD_VERSION) {
         return false;
     }
-    if (get(&bytes[CHECK_AT]) != check_of(bytes)) {
+    if (get(&bytes[CHECK_AT]) != check_of(bytes, CHECK_AT)) {
         return false;
     }
     if ((bytes[OPTIONS_AT] & (uint8_t)~OPTIONS) != 0u) {
         return false;
     }
     config->gains.kp_q8 = get(&bytes[KP_AT]);
-    config->gains.ki_q24 =
-        get(&bytes[KI_AT]) | ((uint32_t)get(&bytes[KI_AT + 2u]) << 16);
+    config->gains.ki_q24 = get32(&bytes[KI_AT]);
     config->gains.kd_q8 = get(&bytes[KD_AT]);
     config->gains.derivative_filter = bytes[FILTER_AT];
     config->output_min = (int16_t)get(&bytes[OUTPUT_MIN_AT]);
