@@ -117,7 +117,7 @@ uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
 static uint16_t relay_hysteresis(FIXPID_DATA const struct fixpid_autotune *self)
 {
     const uint16_t least = fixpid_autotune_noise_band(self);
-    const uint16_t wanted = fixpid_autotune_wanted_swing(self);
+    const uint16_t wanted = fixpid_autotune_wanted_swing(self, least);
     const uint16_t counts = (uint16_t)((wanted >> 3) + (wanted >> 4));
 
     return (counts < least) ? least : counts;

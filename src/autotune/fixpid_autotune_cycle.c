@@ -33,16 +33,16 @@ uint16_t fixpid_autotune_noise_band(
     return (uint16_t)((sum >> 5) + 1u);
 }
 
+// 24 bands, but SDCC would link a multiplication.
 uint16_t fixpid_autotune_wanted_swing(
-    FIXPID_DATA const struct fixpid_autotune *self)
+    FIXPID_DATA const struct fixpid_autotune *self, uint16_t noise_band)
 {
-    uint16_t wanted = SELF.config.swing;
+    const uint16_t eight_bands = (uint16_t)(noise_band << 3);
 
-    if (wanted == 0u) { // 24 bands; SDCC would link a multiplication
-        wanted = (uint16_t)(fixpid_autotune_noise_band(self) << 3);
-        wanted = (uint16_t)(wanted + wanted + wanted);
+    if (SELF.config.swing == 0u) {
+        return (uint16_t)(eight_bands + eight_bands + eight_bands);
     }
-    return wanted;
+    return SELF.config.swing;
 }
 
 // How far a side is from the centre. `half` is at most 21759, so that twice of
@@ -66,23 +66,26 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
                               uint8_t phase, uint8_t side)
 {
     const uint16_t centre = (uint16_t)SELF.centre;
-    const uint16_t far = reach(self, phase, side);
     int16_t end = SELF.config.output_min;
-    uint16_t room = (uint16_t)(centre - (uint16_t)end);
-    uint16_t level = (uint16_t)(centre - far);
+    uint16_t far = 0;
 
     if (side == AT_HIGH) {
         end = SELF.config.output_max;
-        room = (uint16_t)((uint16_t)end - centre);
-        level = (uint16_t)(centre + far);
     }
     if (phase == PHASE_FIND) {
         return end;
     }
-    if (far >= room) {
-        return end;
+    far = reach(self, phase, side);
+    if (side == AT_HIGH) {
+        if (far < (uint16_t)((uint16_t)end - centre)) {
+            end = (int16_t)(uint16_t)(centre + far);
+        }
+    } else {
+        if (far < (uint16_t)(centre - (uint16_t)end)) {
+            end = (int16_t)(uint16_t)(centre - far);
+        }
     }
-    return (int16_t)level;
+    return end;
 }
 
 uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
@@ -108,15 +111,18 @@ void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
 static uint8_t share(uint16_t part, uint16_t whole)
 {
     uint8_t quotient = 0;
-    uint32_t rest = part;
+    uint16_t rest = part;
     uint8_t bit;
 
     for (bit = 0; bit < 8u; bit++) {
-        rest <<= 1;
+        const uint16_t missing = (uint16_t)(whole - rest); // above 0
+
         quotient = (uint8_t)(quotient << 1);
-        if (rest >= whole) {
-            rest -= whole;
+        if (rest >= missing) {
             quotient |= 1u;
+            rest = (uint16_t)(rest - missing);
+        } else {
+            rest = (uint16_t)(rest << 1);
         }
     }
     return quotient;
@@ -147,7 +153,8 @@ static uint32_t amplitude_for(uint16_t wanted_counts, uint16_t over,
 // hysteresis at least, which is at most 6912.
 static uint16_t wanted_overshoot(FIXPID_DATA const struct fixpid_autotune *self)
 {
-    const uint16_t wanted = fixpid_autotune_wanted_swing(self);
+    const uint16_t wanted =
+        fixpid_autotune_wanted_swing(self, fixpid_autotune_noise_band(self));
 
     if (wanted < (uint16_t)(SELF.edge << 1)) {
         return SELF.edge;

@@ -60,7 +60,7 @@ uint16_t fixpid_autotune_noise_band(
 
 // Of the measurement, peak to peak: 8..36864.
 uint16_t fixpid_autotune_wanted_swing(
-    FIXPID_DATA const struct fixpid_autotune *self);
+    FIXPID_DATA const struct fixpid_autotune *self, uint16_t noise_band);
 
 // Outputs what phase and side ask for.
 void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self);
