@@ -9,9 +9,11 @@
 
 #include "fixpid_autotune_arith.h"
 
-// Above every register of a sheet.
+// A number with this bit is one of these, and not one of a sheet.
+#define CONSTANT 0x40u
+
 enum constant_name {
-    ONE = 64,
+    ONE = CONSTANT,
     TWO,
     FOUR,
     EIGHT,

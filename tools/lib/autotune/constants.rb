@@ -6,7 +6,6 @@
 # Without the option it says whether that file is what it would write.
 module AutotuneConstants
   FILE = 'src/autotune/fixpid_autotune_constants.h'
-  FIRST = 64 # above every register of a sheet
 
   # A quantile regression, repeated by tools/lib/autotune/refit: the delay that gives PI a
   # maximum sensitivity of 1.6, for integrators at 92 % of the plants and for lags at 93 %.
@@ -118,9 +117,11 @@ module AutotuneConstants
 
       #include "fixpid_autotune_arith.h"
 
-      // Above every register of a sheet.
+      // A number with this bit is one of these, and not one of a sheet.
+      #define CONSTANT 0x40u
+
       enum constant_name {
-      #{ALL.keys.each_with_index.map { |value, i| "    #{name(value)}#{i.zero? ? " = #{FIRST}" : ''}" }.join(",\n")}
+      #{ALL.keys.each_with_index.map { |value, i| "    #{name(value)}#{i.zero? ? ' = CONSTANT' : ''}" }.join(",\n")}
       };
 
       static const struct constant {
@@ -136,7 +137,7 @@ module AutotuneConstants
 
   # A long origin stands in a line above its number.
   def entry(value, origin)
-    number = format('    {%du, %d},', *number(value))
+    number = format('    {%du, %d},', *number(value)).ljust(18)
     comment = "// #{decimal(value)}: #{origin}"
     return "#{number} #{comment}" if number.length + comment.length < 80
 
@@ -144,7 +145,7 @@ module AutotuneConstants
       all << +'    //' if all.last.length + word.length + 1 > 80
       all.last << " #{word}"
     end
-    "#{lines.join("\n")}\n#{number}"
+    "#{lines.join("\n")}\n#{number.rstrip}"
   end
 end
 
