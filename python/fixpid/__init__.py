@@ -133,15 +133,6 @@ class Autotune(_Noun, noun="autotune"):
         return _fields(config[0]) if found else None
 
 
-class Relay(_Noun, noun="relay"):
-    """The same by a shorter experiment: fixpid_relay.h."""
-
-    def result(self, rule):
-        """Gains for Pid, or None."""
-        gains = _new("pid_gains", {})
-        return _fields(gains[0]) if lib.fixpid_relay_result(self.c, rule, gains) else None
-
-
 class Slew(_Noun, noun="slew"):
     """A value that follows a target at limited speed: fixpid_slew.h."""
 

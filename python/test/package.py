@@ -100,18 +100,6 @@ def records_come_back():
     assert refuses(ValueError, fixpid.record_unpack, record[:-1])
 
 
-def relay_finds_gains():
-    """On an integrator with a dead time of 5 steps."""
-    relay = fixpid.Relay(output_min=-100, output_max=100, measurement_min=-32768,
-                         measurement_max=32767, hysteresis=10, timeout_steps=500, cycles=2)
-    level, line = 0, [0] * 5
-    for _ in range(1000):
-        line.append(relay.step(0, level // 8))
-        level += line.pop(0)
-    assert relay.status() == fixpid.RELAY_DONE
-    assert fixpid.Pid(gains=relay.result(fixpid.RELAY_TYREUS_LUYBEN_PI), output_max=1)
-
-
 def gains_are_those_of_the_macro():
     draw = random.Random(1)
     wanted = [(round(2 ** draw.uniform(-8, 6.9), 4), round(2 ** draw.uniform(-8, 5), 5),
@@ -160,7 +148,7 @@ def code_of_the_page_runs():
 
 
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
-         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back, relay_finds_gains,
+         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 failed = 0
 for test in TESTS:

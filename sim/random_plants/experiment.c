@@ -6,25 +6,7 @@
 #define STEPS_MAX 2000000L
 #define CYCLES 2
 #define ROBUSTNESS_Q4 16
-#define RUNNING 1 // of both
-
-// The relay has no idea of the noise: three standard deviations and a count. A
-// swing that the sensor cuts off must end it.
-static void start_relay(struct experiment *self, const struct task *task)
-{
-    const struct fixpid_relay_config config = {
-        .output_min = 0,
-        .output_max = (int16_t)task->output_max,
-        .output_rest = 0,
-        .measurement_min = 0,
-        .measurement_max = (int16_t)task->sensor_max,
-        .hysteresis = (uint16_t)(1.0 + (3.0 * task->noise)),
-        .timeout_steps = (uint16_t)task->timeout_steps,
-        .cycles = CYCLES,
-        .options = task->reverse ? FIXPID_RELAY_REVERSE : 0u,
-    };
-    (void)fixpid_relay_init(&self->relay, &config);
-}
+#define RUNNING 1
 
 static int16_t holding_counts(const struct task *task)
 {
@@ -60,13 +42,8 @@ static int16_t step(struct experiment *self, const struct task *task,
         measurement = (int16_t)(top - measurement);
         setpoint = (int16_t)(top - setpoint);
     }
-    if (self->is_relay) {
-        output = fixpid_relay_step(&self->relay, setpoint, measurement);
-        self->status = fixpid_relay_status(&self->relay);
-    } else {
-        output = fixpid_autotune_step(&self->autotune, setpoint, measurement);
-        self->status = fixpid_autotune_status(&self->autotune);
-    }
+    output = fixpid_autotune_step(&self->autotune, setpoint, measurement);
+    self->status = fixpid_autotune_status(&self->autotune);
     if (output < 0 || output > task->output_max) {
         self->outside++;
     }
@@ -74,19 +51,14 @@ static int16_t step(struct experiment *self, const struct task *task,
     return output;
 }
 
-void experiment_run(struct experiment *self, const struct task *task,
-                    bool is_relay)
+void experiment_run(struct experiment *self, const struct task *task)
 {
     const double rest = task->plant.integrating ? 0.0 : holding_counts(task);
     uint64_t noise_state = task->noise_state;
     struct lags_motion motion;
 
-    *self = (struct experiment){.is_relay = is_relay, .status = RUNNING};
-    if (is_relay) {
-        start_relay(self, task);
-    } else {
-        start_autotune(self, task);
-    }
+    *self = (struct experiment){.status = RUNNING};
+    start_autotune(self, task);
     lags_start(&motion, &task->plant, rest);
     while (self->status == RUNNING && self->steps < STEPS_MAX) {
         const bool loaded = task->load_at >= 0 && self->steps >= task->load_at;
@@ -97,10 +69,8 @@ void experiment_run(struct experiment *self, const struct task *task,
     }
 }
 
-const char *const *experiment_rules(const struct experiment *self, int *count)
+const char *const *experiment_rules(int *count)
 {
-    static const char *const of_relay[] = {"TYREUS_LUYBEN_PI",
-                                           "TYREUS_LUYBEN_PID"};
     static const char *const of_autotune[] = {"SIMC_PI",
                                               "AMIGO_PI",
                                               "AMIGO_PID",
@@ -109,8 +79,8 @@ const char *const *experiment_rules(const struct experiment *self, int *count)
                                               "ZIEGLER_NICHOLS_PI",
                                               "ZIEGLER_NICHOLS_PID"};
 
-    *count = self->is_relay ? 2 : 7;
-    return self->is_relay ? of_relay : of_autotune;
+    *count = 7;
+    return of_autotune;
 }
 
 bool experiment_result(const struct experiment *self, int rule,
@@ -120,9 +90,6 @@ bool experiment_result(const struct experiment *self, int rule,
                                        .output_max = 32767};
     bool found;
 
-    if (self->is_relay) {
-        return fixpid_relay_result(&self->relay, (uint8_t)rule, gains);
-    }
     found = fixpid_autotune_result(&self->autotune, (uint8_t)rule,
                                    ROBUSTNESS_Q4, &config);
     *gains = config.gains;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The random_plants of tools/demo: autotuners on random plants. A row for each
-// plant, tuner and rule, of semicolon-separated values.
+// The random_plants of tools/demo: the autotuner on random plants. A row for
+// each plant and rule, of semicolon-separated values.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,29 +9,28 @@
 #include "evaluation.h"
 #include "experiment.h"
 
-#define DONE 2 // of both tuners
+#define DONE 2
 
 static const char *const kinds[] = {"lag",        "two lags", "lags",
                                     "integrator", "position", "mixed",
                                     "servo",      "dead time"};
 
 static void print_rows(const struct task *task, int number,
-                       const struct evaluation *evaluation, bool is_relay,
-                       int most_rules)
+                       const struct evaluation *evaluation, int most_rules)
 {
     struct experiment experiment;
     const char *const *rules;
     int count;
 
-    experiment_run(&experiment, task, is_relay);
-    rules = experiment_rules(&experiment, &count);
+    experiment_run(&experiment, task);
+    rules = experiment_rules(&count);
     for (int rule = 0; rule < count && rule < most_rules; rule++) {
         struct fixpid_pid_gains gains;
         const bool found = experiment.status == DONE &&
                            experiment_result(&experiment, rule, &gains);
         (void)printf("%d;%s;%s;%s;%d;%ld;%.4g;%ld;%d", number,
-                     kinds[task->kind], is_relay ? "relay" : "autotune",
-                     rules[rule], (int)experiment.status, experiment.steps,
+                     kinds[task->kind], "autotune", rules[rule],
+                     (int)experiment.status, experiment.steps,
                      (double)experiment.steps / lags_scale_steps(&task->plant),
                      experiment.outside, found ? 1 : 0);
         if (found) {
@@ -87,8 +86,7 @@ int main(int count, char **arguments)
         const struct task task = draw_task(&draw, number);
         struct evaluation evaluation;
         evaluation_start(&evaluation, &task.plant);
-        print_rows(&task, number, &evaluation, false, rules);
-        print_rows(&task, number, &evaluation, true, rules);
+        print_rows(&task, number, &evaluation, rules);
     }
     return EXIT_SUCCESS;
 }

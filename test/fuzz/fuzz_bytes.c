@@ -10,7 +10,6 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
-#include "fixpid_relay.h"
 #include "fixpid_slew.h"
 #include "fixpid_tpo.h"
 #include "fuzz.h"
@@ -22,7 +21,6 @@ static struct fixpid_an937 an937;
 static struct fixpid_an964 an964;
 static struct fixpid_an964_8bit an964_8bit;
 static struct fixpid_pid pid;
-static struct fixpid_relay relay;
 static struct fixpid_autotune autotune;
 static struct fixpid_slew slew;
 static struct fixpid_tpo tpo;
@@ -144,27 +142,6 @@ static void gains_are_legal(const struct fixpid_pid_gains *gains)
     within(0, FIXPID_PID_FILTER_MAX, gains->derivative_filter);
 }
 
-static void relay_steps(void)
-{
-    struct fixpid_pid_gains gains = {0, 0, 0, 0};
-
-    spoil(&relay, sizeof relay);
-    if (numbers_below(2) == 0u) {
-        relay.status = FIXPID_RELAY_DONE;
-        relay.averaged &= 15u; // or hardly any would be believed
-        relay.period_sum >>= numbers_below(32);
-        relay.swing_sum >>= numbers_below(32);
-        relay.error_sum >>= numbers_below(32);
-    }
-    for (unsigned i = 0; i < STEPS; i++) {
-        const int16_t setpoint = numbers_int16();
-
-        (void)fixpid_relay_step(&relay, setpoint, numbers_int16());
-        (void)fixpid_relay_result(&relay, (uint8_t)(i & 1u), &gains);
-        gains_are_legal(&gains);
-    }
-}
-
 static void autotune_steps(void)
 {
     struct fixpid_autotune_process model;
@@ -199,8 +176,7 @@ static void other_steps(void)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static void (*const kinds[])(void) = {an937_steps,    an964_steps,
-                                          pid_steps,      relay_steps,
+    static void (*const kinds[])(void) = {an937_steps, an964_steps, pid_steps,
                                           autotune_steps, other_steps};
 
     numbers_from(data, size);

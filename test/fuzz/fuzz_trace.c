@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// An autotuner: the input is an experiment. What was asked and answered is
+// The autotuner: the input is an experiment. What was asked and answered is
 // printed, after the input itself, for the model of the definition in Ruby
-// (test/model/relay, test/model/autotune), which stops at the first difference.
+// (test/model/autotune), which stops at the first difference.
 #include <setjmp.h>
 #include <stdio.h>
 

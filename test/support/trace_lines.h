@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trace of random experiments, for a model in Ruby: what trace.c and a
-// program of test/model/relay or test/model/autotune have of each other.
+// The trace of random experiments, for a model in Ruby: what
+// trace_lines.c and test/model/autotune/trace.c have of each other.
 #ifndef TRACE_LINES_H
 #define TRACE_LINES_H
 #include <stdint.h>

@@ -6,7 +6,6 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
-#include "fixpid_relay.h"
 #include "numbers.h"
 #include "numbers_pid.h"
 #include "reference.h"
@@ -22,7 +21,6 @@ TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
-TEST_SOURCE_FILE("src/relay/fixpid_relay.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
@@ -143,44 +141,6 @@ void test_pid_several_instances_keep_their_own_state(void)
                                     fixpid_pid_output(&controllers[i]));
         }
     }
-}
-
-// A slow experiment and a fast one, step by step in turn.
-void test_relay_several_instances_keep_their_own_state(void)
-{
-    static const uint16_t half_steps[2] = {30, 7};
-    struct fixpid_relay experiments[2];
-    struct fixpid_pid_gains gains[2];
-
-    for (unsigned i = 0; i < 2; i++) {
-        const struct fixpid_relay_config config = {-100, 100, 0, -1000, 1000,
-                                                   4,    100, 2, 0};
-
-        TEST_ASSERT_TRUE(fixpid_relay_init(&experiments[i], &config));
-    }
-    for (unsigned n = 0; n < 240; n++) {
-        for (unsigned i = 0; i < 2; i++) {
-            const bool high = n / half_steps[i] % 2u == 0u;
-            const bool switches = n % half_steps[i] == 0u;
-            const int16_t size = switches ? 20 : 0;
-
-            fixpid_relay_step(&experiments[i], 0,
-                              (int16_t)(high ? -size : size));
-        }
-    }
-    for (unsigned i = 0; i < 2; i++) {
-        TEST_ASSERT_EQUAL_UINT8(FIXPID_RELAY_DONE,
-                                fixpid_relay_status(&experiments[i]));
-        TEST_ASSERT_TRUE(fixpid_relay_result(
-            &experiments[i], FIXPID_RELAY_TYREUS_LUYBEN_PI, &gains[i]));
-    }
-    // 326 * 16 * 200 / 40 * 80 / 16 = 130400, (130400 + 128) / 256 = 509
-    TEST_ASSERT_EQUAL_UINT16(509, gains[0].kp_q8);
-    TEST_ASSERT_EQUAL_UINT16(509, gains[1].kp_q8);
-    // 130400 * 116 / 960 = 15756, the rest 640: 15756 * 16 + 10 = 252106
-    TEST_ASSERT_EQUAL_UINT32(252106, gains[0].ki_q24);
-    // 130400 * 116 / 224 = 67528, the rest 128: 67528 * 16 + 9 = 1080457
-    TEST_ASSERT_EQUAL_UINT32(1080457, gains[1].ki_q24);
 }
 
 // A slow experiment and a fast one, step by step in turn. The swing is the

@@ -41,7 +41,7 @@ LOOPS = {
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
   'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
-  'random_plants' => Loop.new('two autotuners on 800 random plants, how good their gains are', -> { random_plants }),
+  'random_plants' => Loop.new('the autotuner on 800 random plants, how good its gains are', -> { random_plants }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time',

@@ -68,10 +68,6 @@ module Modules
                 functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' },
                 turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result] }]
     },
-    'relay' => {
-      title: 'Relay', what: 'A shorter experiment, in less room',
-      fuzz: [2000, 512]
-    },
     'an937' => {
       title: 'AN937', what: 'The controller of Microchip AN937',
       fuzz: [20_000, 512], narrow: true

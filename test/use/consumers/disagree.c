@@ -7,7 +7,6 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_pid.h"
-#include "fixpid_relay.h"
 
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)

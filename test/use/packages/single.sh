@@ -38,7 +38,7 @@ single_whole() {
     diff library functions
 }
 
-# The recorded rows, and the relay's model, with the library's headers made of these.
+# The recorded rows, with the library's headers made of these.
 single_vectors() {
     single_headers
     mkdir include
@@ -50,15 +50,11 @@ single_vectors() {
         module=$(basename "$rows" .csv | sed 's/_firmware$//; s/_definition$//')
         [ "$module" = autotune ] || ./replay "$module" "$rows" # below
     done
-    support=$root/test/support
     autotune=$root/test/model/autotune
     ruby "$autotune/table.rb" "$root/test/support/vectors/autotune.csv" >table.c
     cc -Iinclude "-I$autotune" "$autotune/autotune_plant.c" "$autotune/rows.c" \
         "$autotune/player.c" table.c fixpid_pid.c fixpid_autotune.c -o rows
     ./rows
-    cc -Iinclude "-I$support" "$root/test/model/relay/trace.c" "$support/trace_lines.c" \
-        "$support/numbers.c" fixpid_relay.c -o trace
-    ./trace 3200 | ruby "$root/test/model/relay/model.rb"
 }
 
 # SDCC has its own folders for PICs.

@@ -15,7 +15,7 @@ HOLDING_COUNTS = 24.0 / 160.0 * 1023.0
 RULES = { 'PI' => 'autotune', 'PID' => 'autotune_pid' }.freeze
 RULE_NAMES = { 'PI' => 'SIMC PI', 'PID' => 'AMIGO PID' }.freeze
 TUNED_OVERSHOOT = { 'PI' => 18.0, 'PID' => 4.0 }.freeze
-DONE = 2 # FIXPID_AUTOTUNE_DONE and FIXPID_RELAY_DONE
+DONE = 2 # FIXPID_AUTOTUNE_DONE
 
 # What a plant's loop with the found gains may overshoot, in percent of the
 # setpoint: both rules are chosen for loops that hardly do. Where the plant

@@ -105,7 +105,6 @@ part_limits() {
 }
 
 part_autotune() {
-    count 'test/model/relay/run' '^ok ' '^FAILED ' test/model/relay/run
     count 'test/model/autotune/run' '^ok ' '^FAILED ' test/model/autotune/run
 }
 
@@ -185,7 +184,6 @@ part_target() {
     need_sdcc
     build_gpsim
     count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run
-    count 'test/model/relay/chips' '^ok ' '^FAILED ' test/model/relay/chips
     count 'test/model/autotune/chips' '^ok ' '^FAILED ' test/model/autotune/chips
 }
 

@@ -10,7 +10,6 @@
 #include "fixpid_gains.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
-#include "fixpid_relay.h"
 #include "fixpid_slew.h"
 #include "fixpid_tpo.h"
 
@@ -39,12 +38,10 @@ int main()
     const fixpid_an964_8bit_gains gains_8bit = {32, 0, 0};
     const fixpid_autotune_config experiment = {0, 255,  9, -1, 1024,
                                                0, 1000, 2, 0};
-    const fixpid_relay_config simple = {0, 255, 0, 0, 1023, 4, 1000, 3, 0};
     fixpid_an937 an937;
     fixpid_an964 an964;
     fixpid_an964_8bit an964_8bit;
     fixpid_pid pid;
-    fixpid_relay relay;
     fixpid_autotune autotune;
     const fixpid_tpo_config window = {255, 2, 0, 0};
     const fixpid_gains_milli typed = {2000, 0, 0};
@@ -68,7 +65,7 @@ int main()
     if (!fixpid_an937_init(&an937, &motor) ||
         !fixpid_an964_init(&an964, &gains) ||
         !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
-        !fixpid_pid_init(&pid, &valve) || !fixpid_relay_init(&relay, &simple) ||
+        !fixpid_pid_init(&pid, &valve) ||
         !fixpid_autotune_init(&autotune, &experiment)) {
         return 1;
     }
@@ -79,7 +76,6 @@ int main()
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
                    fixpid_pid_output(&pid) == 100 &&
-                   fixpid_relay_step(&relay, 500, 20) == 255 &&
                    fixpid_autotune_step(&autotune, 500, 20) == 9 &&
                    fixpid_slew_step(&slew, 100) == 3 &&
                    fixpid_tpo_step(&tpo, 200)

@@ -91,7 +91,7 @@ module Assurance
                'and a million random calls', '`test/chips/target/run host`'),
      Claim.new('tested', 'the same as the definition, on inputs that look for new ways through the code',
                "#{Faults.of('fuzz').size} defects found", '`tools/test fuzz`'),
-     Claim.new('tested', 'the autotuners do what their models in another language do',
+     Claim.new('tested', 'the autotuner does what its model in another language does',
                "#{rows('autotune')} recorded experiments, and thousands of random ones", '`tools/test autotune`'),
      Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
                "#{parts['unit']} and #{parts['avr']} checks, every line and branch", '`tools/test unit avr`'),
@@ -144,7 +144,7 @@ module Assurance
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
                "#{parts['cost']} checks: a bound of the linked code, and the worst that a search finds",
                '`tools/test cost`'),
-     Claim.new('measured', 'how good the gains of the autotuners are', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants",
+     Claim.new('measured', 'how good the gains of the autotuner are', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants",
                '`tools/demo random_plants`'),
      Claim.new('measured', 'how the loops settle, and beside double precision', "#{parts['demo']} checks",
                '`tools/demo`')]
