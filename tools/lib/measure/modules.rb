@@ -10,9 +10,10 @@ require_relative 'meters'
 # Controller's; of functions in `unbounded` no bound can be told.
 CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded,
                           keyword_init: true) do
-  # Of the library, without the check that only a program which calls it links.
+  # Of the library, without the check and the record, which only a program that calls them
+  # links.
   def files
-    Modules.sources(id, Host.root).grep_v(/_check\.c\z/)
+    Modules.sources(id, Host.root).grep_v(/_check\.c\z|_autotune_record\.c\z/)
   end
 
   # Of its recorded rows.
