@@ -60,13 +60,14 @@ module Modules
       fuzz: [200, 128],
       # The end of a cycle halves a number of 16 bits until it is small, and divides
       # by eight turns; both test once more than they turn. A result is what a table of
-      # operations calculates, some of them until a number is 0: it has no bound. It fills a PIC18, and so does not tell the kinds of its steps apart there.
+      # operations calculates, some of them until a number is 0: it has no bound. It fills a
+      # PIC18, in object mode, and so does not tell the kinds of its steps apart there.
       calls: [{ object: 'tuner', calls: 60_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
                 flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_end_cycle' => 17, 'amplitude_for' => 17, 'share' => 9 } },
-              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [],
-                functions: { 'fixpid_autotune_step' => 'any step', 'fixpid_autotune_result' => 'result' },
-                turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result] }]
+              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [], by_name: true,
+                functions: { 'fixpid_autotune_step_tuner' => 'any step', 'fixpid_autotune_result_tuner' => 'result' },
+                turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result_tuner] }]
     },
     'an937' => {
       title: 'AN937', what: 'The controller of Microchip AN937',

@@ -8,7 +8,8 @@ require_relative 'meters'
 # program of test/chips/modules makes all recorded and many random calls of them.
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded,
+# On a PIC, `by_name` is measured in object mode, for its one object.
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name,
                           keyword_init: true) do
   # Of the library, without the check and the record, which only a program that calls them
   # links.
@@ -36,7 +37,7 @@ CALLED_MODULES = Modules::ALL.flat_map do |id, entry|
   entry.fetch(:calls, []).map { |call| CalledModule.new(id: id, **call) }
 end.freeze
 
-# One of them in one build on one chip, through a pointer.
+# One of them in one build on one chip.
 ModuleSubject = Struct.new(:called, :chip, :build) do
   def key
     "module-#{called.functions.keys.first}-#{chip.name}-#{build.delete('-')}"
@@ -54,9 +55,16 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
 
   def self.all
     CHIPS.reject { |chip| %w[pic16f684 attiny85].include?(chip.name) || chip.like || chip.kind == :riscv }.flat_map do |chip|
-      builds = chip.kind == :pic ? %w[pointer] : chip.builds
-      CALLED_MODULES.select { |called| called.on?(chip.kind) }.product(builds).map { |called, build| new(called, chip, build) }
+      CALLED_MODULES.select { |called| called.on?(chip.kind) }.flat_map do |called|
+        builds_of(called, chip).map { |build| new(called, chip, build) }
+      end
     end
+  end
+
+  def self.builds_of(called, chip)
+    return chip.builds unless chip.kind == :pic
+
+    [called.by_name ? 'object' : 'pointer']
   end
 end
 
@@ -126,7 +134,11 @@ class ModuleMeter
   end
 
   def flags
-    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES, *@called.flags]
+    ["-DCALLS=#{@called.calls}", "-I#{@rows}", *INCLUDES, *@called.flags, *mode]
+  end
+
+  def mode
+    @subject.build == 'object' ? ["-DFIXPID_#{@called.id.upcase}_OBJECT=#{@called.object}"] : []
   end
 
   # The library's objects, compiled alone.
