@@ -14,6 +14,7 @@ refuses by returning false is a ValueError. The headers' constants stand here wi
 FIXPID_: fixpid.PID_AT_MAX. Structures come back as dictionaries, and are given as
 keywords. What each of them means is in the header.
 """
+import enum
 import operator
 
 import numpy
@@ -117,20 +118,103 @@ class Pid(_Noun, noun="pid"):
         _accept(lib.fixpid_pid_set_gains(self.c, _new("pid_gains", gains)), "set_gains")
 
 
+def _causes(name, noun, advice):
+    """An enum of C whose members say what to do: `advice` has a sentence for each."""
+    prefix = f"FIXPID_{noun.upper()}_"
+    values = {value[len(prefix):]: number
+              for number, value in ffi.typeof(f"enum fixpid_{name}").elements.items()
+              if value.startswith(prefix)}
+    made = enum.IntEnum("".join(map(str.capitalize, name.split("_"))), values, module=__name__)
+    for member in made:
+        member.advice = advice[member.name]
+    return made
+
+
+AutotuneState = _causes("autotune_state", "autotune", {
+    "REFUSED": "A value of the configuration is out of its range.",
+    "RUNNING": "Keep stepping.",
+    "DONE": "It has measured: ask for a result.",
+    "NO_OSCILLATION": "A half cycle took longer than timeout_steps: the setpoint is out of reach of "
+                      "the output range, or the plant is slower than thought.",
+    "SATURATED": "The measurement reached measurement_min or measurement_max: take a narrower "
+                 "output range.",
+    "IRREGULAR": "The cycles were not alike, or the output that holds the setpoint is next to an "
+                 "end of the range: wait for a steady load, or take another setpoint.",
+    "TOO_FAST": "A period has less than 10 steps: sample faster, or measure with less noise.",
+    "TOO_SMALL": "The swing is not far above the noise: take a larger output range, or measure "
+                 "with less noise.",
+    "TOO_SLOW": "The cycles took 32767 steps: sample more slowly."})
+
+AutotuneCause = _causes("autotune_cause", "autotune", {
+    "NO_REASON": "There are gains.",
+    "NOT_DONE": "The experiment has not measured: its status says why.",
+    "NOT_LEGAL": "There is no such rule, or the robustness is outside 8..64.",
+    "SHAPE": "The wave is neither a lag's nor an integrator's: take a larger swing, a faster "
+             "rate or less load; else set the gains by hand.",
+    "TWO_PROCESSES": "The ways up and down tell of two processes: wait for a steady load. A heater "
+                     "that cools slowly is two processes: set its gains by hand.",
+    "RUNS_AWAY": "More measurement was held with less output: the load has moved, so try once "
+                 "more; or the process is unstable: set its gains by hand.",
+    "GAIN_TOO_LARGE": "kp, ki or kd is above its range: take a finer measurement, or a smaller "
+                      "output range.",
+    "GAIN_TOO_SMALL": "ki is below its range: take a slower rate, or a coarser measurement."})
+
+
 class Autotune(_Noun, noun="autotune"):
-    """Finds gains for Pid on the plant itself: fixpid_autotune.h."""
+    """Finds gains for Pid on the plant itself: fixpid_autotune.h.
+
+    The rules are fixpid.AUTOTUNE_PI and AUTOTUNE_PID; for robustness_q4 there are three
+    words, AUTOTUNE_QUICK, AUTOTUNE_SAFE and AUTOTUNE_CALM.
+    """
+
+    def status(self):
+        """An AutotuneState, whose `advice` says what to do about it."""
+        return AutotuneState(lib.fixpid_autotune_status(self.c))
+
+    def progress(self):
+        """How far it is: phase, done, expected and period, as a dictionary."""
+        stage = _new("autotune_stage", {})
+        lib.fixpid_autotune_progress(self.c, stage)
+        return _fields(stage[0])
 
     def model(self):
         """The process that was found, as a dictionary, or None."""
-        model = _new("autotune_process", {})
-        return _fields(model[0]) if lib.fixpid_autotune_model(self.c, model) else None
+        process = _new("autotune_process", {})
+        return _fields(process[0]) if lib.fixpid_autotune_model(self.c, process) else None
 
-    def result(self, rule, robustness_q4=16, **config):
+    def result(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE, **config):
         """What Pid takes, by a rule: the fields of `config`, as the output's range, with the
-        gains that were found. None if there are none."""
+        gains that were found. None if there are none: `reason` says why."""
         config = _new("pid_config", config)
         found = lib.fixpid_autotune_result(self.c, rule, robustness_q4, config)
         return _fields(config[0]) if found else None
+
+    def reason(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE):
+        """Why there is no result: an AutotuneCause, whose `advice` says what to do about it."""
+        return AutotuneCause(lib.fixpid_autotune_reason(self.c, rule, robustness_q4))
+
+    def pack(self):
+        """A record of the experiment, as bytes. ValueError while it runs."""
+        record = _new("autotune_record", {})
+        if not lib.fixpid_autotune_pack(self.c, record):
+            raise ValueError("there is no record before the experiment is over")
+        return bytes(record.bytes)
+
+    @classmethod
+    def unpack(cls, record):
+        """The experiment as it ended, maybe on a chip: from a record, as bytes or as
+        hexadecimal text with any white space."""
+        if isinstance(record, str):
+            record = bytes.fromhex("".join(record.split()))
+        if len(record) != lib.FIXPID_AUTOTUNE_RECORD_SIZE:
+            raise ValueError(f"a record has {lib.FIXPID_AUTOTUNE_RECORD_SIZE} bytes, not {len(record)}")
+        if record[0] != lib.FIXPID_AUTOTUNE_RECORD_VERSION:
+            raise ValueError(f"version {record[0]} of a record, not {lib.FIXPID_AUTOTUNE_RECORD_VERSION}")
+        tuner = cls.__new__(cls)
+        tuner.c = _new("autotune", {})
+        if not lib.fixpid_autotune_unpack(tuner.c, _new("autotune_record", {"bytes": list(record)})):
+            raise ValueError("a byte of the record is wrong")
+        return tuner
 
 
 class Slew(_Noun, noun="slew"):

@@ -100,6 +100,66 @@ def records_come_back():
     assert refuses(ValueError, fixpid.record_unpack, record[:-1])
 
 
+def experiment():
+    """On an integrator with a dead time of 5 steps, and the progress after each step."""
+    tuner = fixpid.Autotune(output_min=-100, output_max=100, measurement_min=-32768,
+                            measurement_max=32767, swing=200, timeout_steps=500, cycles=2)
+    assert refuses(ValueError, tuner.pack)
+    level, line, progress = 0, [0] * 5, []
+    while tuner.status() == fixpid.AUTOTUNE_RUNNING:
+        line.append(tuner.step(0, level // 8))
+        level += line.pop(0)
+        progress.append(tuner.progress())
+    return tuner, progress
+
+
+def autotune_finds_gains():
+    tuner, progress = experiment()
+    assert tuner.status() is fixpid.AutotuneState.DONE == fixpid.AUTOTUNE_DONE
+    assert [at["phase"] for at in (progress[0], progress[-1])] == [0, 6]
+    assert all(at["done"] < at["expected"] == 13 for at in progress[:-1]), progress
+    assert progress[-1]["done"] == 13 and progress[-1]["period"] > 20
+    # 1 / 8 count per count and step
+    model = tuner.model()
+    assert abs(model["slope_q24"] / 2**24 - 1 / 8) < 0.02, model
+    assert model["gain_q8"] == fixpid.AUTOTUNE_INTEGRATING and 5 * 16 < model["dead_q4"], model
+    for rule in fixpid.AUTOTUNE_PI, fixpid.AUTOTUNE_PID:
+        quick, safe, calm = (tuner.result(rule, word, output_max=7)["gains"]["kp_q8"] for word in
+                             (fixpid.AUTOTUNE_QUICK, fixpid.AUTOTUNE_SAFE, fixpid.AUTOTUNE_CALM))
+        assert quick > safe > calm > 0
+        assert fixpid.Pid(**tuner.result(rule, output_max=7)) and tuner.reason(rule) == 0
+
+
+def autotune_says_what_to_do():
+    tuner, _ = experiment()
+    assert tuner.result(2) is None and tuner.reason(2) is fixpid.AutotuneCause.NOT_LEGAL
+    assert tuner.reason(fixpid.AUTOTUNE_PI, 65) is fixpid.AutotuneCause.NOT_LEGAL
+    tuner.reset()
+    assert tuner.model() is None and tuner.reason(0) is fixpid.AutotuneCause.NOT_DONE
+    assert tuner.status().advice == "Keep stepping."
+    for causes, count in (fixpid.AutotuneState, 9), (fixpid.AutotuneCause, 8):
+        assert len(causes) == len({cause.advice for cause in causes}) == count
+        assert all(re.fullmatch("[A-Zk].*[.]", cause.advice) for cause in causes)
+        assert all(getattr(fixpid, f"AUTOTUNE_{cause.name}") == cause for cause in causes)
+
+
+def experiments_come_back():
+    tuner, progress = experiment()
+    record = tuner.pack()
+    assert len(record) == fixpid.AUTOTUNE_RECORD_SIZE
+    text = "".join(f"{byte:02X}" + "  \n"[at % 4:at % 4 + 1] for at, byte in enumerate(record))
+    for packed in record, bytearray(record), text, f"\t{record.hex()}\n":
+        again = fixpid.Autotune.unpack(packed)
+        assert again.status() == tuner.status() and again.model() == tuner.model()
+        assert again.progress() == progress[-1] and again.pack() == record
+        assert all(again.result(rule, word, output_max=9) == tuner.result(rule, word, output_max=9)
+                   for rule in range(3) for word in range(7, 66))
+    unpack = fixpid.Autotune.unpack
+    for wrong in (record[:-1], record + b"\0", bytes([2]) + record[1:], record.hex()[1:],
+                  record.hex()[:-1] + "g", "", bytes([record[0], record[1] ^ 1]) + record[2:]):
+        assert refuses(ValueError, unpack, wrong), wrong
+
+
 def gains_are_those_of_the_macro():
     draw = random.Random(1)
     wanted = [(round(2 ** draw.uniform(-8, 6.9), 4), round(2 ** draw.uniform(-8, 5), 5),
@@ -141,14 +201,17 @@ def rates_are_those_of_the_macro():
 
 def code_of_the_page_runs():
     with open(README, encoding="ascii") as page:
-        code = re.search("```python\n(.*?)```", page.read(), re.DOTALL).group(1)
+        first, second = re.findall("```python\n(.*?)```", page.read(), re.DOTALL)
     names = {}
-    exec(code, names)
+    exec(first, names)
     assert names["output"] == 255 and names["outputs"].dtype == numpy.int16
+    exec(second, names)
+    assert names["chip"].status() == fixpid.AUTOTUNE_DONE and names["config"]["output_max"] == 1000
 
 
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
-         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back,
+         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back, autotune_finds_gains,
+         autotune_says_what_to_do, experiments_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 failed = 0
 for test in TESTS:
