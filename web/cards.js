@@ -2,28 +2,11 @@
 // The cards below the plots: figures, margins, rules, chips.
 import { CONTROLLER, COSTS, FEATURES, PLANT } from './built.js';
 import { blank, make, table } from './dom.js';
+import { ruleName } from './experiment.js';
 import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
 import { unitsPerCount } from './metrics.js';
 import { color } from './plot.js';
-
-export const RULES = {
-    SIMC_PI: 'SIMC PI', AMIGO_PI: 'AMIGO PI', AMIGO_PID: 'AMIGO PID',
-    TYREUS_LUYBEN_PI: 'Tyreus-Luyben PI', TYREUS_LUYBEN_PID: 'Tyreus-Luyben PID',
-    ZIEGLER_NICHOLS_PI: 'Ziegler-Nichols PI', ZIEGLER_NICHOLS_PID: 'Ziegler-Nichols PID',
-};
-
-export const STATUSES = {
-    REFUSED: 'It refuses these limits.',
-    RUNNING: 'It needs more steps than the page has: sample more slowly.',
-    DONE: 'Done',
-    NO_OSCILLATION: 'No oscillation: the setpoint is out of the output’s reach, or the plant slower than the timeout.',
-    SATURATED: 'The measurement reached the end of the sensor: a setpoint further inside, or a larger range.',
-    IRREGULAR: 'No two cycles were alike: the output that holds this setpoint is next to an end of its range.',
-    TOO_FAST: 'The period is below 10 steps: sample faster, or measure with less noise.',
-    TOO_SMALL: 'The swing is below four times the hysteresis: less noise, or more sensor counts.',
-    TOO_SLOW: 'The cycles took too many steps: sample more slowly.',
-};
 
 // Pairs of a name and a figure.
 export function fillFigures(place, pairs) {
@@ -110,23 +93,38 @@ export function drawNyquist(canvas, margins) {
 
 // --- Rules ------------------------------------------------------------------
 
-// `rows` are { rule, gains or null, run figures, margins }; onUse takes a rule.
-export function fillRules(place, rows, chosen, onUse) {
+// Takes a row's gains; onUse gets the row.
+function useButton(row, onUse) {
+    const use = make('button', { type: 'button', textContent: 'Use', 'aria-label': `Use ${ruleName(row)}` });
+    use.addEventListener('click', () => onUse(row));
+    return use;
+}
+
+function gainsOf({ KP, KI, KD }) {
+    return [digits(KP), digits(KI), digits(KD)];
+}
+
+// `rows` are { rule, robustness, gains or null, found: the run's figures, margins }.
+export function fillRules(place, rows, isChosen, onUse) {
     const cellsOf = (row) => {
-        if (row.gains === null) {
-            return [RULES[row.rule], ...new Array(9).fill('–')];
-        }
-        const use = make('button', { type: 'button', textContent: 'Use', 'aria-label': `Use ${RULES[row.rule]}` });
-        use.addEventListener('click', () => onUse(row.rule));
         const { gains, found, margins } = row;
-        return [RULES[row.rule], use, digits(gains.KP), digits(gains.KI), digits(gains.KD),
-            margins.stable ? margins.ms.toFixed(2) : 'unstable',
-            margins.stable && margins.phaseMargin !== null ? `${margins.phaseMargin.toFixed(0)}°` : '–',
-            percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError)];
+        return gains === null ? [ruleName(row), ...new Array(9).fill('–')]
+            : [ruleName(row), useButton(row, onUse), ...gainsOf(gains),
+                margins.stable ? margins.ms.toFixed(2) : 'unstable',
+                margins.stable && margins.phaseMargin !== null ? `${margins.phaseMargin.toFixed(0)}°` : '–',
+                percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError)];
     };
     place.replaceChildren(table('Gains and what they do in this scene',
         ['Rule', 'Take it', 'kp', 'ki', 'kd', 'Ms', 'Phase', 'Overshoot', 'Settled', 'Mean error'],
-        rows.map((row) => ({ cells: cellsOf(row), chosen: row.rule === chosen }))));
+        rows.map((row) => ({ cells: cellsOf(row), chosen: isChosen(row) }))));
+}
+
+// The same of a record, whose plant the page does not know.
+export function fillRecordRules(place, rows, onUse) {
+    place.replaceChildren(table('Gains for the chip, per count; ki per second, kd in seconds',
+        ['Rule', 'Take it', 'kp', 'ki', 'kd'],
+        rows.map((row) => ({ cells: row.gains === null ? [ruleName(row), ...new Array(4).fill('–')]
+            : [ruleName(row), useButton(row, onUse), ...gainsOf(row.gains)] }))));
 }
 
 // --- Chips --------------------------------------------------------------------

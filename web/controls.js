@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sliders and numbers of the panel. Their ranges follow the plant, so that
 // the middle of each is a sensible value.
-import { CONTROLLER, PLANT } from './built.js';
+import { CONTROLLER, PLANT, WORD } from './built.js';
 import { make } from './dom.js';
 import { digits, short } from './format.js';
 import { countsGain, scaleSeconds } from './margins.js';
@@ -119,7 +119,8 @@ function tunerControls() {
     return [
         ['SWING', 'Swing', 'counts; 0: by the noise', (s) => straight(0, Math.round(2 ** s.SENSOR_BITS / 4), 8)],
         ['CYCLES', 'Cycles', 'of each relay', () => straight(1, 4, 1)],
-        ['ROBUSTNESS', 'SIMC’s robustness', '/ 16; more is calmer', () => straight(8, 64, 1)],
+        ['ROBUSTNESS', 'Robustness', Object.entries(WORD).map(([word, number]) => `${number} ${word.toLowerCase()}`).join(', '),
+            () => straight(8, 64, 1)],
     ];
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C of sim/tuner as WebAssembly: a scene in, its series and results out.
-import { COUNT, EVENT, LIMIT, PARAM, RESULT, RULE, VALUE, WASM } from './built.js';
+import { COUNT, EVENT, LIMIT, PARAM, RESULT, RULE, VALUE, WASM, WORD } from './built.js';
 
 let wasm = null;
 
@@ -53,17 +53,34 @@ export function run(state) {
     return { n, results: results(), series: series(Math.max(n, 0)) };
 }
 
-// The same of the autotuner, with `rules`: { rule, has: whether it has gains,
-// results }.
+// Of the experiment that the C has now, by each rule and each word of robustness, and
+// by the state's own number: { rule, robustness, has: whether there are gains, results }.
+function rules(state) {
+    const numbers = [...new Set([...Object.values(WORD), state.ROBUSTNESS])].sort((a, b) => a - b);
+    return Object.entries(RULE).flatMap(([rule, at]) => numbers.map((robustness) => {
+        put(sceneOf({ ...state, ROBUSTNESS: robustness }));
+        const has = wasm.tuner_rule(at) === 1;
+        return { rule, robustness, has, results: results() };
+    }));
+}
+
+function record() {
+    return new Uint8Array(wasm.memory.buffer, wasm.tuner_record(), LIMIT.RECORD_SIZE);
+}
+
+// The same of the autotuner, with `rules`, and its `record`, or null.
 export function experiment(state) {
     put(sceneOf(state));
     const n = wasm.tuner_experiment();
-    const found = { n, results: results(), series: series(Math.max(n, 0)) };
-    found.rules = Object.entries(RULE).map(([rule, at]) => {
-        const has = wasm.tuner_rule(at) === 1;
-        return { rule, has, results: results() };
-    });
-    return found;
+    const found = { n, results: results(), series: series(Math.max(n, 0)), rules: rules(state) };
+    return { ...found, record: wasm.tuner_pack() === 1 ? record().slice() : null };
+}
+
+// What an experiment came to whose record this is: { results, rules }, or null where
+// the record is refused.
+export function recorded(state, bytes) {
+    record().set(bytes);
+    return wasm.tuner_unpack() === 1 ? { results: results(), rules: rules(state) } : null;
 }
 
 // Milliseconds of a run without what copies it: the shortest of some.

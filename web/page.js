@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The page: all that it shows follows from the one state, each time anew.
-import { CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
+import { CAUSE, CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
-import { RULES, STATUSES, drawNyquist, figuresOf, fillChips, fillFigures, fillRules, marginFigures } from './cards.js';
+import { drawNyquist, figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
 import { blank, find, make, setText } from './dom.js';
-import { experiment, run, sceneOf, startEngine, timeRuns } from './engine.js';
+import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
+import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
 import { headerOf } from './header.js';
@@ -14,6 +15,7 @@ import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampl
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
 import { createPlots, color } from './plot.js';
+import { readRecord, recordText } from './record.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, presetState, stateOfFragment } from './state.js';
 
 let plots = null;
@@ -24,10 +26,11 @@ let pendulum = null;
 let kept = null; // a run to compare with: { preset, seconds, value, output, text }
 let mode = 'run'; // or 'tune': which of the two the plots show
 let cursor = null;
+let shown = 0; // seconds that the plots show
 
 // --- The autotuner, remembered while the plant is the same ------------------
 
-const OWN_OF_GAINS = ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'rule', 'name', 'story'];
+const OWN_OF_GAINS = ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'rule', 'name', 'story']; // ROBUSTNESS may add a row
 let tuned = { key: '', found: null };
 
 function hasTuner(s) {
@@ -48,6 +51,12 @@ export function gainsOfRule(s, results) {
     };
 }
 
+// The same of a record, and what its configuration says of the actuator.
+function gainsOfRecord(s, results) {
+    return { ...gainsOfRule({ ...s, OPTIONS: s.OPTIONS & ~OPTION.REVERSE }, results),
+        OUTPUT_MIN: results.OUTPUT_MIN, OUTPUT_MAX: results.OUTPUT_MAX };
+}
+
 function tunedFor(s) {
     const key = JSON.stringify(Object.entries(s).filter(([name]) => !OWN_OF_GAINS.includes(name)));
     if (tuned.key !== key) {
@@ -57,14 +66,14 @@ function tunedFor(s) {
 }
 
 function rowsFor(s) {
-    tuned.rows ??= tuned.found.rules.map(({ rule, has, results }) => {
+    tuned.rows ??= tuned.found.rules.map(({ rule, robustness, has, results }) => {
         if (!has) {
-            return { rule, gains: null };
+            return { rule, robustness, gains: null };
         }
         const gains = gainsOfRule(s, results);
         const one = run({ ...s, ...gains });
-        return one.n < 0 ? { rule, gains: null }
-            : { rule, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
+        return one.n < 0 ? { rule, robustness, gains: null }
+            : { rule, robustness, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
     });
     return tuned.rows;
 }
@@ -117,21 +126,26 @@ function panesOf(s, found) {
         series: [{ name: 'beside double precision', color: 'twin', width: 1.25,
             data: series.VALUE_TRUE.map((value, k) => (value - series.VALUE_TWIN[k]) / unitsPerCount(s)) }],
     };
-    return tuning ? [measurement, output] : [measurement, output, terms, difference];
+    const progress = {
+        title: 'Progress', unit: '%', leastSpan: 100,
+        series: [{ name: 'cycles done', color: 'i', held: true,
+            data: tuning ? progressOf(found) : none }],
+    };
+    return tuning ? [measurement, output, progress] : [measurement, output, terms, difference];
 }
 
 function showPlots(s, found) {
     const seconds = 1 / s.RATE;
-    plots.show({
-        panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events,
-        duration: mode === 'tune' ? Math.max(1, found.n) * seconds : Math.min(s.DURATION, LIMIT.STEPS * seconds),
-    });
+    shown = mode === 'tune' ? Math.max(1, found.n) * seconds : Math.min(s.DURATION, LIMIT.STEPS * seconds);
+    plots.show({ panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events, duration: shown });
+    showStage(s);
 }
 
 function setCursor(seconds) {
     cursor = seconds;
     plots.cursorAt(seconds);
     pendulum.at(seconds);
+    showStage(currentState());
 }
 
 function moveCursor(event) {
@@ -140,9 +154,7 @@ function moveCursor(event) {
         setCursor(null);
     } else if (way !== undefined && event.target.id === 'plots') {
         event.preventDefault();
-        const s = currentState();
-        const from = cursor ?? s.DURATION;
-        setCursor(Math.min(s.DURATION, Math.max(0, from + way * s.DURATION / 100)));
+        setCursor(Math.min(shown, Math.max(0, (cursor ?? shown) + way * shown / 100)));
     }
 }
 
@@ -159,19 +171,11 @@ function showAdvice(s, advice, tuning) {
     }
 }
 
-function experimentText(s, found) {
-    const name = Object.keys(STATUS).find((one) => STATUS[one] === found.results.STATUS) ?? 'REFUSED';
-    if (name !== 'DONE') {
-        return STATUSES[name];
-    }
-    const { GAIN, LAG, DEAD, HOLDING, HYSTERESIS, NOISE } = found.results;
-    const integrating = GAIN === 2 ** 32 - 1;
-    const model = integrating ? 'it integrates' : `gain ${digits(GAIN / 256)}, lag ${digits(LAG / 16 / s.RATE)} s`;
-    const served = s.PLANT === PLANT.OSCILLATOR
-        ? ' The rules are for plants that do not ring by themselves, as this one does: look at Ms.' : '';
-    return `Done after ${digits(found.n / s.RATE)} s, ${whole(found.n)} steps: ${model}, dead time ` +
-        `${digits(DEAD / 16 / s.RATE)} s; output ${HOLDING} holds the setpoint; noise ${digits(NOISE / 16, 2)} counts, ` +
-        `hysteresis ${HYSTERESIS}.${served}`;
+// How far the experiment is where the cursor stands, or at its end.
+function showStage(s) {
+    const seen = mode === 'tune' && tuned.found !== null && tuned.found.n > 0;
+    find('#stage').hidden = !seen;
+    setText(find('#stage'), seen ? stageText(s, tuned.found, Math.round((cursor ?? shown) * s.RATE)) : '');
 }
 
 function showTuning(s) {
@@ -182,11 +186,30 @@ function showTuning(s) {
         return null;
     }
     const found = tunedFor(s);
-    setText(find('#found'), experimentText(s, found));
-    const done = found.results.STATUS === STATUS.DONE;
-    find('#rules').hidden = !done;
-    fillRules(find('#rules'), done ? rowsFor(s) : [], s.rule, useRule);
+    const lasted = `Measured after ${digits(found.n / s.RATE)} s, ${whole(found.n)} steps`;
+    const rows = isMeasured(found.results) ? rowsFor(s) : [];
+    const has = rows.some((row) => row.gains !== null);
+    setText(find('#found'), experimentText(s.RATE, lasted, found) + (has ? ringingText(s) : ''));
+    find('#rules').hidden = !has;
+    find('#copy-record').disabled = found.record === null;
+    fillRules(find('#rules'), has ? rows : [], (row) => row.rule === s.rule && row.robustness === s.ROBUSTNESS, useRule);
     return found;
+}
+
+// The record that was pasted. Its rate is the page's.
+function showRecord(s) {
+    find('#chip').hidden = !hasTuner(s);
+    const { bytes, refused } = readRecord(find('#record').value);
+    const found = bytes ? recorded(s, bytes) : null;
+    const rows = found === null || !isMeasured(found.results) ? []
+        : found.rules.map((one) => ({ ...one, gains: one.has ? gainsOfRecord(s, one.results) : null }));
+    const has = rows.some((row) => row.gains !== null);
+    const lasted = `At ${short(s.RATE)} steps per second, as set on this page`;
+    const wrong = bytes ? 'A byte of the record is wrong: its check does not fit.' : refused ?? '';
+    setText(find('#record-found'), found === null ? wrong : experimentText(s.RATE, lasted, found));
+    find('#record-found').classList.toggle('refused', found === null && wrong !== '');
+    find('#record-rules').hidden = !has;
+    fillRecordRules(find('#record-rules'), has ? rows : [], useRecord);
 }
 
 function showMargins(margins) {
@@ -235,6 +258,7 @@ function showHead(s) {
 
 // Nothing of an earlier state is left where these settings are refused.
 function showRefused(s, found) {
+    find('#stage').hidden = true;
     fillFigures(find('#metrics'), []);
     fillFigures(find('#margins'), []);
     find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
@@ -281,6 +305,7 @@ function show() {
     showModes(s);
     showAdvice(s, adviceOf(s, found, margins), mode === 'tune');
     panel(s, good ? notesOf(s, found.results) : {});
+    showRecord(s);
     events(s);
     flags(s);
     if (good) {
@@ -304,13 +329,18 @@ function setMode(next) {
     show();
 }
 
-function useRule(rule) {
+function useRule(row) {
     const s = currentState();
-    const { gains } = rowsFor(s).find((row) => row.rule === rule);
     mode = 'run';
-    changeNow({ ...s, ...gains, rule });
-    say(`${RULES[rule]} is in use.`);
+    changeNow({ ...s, ...row.gains, rule: row.rule, ROBUSTNESS: row.robustness });
+    say(`${ruleName(row)} is in use.`);
     find('#modes').firstChild.focus();
+}
+
+function useRecord(row) {
+    useRule(row);
+    find('#view').scrollIntoView();
+    say(`The record’s gains by ${ruleName(row)} are in use, with its range of outputs. The plant is still this page’s.`);
 }
 
 function keep() {
@@ -423,6 +453,8 @@ function listen() {
     find('#plots').addEventListener('keydown', moveCursor);
     find('#keep').addEventListener('click', keep);
     find('#share').addEventListener('click', () => toClipboard(location.href, 'The link is copied: it has all settings.'));
+    find('#copy-record').addEventListener('click', () => toClipboard(recordText(tuned.found.record), 'The record is copied.'));
+    find('#record').addEventListener('input', () => showRecord(currentState()));
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
     find('#save').addEventListener('click', download);
     for (const id of ['#recording', '#record-step', '#record-unit']) {
@@ -452,8 +484,8 @@ async function startPage() {
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     // What the tests take hold of.
-    window.tuner = { PRESETS, RESULT, RULE, change, changeNow, currentState, experiment, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
-        controllerOf, marginsOf, presetState, readRecording, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
+    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
+        controllerOf, marginsOf, presetState, readRecording, recordText, recorded, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
     document.body.dataset.ready = 'yes';
 }
 

@@ -10,7 +10,7 @@ const common = {
     OUTPUT_MIN: 0, OUTPUT_MAX: 1000, RATE: 20, DURATION: 60, SETPOINT: 50,
     KP: 1, KI: 0, KD: 0, FILTER: 0, WEIGHT: 1, OPTIONS: 0, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
     SWING: 0, CYCLES: 2, ROBUSTNESS: 16,
-    unit: '%', rule: 'SIMC_PI', events: [],
+    unit: '%', rule: 'PI', events: [],
 };
 
 function preset(id, name, story, more) {

@@ -3,8 +3,9 @@
 // input, each a verb (8 bytes: 0 runs, 1 experiments) with tuner_params and
 // tuner_events, and writes for each its steps as 8 bytes, tuner_results after
 // the run, or after the experiment and after each of its rules (8 bytes whether
-// it has gains), and all series. `time` as an argument: it runs a scene that
-// often and writes the shortest time in seconds.
+// it has gains); of an experiment its record, too (8 bytes whether there is
+// one), and the same after it was unpacked; and all series. `time` as an
+// argument: it runs a scene that often and writes the shortest time in seconds.
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -36,11 +37,32 @@ static void put_series(int n)
 
 static void put_rules(void)
 {
-    for (int rule = 0; rule <= FIXPID_AUTOTUNE_ZIEGLER_NICHOLS_PID; rule++) {
-        const int64_t has = tuner_rule(rule);
-        put(&has, sizeof(has), 1);
-        put(tuner_results(), sizeof(double), TUNER_RESULTS);
+    static const double robust[] = {FIXPID_AUTOTUNE_QUICK, FIXPID_AUTOTUNE_SAFE,
+                                    FIXPID_AUTOTUNE_CALM};
+
+    for (int rule = 0; rule <= FIXPID_AUTOTUNE_PID; rule++) {
+        for (int word = 0; word < 3; word++) {
+            tuner_params()[PARAM_ROBUSTNESS] = robust[word];
+            const int64_t has = tuner_rule(rule);
+            put(&has, sizeof(has), 1);
+            put(tuner_results(), sizeof(double), TUNER_RESULTS);
+        }
     }
+}
+
+static void put_record(void)
+{
+    const int64_t has = tuner_pack();
+
+    put(&has, sizeof(has), 1);
+    if (has == 0) {
+        return;
+    }
+    put(tuner_record(), 1, FIXPID_AUTOTUNE_RECORD_SIZE);
+    const int64_t good = tuner_unpack();
+    put(&good, sizeof(good), 1);
+    put(tuner_results(), sizeof(double), TUNER_RESULTS);
+    put_rules();
 }
 
 static double seconds_of_run(void)
@@ -81,6 +103,7 @@ int main(int count, char **arguments)
         put(tuner_results(), sizeof(double), TUNER_RESULTS);
         if (verb != 0) {
             put_rules();
+            put_record();
         }
         put_series(n);
     }

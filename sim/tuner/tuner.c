@@ -19,6 +19,11 @@
 #define ERROR_PER_COUNT 4      // of AN937's motor: 1023 counts are its 4000
 #define TIMEOUT_STEPS 32767
 
+// Where a record has these.
+#define RECORD_OUTPUT_MIN 1
+#define RECORD_OUTPUT_MAX 3
+#define RECORD_REVERSE 16
+
 static double events[TUNER_EVENTS * TUNER_EVENT_SIZE];
 static double results[TUNER_RESULTS];
 static int32_t counts[TUNER_COUNTS][TUNER_STEPS];
@@ -28,6 +33,7 @@ static struct fixpid_pid pid;
 static struct fixpid_an937 an937;
 static struct fixpid_an964 an964;
 static struct fixpid_autotune autotune;
+static struct fixpid_autotune_record record;
 
 // A loop that runs: the library's, or its twin's, which has no drift offset.
 static struct scene scene;
@@ -44,6 +50,11 @@ double *tuner_events(void)
 double *tuner_results(void)
 {
     return results;
+}
+
+uint8_t *tuner_record(void)
+{
+    return record.bytes;
 }
 
 int32_t *tuner_counts(int series)
@@ -237,6 +248,13 @@ static void keep(int i, int32_t p, int32_t integral, int32_t d, int32_t flags)
     counts[COUNT_FLAGS][i] = flags;
 }
 
+static void keep_stage(int i, const struct fixpid_autotune_stage *stage)
+{
+    counts[COUNT_PHASE][i] = stage->phase;
+    counts[COUNT_DONE][i] = stage->done;
+    counts[COUNT_PERIOD][i] = stage->period;
+}
+
 static int16_t step(int i, int16_t setpoint, int16_t measurement)
 {
     int16_t output;
@@ -351,6 +369,7 @@ static void see(int i)
 
 int tuner_run(void)
 {
+    static const struct fixpid_autotune_stage none = {0, 0, 0, 0};
     const int n = steps();
     double setpoint = param(PARAM_SETPOINT);
 
@@ -368,6 +387,7 @@ int tuner_run(void)
         counts[COUNT_MEASUREMENT][i] = y;
         counts[COUNT_OUTPUT][i] = u;
         values[VALUE_TWIN_OUTPUT][i] = twin_u;
+        keep_stage(i, &none);
         see(i);
         scene_move(&scene, u);
         scene_move(&twin_scene, twin_u);
@@ -386,9 +406,7 @@ static bool begin_experiment(void)
         .swing = (uint16_t)param(PARAM_SWING),
         .timeout_steps = TIMEOUT_STEPS,
         .cycles = (uint8_t)param(PARAM_CYCLES),
-        .options = ((options & TUNER_OPTION_REVERSE) != 0u)
-                       ? FIXPID_AUTOTUNE_REVERSE
-                       : 0u,
+        .reverse = (options & TUNER_OPTION_REVERSE) != 0u,
     };
     config.output_rest = limited(0);
     return fixpid_autotune_init(&autotune, &config);
@@ -396,18 +414,23 @@ static bool begin_experiment(void)
 
 static void tell_experiment(void)
 {
-    struct fixpid_autotune_process model;
+    struct fixpid_autotune_process process;
+    struct fixpid_autotune_stage stage;
 
     results[RESULT_STATUS] = fixpid_autotune_status(&autotune);
-    if (fixpid_autotune_model(&autotune, &model)) {
-        results[RESULT_GAIN] = model.gain_q8;
-        results[RESULT_LAG] = model.lag_q4;
-        results[RESULT_DEAD] = model.dead_q4;
-        results[RESULT_ULTIMATE] = model.ultimate_q8;
-        results[RESULT_PERIOD] = model.period_q4;
-        results[RESULT_HOLDING] = model.holding;
-        results[RESULT_NOISE] = model.noise_q4;
-        results[RESULT_HYSTERESIS] = model.hysteresis;
+    fixpid_autotune_progress(&autotune, &stage);
+    results[RESULT_DONE] = stage.done;
+    results[RESULT_EXPECTED] = stage.expected;
+    results[RESULT_PERIOD] = stage.period;
+    if (fixpid_autotune_model(&autotune, &process)) {
+        results[RESULT_HAS_MODEL] = 1.0;
+        results[RESULT_GAIN] = process.gain_q8;
+        results[RESULT_LAG] = process.lag_q4;
+        results[RESULT_DEAD] = process.dead_q4;
+        results[RESULT_SLOPE] = process.slope_q24;
+        results[RESULT_HOLDING] = process.holding;
+        results[RESULT_NOISE] = process.noise_q4;
+        results[RESULT_HYSTERESIS] = process.hysteresis;
     }
 }
 
@@ -425,6 +448,9 @@ int tuner_experiment(void)
            (fixpid_autotune_status(&autotune) == FIXPID_AUTOTUNE_RUNNING)) {
         const int16_t y = scene_read(&scene);
         const int16_t u = fixpid_autotune_step(&autotune, r, y);
+        struct fixpid_autotune_stage stage;
+        fixpid_autotune_progress(&autotune, &stage);
+        keep_stage(n, &stage);
         counts[COUNT_SETPOINT][n] = r;
         counts[COUNT_MEASUREMENT][n] = y;
         counts[COUNT_OUTPUT][n] = u;
@@ -440,20 +466,45 @@ int tuner_experiment(void)
     return n;
 }
 
+int tuner_pack(void)
+{
+    return fixpid_autotune_pack(&autotune, &record) ? 1 : 0;
+}
+
+// A number of the record, whose layout is in fixpid_autotune.h.
+static int16_t recorded(int at)
+{
+    return (int16_t)(record.bytes[at] | (record.bytes[at + 1] << 8));
+}
+
+int tuner_unpack(void)
+{
+    forget_results();
+    if (!fixpid_autotune_unpack(&autotune, &record)) {
+        return 0;
+    }
+    tell_experiment();
+    results[RESULT_OUTPUT_MIN] = recorded(RECORD_OUTPUT_MIN);
+    results[RESULT_OUTPUT_MAX] = recorded(RECORD_OUTPUT_MAX);
+    results[RESULT_OPTIONS] =
+        (record.bytes[RECORD_REVERSE] != 0u) ? TUNER_OPTION_REVERSE : 0u;
+    return 1;
+}
+
 int tuner_rule(int rule)
 {
+    const uint8_t robustness = (uint8_t)param(PARAM_ROBUSTNESS);
     struct fixpid_pid_config config = {.output_min = 0};
-    const bool has = fixpid_autotune_result(
-        &autotune, (uint8_t)rule, (uint8_t)param(PARAM_ROBUSTNESS), &config);
+    const bool has =
+        fixpid_autotune_result(&autotune, (uint8_t)rule, robustness, &config);
 
+    results[RESULT_REASON] =
+        fixpid_autotune_reason(&autotune, (uint8_t)rule, robustness);
     // A rule without gains leaves zeros.
     results[RESULT_KP] = config.gains.kp_q8;
     results[RESULT_KI] = config.gains.ki_q24;
     results[RESULT_KD] = config.gains.kd_q8;
     results[RESULT_FILTER] = config.gains.derivative_filter;
     results[RESULT_WEIGHT] = config.setpoint_weight_q8;
-    results[RESULT_OPTIONS] = config.proportional_on_measurement
-                                  ? TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT
-                                  : 0u;
     return has ? 1 : 0;
 }

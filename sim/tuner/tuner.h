@@ -5,9 +5,9 @@
 // test, it gives the same bits: see libm/math.h.
 //
 // The caller fills tuner_params and tuner_events and calls tuner_run or
-// tuner_experiment; what comes of it is in tuner_counts, tuner_values and
-// tuner_results. tools/lib/pages/tuner.rb reads the lists of names for the
-// page.
+// tuner_experiment, or fills tuner_record and calls tuner_unpack; what comes of
+// it is in tuner_counts, tuner_values and tuner_results.
+// tools/lib/pages/tuner.rb reads the lists of names for the page.
 #ifndef TUNER_H
 #define TUNER_H
 #include <stdint.h>
@@ -95,6 +95,9 @@ enum tuner_count {
     COUNT_I,
     COUNT_D,
     COUNT_FLAGS,
+    COUNT_PHASE, // of an experiment, as fixpid_autotune_progress has it
+    COUNT_DONE,
+    COUNT_PERIOD,
     TUNER_COUNTS
 };
 
@@ -114,22 +117,29 @@ enum tuner_result {
     RESULT_FILTER,
     RESULT_WEIGHT, // x 256, as in the configuration
     RESULT_OPTIONS,
-    RESULT_DEAD_S, // the dead time as it is simulated
+    RESULT_DEAD_S,     // the dead time as it is simulated
+    RESULT_OUTPUT_MIN, // of a record that was unpacked
+    RESULT_OUTPUT_MAX,
     RESULT_STATUS, // of the experiment, as all below
+    RESULT_DONE,
+    RESULT_EXPECTED,
+    RESULT_PERIOD,
+    RESULT_HAS_MODEL, // 1, or 0: then the model is zeros
     RESULT_GAIN,
     RESULT_LAG,
     RESULT_DEAD,
-    RESULT_ULTIMATE,
-    RESULT_PERIOD,
+    RESULT_SLOPE,
     RESULT_HOLDING,
     RESULT_NOISE,
     RESULT_HYSTERESIS,
+    RESULT_REASON, // why the rule has no gains
     TUNER_RESULTS
 };
 
 double *tuner_params(void);
 double *tuner_events(void);
 double *tuner_results(void);
+uint8_t *tuner_record(void); // FIXPID_AUTOTUNE_RECORD_SIZE bytes
 int32_t *tuner_counts(int series);
 double *tuner_values(int series);
 
@@ -142,8 +152,18 @@ int tuner_run(void);
 // tuner_results.
 int tuner_experiment(void);
 
-// The gains of one rule after an experiment, in tuner_results. Returns 1, or 0
-// where the rule has none, which are zeros then.
+// The record of the experiment, into tuner_record. Returns 1, or 0 where there
+// is none: it has not ended within TUNER_STEPS, or it was refused.
+int tuner_pack(void);
+
+// The experiment that tuner_record has, maybe a chip's: its status, its model
+// and its range of outputs are in tuner_results, and in RESULT_OPTIONS whether
+// it is reverse acting. Returns 1, or 0 where the record is refused.
+int tuner_unpack(void);
+
+// The gains of one rule after one of these, by the robustness of the
+// parameters, in tuner_results. Returns 1, or 0 where the rule has none, which
+// are zeros then; RESULT_REASON says why.
 int tuner_rule(int rule);
 
 #endif

@@ -71,7 +71,7 @@ const WORDS = [
     ['fixpid_pid_track', 'include/fixpid_pid.h.html'],
     ['FIXPID_SLEW_RATE', 'include/fixpid_slew.h.html'],
     ['brown-out', 'docs/ports.html'],
-    ['SIMC', 'include/fixpid_autotune.h.html'],
+    ['lopsided', 'include/fixpid_autotune.h.html'],
     ['CMSIS-DSP', 'docs/migrating.html'],
     ['pendulum', 'docs/tuning.html'],
     ['EEPROM', 'docs/recipes.html'],

@@ -112,9 +112,9 @@ for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset 
         return { status: experiment.results.STATUS, has: experiment.rules.filter((rule) => rule.has).length, differ };
     }, preset);
     // A motor without dead time swings too fast for it, and it says so.
-    const [status, least] = preset.preset === 'motor' ? [6, 0] : [2, 5];
-    check(`autotune of ${preset.preset}: status ${status}, ${found.has} rules`,
-        found.status === status && found.has >= least, `status ${found.status}`);
+    const [status, has] = preset.preset === 'motor' ? [6, 0] : [2, 6];
+    check(`autotune of ${preset.preset}: status ${found.status}, ${found.has} of 6 gains`,
+        found.status === status && found.has === has, `not status ${status} and ${has}`);
     checkNone(`rules of ${preset.preset} keep their integers`, found.differ.map((rule) => rule.rule));
 }
 

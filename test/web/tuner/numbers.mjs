@@ -41,9 +41,20 @@ function answersOf(states) {
         const found = verb === 1 ? tuner.experiment(state) : tuner.run(state);
         whole(found.n);
         list(found.results);
-        for (const rule of found.rules ?? []) {
+        const rules = (all) => all.forEach((rule) => {
             whole(Number(rule.has));
             list(rule.results);
+        });
+        if (verb === 1) {
+            rules(found.rules);
+            whole(Number(found.record !== null));
+        }
+        if (found.record) {
+            const again = tuner.recorded(state, found.record);
+            put(found.record);
+            whole(Number(again !== null));
+            list(again.results);
+            rules(again.rules);
         }
         for (const series of Object.values(found.series)) {
             put(series);
@@ -68,7 +79,7 @@ function differences(a, b) {
     }
     let differ = 0;
     for (let i = 0; i < a.length; i += 4) {
-        differ += a.compare(b, i, i + 4, i, i + 4) === 0 ? 0 : 1;
+        differ += a.compare(b, i, Math.min(i + 4, b.length), i, Math.min(i + 4, a.length)) === 0 ? 0 : 1;
     }
     return differ === 0 ? '' : `${differ} numbers differ`;
 }

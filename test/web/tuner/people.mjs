@@ -4,7 +4,7 @@
 import { readFileSync, statSync } from 'node:fs';
 import { AXE, check, checkNone, finish, open, random, WORK } from './harness.mjs';
 
-const BYTES_MAX = 150000;
+const BYTES_MAX = 170000;
 const PHONE = { viewport: { width: 390, height: 844 } };
 
 check(`the page is ${statSync(`${WORK}/index.html`).size} bytes`, statSync(`${WORK}/index.html`).size <= BYTES_MAX,
@@ -15,7 +15,7 @@ const presets = await page.evaluate(() => window.tuner.PRESETS.map((one) => one.
 
 // All that a person reads, but what is said in passing.
 function readable() {
-    const texts = ['#story', '#advice', '#metrics', '#found', '#rules', '#margins', '#header', '#chips-text', '#chips']
+    const texts = ['#story', '#advice', '#metrics', '#found', '#rules', '#stage', '#margins', '#header', '#chips-text', '#chips']
         .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
     const legends = [...document.querySelectorAll('figcaption, #flags, #presets button[aria-pressed=true]')].map((one) => one.textContent);
     const fields = [...document.querySelectorAll('#panel input, #events input, #events select, #options input')]
@@ -76,7 +76,7 @@ const text = (here, selector) => here.locator(selector).first().textContent();
     await here.evaluate(() => document.activeElement.blur());
     check('keyboard: autotune', await tabTo(here, '#modes button[value=tune]'));
     await press(here, 'Enter');
-    check('keyboard: a rule', await tabTo(here, '#rules button[aria-label="Use AMIGO PI"]'));
+    check('keyboard: a rule', await tabTo(here, '#rules button[aria-label="Use PI, safe 16"]'));
     await press(here, 'Enter');
     check('keyboard: the rule is in use', (await here.inputValue('#c-kd')) === '0' &&
         (await here.getAttribute('#modes button[value=run]', 'aria-pressed')) === 'true');
@@ -196,6 +196,96 @@ const text = (here, selector) => here.locator(selector).first().textContent();
     checkNone('a fitted plant leaves nothing stale', await stale(here));
     await here.fill('#recording', 'nonsense');
     check('what is none is said', (await text(here, '#fit')).includes('no step response') && await here.isDisabled('#use-fit'));
+    await here.close();
+}
+
+// --- An experiment, in words ---------------------------------------------------------
+{
+    const here = await open('p=flow');
+    const label = await here.locator('label[for=c-robustness]').textContent();
+    check('the words of robustness have their numbers', label.includes('8 quick, 16 safe, 32 calm'), label);
+    await here.click('#modes button[value=tune]');
+    const names = () => here.locator('#rules tbody th').allTextContents();
+    const words = ['quick 8', 'safe 16', 'calm 32'].flatMap((word) => [`PI, ${word}`, `PID, ${word}`]).sort();
+    check('both rules by three words', (await names()).sort().join() === words.join(), (await names()).join());
+    const found = await text(here, '#found');
+    check('the model is told', /^Measured after .* s, .* steps: gain 4\.\d+, lag 8\.\d+ s, delay \d.* s; output 500 holds the setpoint/.test(found), found);
+    check('it is over at its end', /^At \d+ s it is over\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
+    await here.focus('#plots');
+    await press(here, 'Home');
+    const start = await text(here, '#stage');
+    check('it begins with the noise', /^At 0 (ms|s) it measures the noise: 0 of 13 cycles, 0 %\.$/.test(start), start);
+    await press(here, ...new Array(60).fill('ArrowRight'));
+    const amid = await text(here, '#stage');
+    const [, at, done, left] = amid.match(/^At (.*) s it swings .*: (\d+) of 13 cycles, \d+ %; at most (.*) s more\.$/) ?? [];
+    const whole = Number(found.match(/after (\d+) s/)[1]);
+    check('amid it says what is left', Number(done) > 5 && Number(done) < 13 && Number(at) + Number(left) >= whole * 0.95 && Number(left) < 0.8 * whole, amid);
+    await here.evaluate(() => window.tuner.change({ ROBUSTNESS: 24 }));
+    await frame(here);
+    check('another number has rows of its own', (await names()).includes('PID, 24') && (await names()).length === 8, (await names()).join());
+    await here.click('#rules button[aria-label="Use PID, 24"]');
+    await frame(here);
+    check('and is used with its rule', new URL(here.url()).hash.includes('robustness=24') && new URL(here.url()).hash.includes('rule=PID'), here.url());
+    const untold = await here.evaluate(() => {
+        const { CAUSE, STATUS, experimentText } = window.tuner;
+        const said = (STATUS, REASON) => experimentText(1, 'Measured', { results: { STATUS, HAS_MODEL: 0, DONE: 1, EXPECTED: 13 }, rules: [{ rule: 'PI', robustness: 16, has: false, results: { REASON } }] });
+        const texts = [...Object.values(STATUS).map((one) => said(one, CAUSE.SHAPE)), ...Object.values(CAUSE).filter((one) => one !== CAUSE.NO_REASON).map((one) => said(STATUS.DONE, one))];
+        return texts.filter((one, i) => !/^[A-Z].{20,}\.$/.test(one) || one.includes('undefined') || (texts.indexOf(one) !== i && !one.includes('wave')));
+    });
+    checkNone('each status and each reason has a sentence', untold);
+    checkNone('an experiment makes no error', here.noted.errors);
+    await here.close();
+}
+
+// --- A chip's record ------------------------------------------------------------------
+{
+    const here = await open('p=flow');
+    // As a chip has it: other limits, reverse acting.
+    const record = await here.evaluate(() => {
+        const { currentState, experiment, recordText } = window.tuner;
+        const s = { ...currentState(), GAIN: -100, START: 90, OPTIONS: 0x80, OUTPUT_MIN: -50, OUTPUT_MAX: 900 };
+        return recordText(experiment(s).record);
+    });
+    check('a record has 62 bytes', record.split(/\s+/).length === 62, record);
+    const said = () => text(here, '#record-found');
+    const shown = async () => (await here.isVisible('#record-rules')) && here.locator('#record-rules button').count();
+    await here.fill('#record', record);
+    check('a record is computed', /^At 20 steps per second, as set on this page: gain 4\.\d+, lag 8\.\d+ s/.test(await said()) && (await shown()) === 6, await said());
+    const first = await said();
+    await here.fill('#record', record.replace(/[0-9a-f]+/g, '0x$&,').toUpperCase());
+    check('an array of C is the same', (await said()) === first, await said());
+    await here.evaluate(() => window.tuner.change({ RATE: 40 }));
+    await frame(here);
+    check('its times are of the page’s rate', /^At 40 steps .*, lag 4\.\d+ s/.test(await said()), await said());
+    await here.evaluate(() => window.tuner.change({ RATE: 20 }));
+    await frame(here);
+    const ki = await here.locator('#record-rules tr').nth(4).locator('td').nth(2).textContent();
+    await here.click('#record-rules button[aria-label="Use PID, quick 8"]');
+    await frame(here);
+    const taken = await here.evaluate(() => {
+        const { KP, KI, KD, OPTIONS, OUTPUT_MIN, OUTPUT_MAX, rule, ROBUSTNESS } = window.tuner.currentState();
+        return { KP, KI, KD, OPTIONS, OUTPUT_MIN, OUTPUT_MAX, rule, ROBUSTNESS };
+    });
+    check('its gains and its actuator are taken', taken.KP > 0 && taken.KD > 0 && Math.abs(taken.KI - Number(ki)) < 0.005 * taken.KI &&
+        taken.OPTIONS === 0x80 && taken.OUTPUT_MIN === -50 && taken.OUTPUT_MAX === 900 && taken.rule === 'PID' && taken.ROBUSTNESS === 8, JSON.stringify(taken));
+    check('the header has them', /-50, +\/\* output_min.*\n.*900, +\/\* output_max/.test(await text(here, '#header')) && /true, +\/\* reverse/.test(await text(here, '#header')), await text(here, '#header'));
+    check('and it is said', (await text(here, '#said')).includes('by PID, quick 8 are in use'), await text(here, '#said'));
+    const wrong = {
+        'a byte is wrong': [record.replace(/.$/, (digit) => (digit === '0' ? '1' : '0')), 'A byte of the record is wrong'],
+        'another version': [`02${record.slice(2)}`, 'version 2, and this page reads version 3'],
+        'bytes are missing': [record.slice(0, -3), 'this has 122 digits instead of 124'],
+        'no digit': [record.replace(/f/, 'g'), '“g” is no such digit'],
+    };
+    for (const [name, [pasted, sentence]] of Object.entries(wrong)) {
+        await here.fill('#record', pasted);
+        check(`${name}: it is refused with a sentence`, (await said()).includes(sentence) && !(await shown()), await said());
+    }
+    await here.fill('#record', ' \n');
+    check('nothing says nothing', (await said()) === '' && !(await shown()), await said());
+    await here.click('#presets button[value=an937]');
+    await frame(here);
+    check('a note’s controller has no such card', !(await here.isVisible('#chip')));
+    checkNone('a record makes no error', here.noted.errors);
     await here.close();
 }
 

@@ -6,8 +6,8 @@
 # fixpid_pid.h and the ends of its ranges.
 module Names
   class << self
-    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., RULE: ..,
-    #   OPTION: { REVERSE: 0x80, .. }, FEATURE: .., LIMIT: { STEPS: .., KP: .. } }
+    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., CAUSE: .., RULE: ..,
+    #   WORD: { QUICK: 8, .. }, OPTION: { REVERSE: 0x80, .. }, FEATURE: .., LIMIT: { STEPS: .., KP: .. } }
     def lists
       header = File.read('sim/tuner/tuner.h')
       tuner = File.read('include/fixpid_autotune.h')
@@ -16,9 +16,12 @@ module Names
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'),
-        RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
+        CAUSE: of(tuner, 'fixpid_autotune_cause', 'FIXPID_AUTOTUNE_'), RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
+        WORD: %w[QUICK SAFE CALM].to_h { |name| [name, number(tuner, "FIXPID_AUTOTUNE_#{name}")] },
         OPTION: bits(header, 'TUNER_OPTION_'), FEATURE: bits(pid, 'FIXPID_PID_HAS_'),
-        LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid) } }
+        LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid),
+                 RECORD_SIZE: number(tuner, 'FIXPID_AUTOTUNE_RECORD_SIZE'),
+                 RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION') } }
     end
 
     def version
