@@ -149,7 +149,7 @@ AutotuneCause = _causes("autotune_cause", "autotune", {
     "NO_REASON": "There are gains.",
     "NOT_DONE": "The experiment has not measured: its status says why.",
     "NOT_LEGAL": "There is no such rule, or the robustness is outside 8..64.",
-    "SHAPE": "The wave is neither a lag's nor an integrator's: take a larger swing, a faster "
+    "SHAPE": "The wave is neither a lag's nor an integrator's: take another swing, a faster "
              "rate or less load; else set the gains by hand.",
     "TWO_PROCESSES": "The ways up and down tell of two processes: wait for a steady load. A heater "
                      "that cools slowly is two processes: set its gains by hand.",
