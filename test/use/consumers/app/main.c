@@ -76,13 +76,21 @@ static bool autotune_works(void)
         .cycles = 2,
     };
     struct fixpid_autotune tuner;
-    struct fixpid_autotune_process model;
+    struct fixpid_autotune_process process;
+    struct fixpid_autotune_stage stage;
+    struct fixpid_autotune_record record;
     struct fixpid_pid_config pid;
 
     return fixpid_autotune_init(&tuner, &config) &&
            fixpid_autotune_step(&tuner, 60, 10) == 9 &&
-           !fixpid_autotune_model(&tuner, &model) &&
-           !fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_SIMC_PI, 16, &pid);
+           !fixpid_autotune_model(&tuner, &process) &&
+           !fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_PI,
+                                   FIXPID_AUTOTUNE_SAFE, &pid) &&
+           fixpid_autotune_reason(&tuner, FIXPID_AUTOTUNE_PI,
+                                  FIXPID_AUTOTUNE_SAFE) ==
+               FIXPID_AUTOTUNE_NOT_DONE &&
+           (fixpid_autotune_progress(&tuner, &stage), stage.expected == 13) &&
+           !fixpid_autotune_pack(&tuner, &record);
 }
 
 static bool an964_limits_agree(void)

@@ -36,13 +36,16 @@ int main()
 {
     const fixpid_an964_gains gains = {1023, 0, 0};
     const fixpid_an964_8bit_gains gains_8bit = {32, 0, 0};
-    const fixpid_autotune_config experiment = {0, 255,  9, -1, 1024,
-                                               0, 1000, 2, 0};
+    const fixpid_autotune_config experiment = {0, 255,  9, -1,   1024,
+                                               0, 1000, 2, false};
     fixpid_an937 an937;
     fixpid_an964 an964;
     fixpid_an964_8bit an964_8bit;
     fixpid_pid pid;
     fixpid_autotune autotune;
+    fixpid_autotune_stage stage;
+    fixpid_autotune_process process;
+    fixpid_autotune_record experimental;
     const fixpid_tpo_config window = {255, 2, 0, 0};
     const fixpid_gains_milli typed = {2000, 0, 0};
     fixpid_pid_gains gains_typed;
@@ -67,6 +70,14 @@ int main()
         !fixpid_an964_8bit_init(&an964_8bit, &gains_8bit) ||
         !fixpid_pid_init(&pid, &valve) ||
         !fixpid_autotune_init(&autotune, &experiment)) {
+        return 1;
+    }
+    fixpid_autotune_progress(&autotune, &stage);
+    if (stage.expected != 13 || fixpid_autotune_model(&autotune, &process) ||
+        fixpid_autotune_pack(&autotune, &experimental) ||
+        fixpid_autotune_reason(&autotune, FIXPID_AUTOTUNE_PID,
+                               FIXPID_AUTOTUNE_CALM) !=
+            FIXPID_AUTOTUNE_NOT_DONE) {
         return 1;
     }
     fixpid_an937_tick(&an937);
