@@ -1,30 +1,31 @@
 # SPDX-License-Identifier: MIT
 # Prints a C file that implements test/model/autotune/table.h:
 #
-#   ruby table.rb FILE.csv [COUNT]        the first rows, or all
-CONFIG = %w[output_min output_max output_rest measurement_min measurement_max swing timeout_steps cycles
-            options].freeze
-PLANT = %w[delay lags pole_q16 gain_q16 load step_at step_by base start noise seed full_scale].freeze
-MODEL = %w[gain_q8 lag_q4 dead_q4 slope_q24 ultimate_q8 period_q4 holding noise_q4 hysteresis].freeze
-RULES = %w[simc_pi amigo_pi amigo_pid tyreus_luyben_pi tyreus_luyben_pid ziegler_nichols_pi ziegler_nichols_pid
-           rule_7].freeze
-REVERSE = 0x80
+#   ruby table.rb FILE.csv [STEPS [COUNT]]     all rows, or those of at most so
+#                                              many steps, or so many of them
+require_relative 'columns'
+
+PLANT = %w[integrating growth_q16 delay lags pole_q16 ratio_q8 lead_q16 leads spring_q16 damp_q16 fall_q16 backlash
+           gain_q16 load step_at step_by drift_q16 drift_steps base start noise seed full_scale].freeze
+MODEL = %w[gain_q8 lag_q4 dead_q4 slope_q24 holding noise_q4 hysteresis].freeze
+GAINS = %w[pi_quick pi_safe pi_calm pi_robustness pid_quick pid_safe pid_calm pid_robustness rule_2].freeze
 MASK = 0xFFFFFFFF
+WEIGHT_BEFORE = 128
+WEIGHT = 256
 
-# [accepted, kp, ki, kd, filter, weight, proportional on the measurement]
-def rule_values(text)
-  return [0] * 7 if text == '-'
+# [reason, kp, ki, kd, filter, weight, proportional on the measurement]
+def gains_values(text)
+  return [Integer(text[1..], 10), 0, 0, 0, 0, WEIGHT_BEFORE, 1] if text.start_with?('-')
 
-  gains = text.split.map { |number| Integer(number, 10) }
-  [1, *gains, gains.last.zero? ? 1 : 0]
+  [0, *text.split.map { |number| Integer(number, 10) }, WEIGHT, 0]
 end
 
 # The order of enum player_value.
 def recorded_values(row)
   model = row.values_at(*MODEL)
-  model_values = model.first.empty? ? [0] * 10 : [1, *model.map { |number| Integer(number, 10) & MASK }]
-  [Integer(row['status']), Integer(row['steps']), row['digest'].hex, *model_values,
-   *row.values_at(*RULES).flat_map { |text| rule_values(text) }]
+  model_values = model.first.empty? ? [0] * 8 : [1, *model.map { |number| Integer(number, 10) & MASK }]
+  [Integer(row['status']), Integer(row['steps']), row['digest'].hex, row['told'].hex, *model_values,
+   *row.values_at(*GAINS).flat_map { |text| gains_values(text) }]
 end
 
 def fnv(bytes)
@@ -32,16 +33,18 @@ def fnv(bytes)
 end
 
 def table_row(row)
-  plant = [row['integrating'], Integer(row['options']) & REVERSE == 0 ? 0 : 1, *row.values_at(*PLANT)]
+  config = Columns.configuration(row)
+  plant = [*row.values_at(*PLANT), config.last]
   values = recorded_values(row)
   digest = fnv(values.pack('V*').bytes)
-  [format("// #{values.map { |value| format('%08x', value) }.join(' ')}"),
-   "{{{#{row.values_at(*CONFIG).join(', ')}}, {#{plant.join(', ')}}, #{row['setpoint']}, #{row['robustness_q4']}}, " \
-   "#{digest}u},"]
+  ["// #{values.map { |value| format('%08x', value) }.join(' ')}",
+   "{{{#{config.join(', ')}}, {#{plant.join(', ')}}, #{row['setpoint']}, #{row['robustness_q4']}}, #{digest}u},"]
 end
 
 names, *lines = File.readlines(ARGV[0], chomp: true).map { |line| line.split(',', -1) }
-rows = lines.first(Integer(ARGV[1] || lines.size)).map { |line| names.zip(line).to_h }
+rows = lines.map { |line| names.zip(line).to_h }
+rows.select! { |row| Integer(row['steps']) <= Integer(ARGV[1]) } if ARGV[1]
+rows = rows.first(Integer(ARGV[2])) if ARGV[2]
 puts '// Made by table.rb: do not edit.', '#include "table.h"'
 puts 'const struct table_row table_rows[] = {', rows.flat_map { |row| table_row(row) }, '};'
 puts "const uint16_t table_count = #{rows.size};"
