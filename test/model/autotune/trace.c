@@ -4,9 +4,13 @@
 //
 //   i CONFIGURATION... ACCEPTED
 //   n STATUS                                        a reset
-//   s SETPOINT MEASUREMENT OUTPUT STATUS
+//   s SETPOINT MEASUREMENT OUTPUT STATUS PROGRESS...
 //   m ACCEPTED MODEL...                             0 for what was not given
-//   r RULE ROBUSTNESS ACCEPTED KP KI KD FILTER WEIGHT OPTIONS
+//   r RULE ROBUSTNESS ACCEPTED KP KI KD FILTER WEIGHT OPTIONS REASON
+//   u PACKED SPOILT GOOD STATUS PROGRESS...   whether a record of the
+//   experiment
+//        was made, one with a turned bit accepted, and the good one in an
+//        object of any bytes, which goes on from there
 #include <string.h>
 
 #include "autotune_plant.h"
@@ -25,6 +29,9 @@ enum kind {
     SPIKES,  // next to nothing, but for a spike at the end of each half
     EXTREME, // a lag with any counts, small or large
     NOISE,   // any measurement, and any configuration
+    HEATER,  // a lag that falls more slowly than it rises
+    RUNAWAY, // an integrator that grows by itself
+    COARSE,  // a lag of few counts, which all outputs there are move
     KINDS
 };
 
@@ -77,8 +84,7 @@ static struct fixpid_autotune_config any_config(void)
     config.swing = (uint16_t)(one_of(2) ? 0 : between(0, 17000));
     config.timeout_steps = (uint16_t)between(0, 33000);
     config.cycles = (uint8_t)between(0, 5);
-    config.options =
-        (uint8_t)(one_of(8) ? numbers_next() : numbers_below(2) * 0x80u);
+    config.reverse = one_of(2);
     return config;
 }
 
@@ -96,7 +102,7 @@ static struct fixpid_autotune_config legal_config(void)
     config.swing = (uint16_t)(one_of(3) ? 0 : between(8, 600));
     config.timeout_steps = (uint16_t)between(200, 2000);
     config.cycles = (uint8_t)between(1, 4);
-    config.options = (uint8_t)(numbers_below(2) * 0x80u);
+    config.reverse = one_of(2);
     return config;
 }
 
@@ -109,6 +115,11 @@ static void shape(struct plant_config *plant, int32_t span)
     plant->delay = (uint8_t)between(plant->integrating ? 3 : 0, 12);
     plant->lags = (uint8_t)between(plant->integrating ? 0 : 1, 3);
     plant->pole_q16 = between(3000, 30000);
+    plant->ratio_q8 = one_of(2) ? 256 : between(128, 1024);
+    if (plant->lags > 1u && one_of(6)) { // it begins in the wrong direction
+        plant->leads = 1;
+        plant->lead_q16 = -between(6000, 40000);
+    }
     if (plant->integrating) {
         slowness = plant->delay + 1 + plant->lags * 65536 / plant->pole_q16;
     }
@@ -121,9 +132,10 @@ static void shape(struct plant_config *plant, int32_t span)
 // A plant that the output range moves through most of its scale; the setpoint
 // that an output somewhere in the range holds.
 static int16_t start_plant(const struct fixpid_autotune_config *config,
-                           bool integrating)
+                           enum kind kind)
 {
-    static const int32_t scales[] = {255, 1023, 4095, 30000};
+    const bool integrating = kind == INTEGRATOR || kind == RUNAWAY;
+    static const int32_t scales[] = {1023, 4095, 30000, 255};
     const int32_t span = (int32_t)config->output_max - config->output_min;
     const int32_t holding = config->output_min + span * between(3, 97) / 100;
     struct plant_config plant;
@@ -131,8 +143,8 @@ static int16_t start_plant(const struct fixpid_autotune_config *config,
 
     memset(&plant, 0, sizeof plant);
     plant.integrating = integrating;
-    plant.falling = config->options != 0;
-    plant.full_scale = scales[numbers_below(4)];
+    plant.falling = config->reverse;
+    plant.full_scale = (kind == COARSE) ? 255 : scales[numbers_below(4)];
     shape(&plant, span);
     plant.start = config->output_rest;
     plant.noise = one_of(2) ? between(0, 4) : 0;
@@ -151,7 +163,13 @@ static int16_t start_plant(const struct fixpid_autotune_config *config,
         plant.base = plant.full_scale / between(2, 4);
         setpoint = plant.full_scale / 2;
     }
-    plant_start(&world.plant, &plant);
+    if (kind == COARSE) {
+        plant.noise = 0;
+        plant.step_by = 0;
+    }
+    plant.fall_q16 = (kind == HEATER) ? plant.pole_q16 / between(2, 8) : 0;
+    plant.growth_q16 = (kind == RUNAWAY) ? between(200, 2500) : 0;
+    plant_start(&world.plant, &plant, config->output_rest);
     return (int16_t)(plant.falling ? plant.full_scale - setpoint : setpoint);
 }
 
@@ -194,6 +212,9 @@ static int16_t measure(void)
     case LAG:
     case INTEGRATOR:
     case EXTREME:
+    case HEATER:
+    case RUNAWAY:
+    case COARSE:
         return plant_measure(&world.plant);
     case SWING:
     case SPIKES:
@@ -207,7 +228,7 @@ static int16_t measure(void)
 static void say_model(void)
 {
     struct fixpid_autotune_process model;
-    int32_t values[10];
+    int32_t values[8];
 
     memset(&model, 0, sizeof model);
     values[0] = fixpid_autotune_model(&autotune_controller, &model);
@@ -215,12 +236,10 @@ static void say_model(void)
     values[2] = (int32_t)model.lag_q4;
     values[3] = (int32_t)model.dead_q4;
     values[4] = (int32_t)model.slope_q24;
-    values[5] = (int32_t)model.ultimate_q8;
-    values[6] = (int32_t)model.period_q4;
-    values[7] = model.holding;
-    values[8] = model.noise_q4;
-    values[9] = model.hysteresis;
-    trace_say('m', values, 10);
+    values[5] = model.holding;
+    values[6] = model.noise_q4;
+    values[7] = model.hysteresis;
+    trace_say('m', values, 8);
 }
 
 // As the bits of a record, of which two are not the result's to change.
@@ -241,7 +260,7 @@ static uint8_t options_of(const struct fixpid_pid_config *config)
 static void say_result(uint8_t rule, uint8_t robustness_q4)
 {
     struct fixpid_pid_config config;
-    int32_t values[9] = {rule, robustness_q4};
+    int32_t values[10] = {rule, robustness_q4};
 
     memset(&config, 0, sizeof config);
     config.setpoint_weight_q8 = 128;
@@ -256,17 +275,57 @@ static void say_result(uint8_t rule, uint8_t robustness_q4)
     values[7] = config.setpoint_weight_q8;
     values[8] =
         (int32_t)(((uint32_t)values[8] << 8) | (uint32_t)options_of(&config));
-    trace_say('r', values, 9);
+    values[9] =
+        fixpid_autotune_reason(&autotune_controller, rule, robustness_q4);
+    trace_say('r', values, 10);
 }
 
 static void say_results(void)
 {
-    const uint8_t robustness_q4 = (uint8_t)(one_of(2) ? 16 : between(4, 70));
-
     say_model();
-    for (uint8_t rule = 0; rule <= 7; rule++) {
-        say_result(rule, robustness_q4);
+    for (uint8_t rule = 0; rule <= 2; rule++) {
+        say_result(rule, FIXPID_AUTOTUNE_SAFE);
+        say_result(rule,
+                   one_of(2) ? FIXPID_AUTOTUNE_QUICK : FIXPID_AUTOTUNE_CALM);
+        say_result(rule, (uint8_t)between(4, 70));
     }
+}
+
+// Writes the status and the four fields of the progress.
+static void ask_progress(int32_t values[5])
+{
+    struct fixpid_autotune_stage stage;
+
+    fixpid_autotune_progress(&autotune_controller, &stage);
+    values[0] = status();
+    values[1] = stage.phase;
+    values[2] = stage.done;
+    values[3] = stage.expected;
+    values[4] = stage.period;
+}
+
+// What is written to an object that held anything.
+static void say_record(void)
+{
+    struct fixpid_autotune_record record;
+    struct fixpid_autotune_record spoilt;
+    int32_t values[8] = {0, 0, 0};
+
+    values[0] = fixpid_autotune_pack(&autotune_controller, &record);
+    if (values[0] != 0) {
+        const uint32_t at = numbers_below(FIXPID_AUTOTUNE_RECORD_SIZE);
+
+        spoilt = record;
+        spoilt.bytes[at] ^= (uint8_t)(1u << numbers_below(8));
+        values[1] = fixpid_autotune_unpack(&autotune_controller, &spoilt);
+        if (one_of(2)) {
+            say_model(); // the object is as it was
+        }
+        numbers_fill(&autotune_controller, sizeof autotune_controller);
+        values[2] = fixpid_autotune_unpack(&autotune_controller, &record);
+    }
+    ask_progress(&values[3]);
+    trace_say('u', values, 8);
 }
 
 static void start(const struct fixpid_autotune_config *config)
@@ -276,7 +335,7 @@ static void start(const struct fixpid_autotune_config *config)
                               config->output_rest,     config->measurement_min,
                               config->measurement_max, config->swing,
                               config->timeout_steps,   config->cycles,
-                              config->options,         good};
+                              config->reverse,         good};
 
     trace_say('i', values, 10);
 }
@@ -285,9 +344,10 @@ static int16_t step(int16_t setpoint, int16_t measurement)
 {
     const int16_t output =
         fixpid_autotune_step(&autotune_controller, setpoint, measurement);
-    const int32_t values[] = {setpoint, measurement, output, status()};
+    int32_t values[8] = {setpoint, measurement, output};
 
-    trace_say('s', values, 4);
+    ask_progress(&values[3]);
+    trace_say('s', values, 8);
     return output;
 }
 
@@ -318,30 +378,36 @@ static int16_t prepare(enum kind kind, struct fixpid_autotune_config *config)
         break;
     case LAG:
     case INTEGRATOR:
+    case HEATER:
+    case RUNAWAY:
         config->output_min = (int16_t)(one_of(2) ? 0 : -between(1, 999));
         config->output_max = (int16_t)between(100, 1000);
         config->output_rest = (int16_t)(one_of(2) ? 0 : config->output_min);
-        setpoint = start_plant(config, kind == INTEGRATOR);
+        setpoint = start_plant(config, kind);
         if (one_of(16)) {
             setpoint = (int16_t)(setpoint * 3 / 2); // likely out of reach
         }
         break;
+    case COARSE:
+        config->output_min = (int16_t)between(INT16_MIN, -30000);
+        config->output_max = (int16_t)between(30000, INT16_MAX);
+        config->output_rest = 0;
+        config->swing = (uint16_t)between(8, 40);
+        setpoint = start_plant(config, kind);
+        break;
     case EXTREME:
     default:
-        setpoint = start_plant(config, one_of(4));
+        setpoint = start_plant(config, one_of(4) ? INTEGRATOR : LAG);
         break;
     }
     return setpoint;
 }
 
-static void experiment(enum kind kind)
+static void play(int16_t setpoint)
 {
-    struct fixpid_autotune_config config;
-    const int16_t setpoint = prepare(kind, &config);
     uint16_t until_reset = (uint16_t)(one_of(4) ? between(1, 1200) : 0);
     uint8_t after = 3; // steps once it is over
 
-    start(&config);
     while (after != 0) {
         const int16_t output = step(setpoint, measure());
 
@@ -349,6 +415,7 @@ static void experiment(enum kind kind)
         if (until_reset != 0) {
             until_reset--;
             if (until_reset == 0) {
+                say_record();
                 start_again();
             }
         }
@@ -356,7 +423,23 @@ static void experiment(enum kind kind)
             after--;
         }
     }
+}
+
+static void experiment(enum kind kind)
+{
+    struct fixpid_autotune_config config;
+    const int16_t setpoint = prepare(kind, &config);
+
+    start(&config);
+    play(setpoint);
     say_results();
+    say_record();
+    say_results();
+    (void)step(setpoint, setpoint);
+    if (one_of(4)) { // what was unpacked can start again
+        start_again();
+        (void)step(setpoint, setpoint);
+    }
 }
 
 void trace_experiment(uint32_t number)
