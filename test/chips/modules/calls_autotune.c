@@ -42,7 +42,7 @@ static void draw(void)
     config.swing = one_in(3) ? 0 : (uint16_t)(8u + numbers_below(600));
     config.timeout_steps = one_in(8) ? 40 : 4000;
     config.cycles = (uint8_t)(1u + numbers_below(4));
-    config.options = one_in(3) ? FIXPID_AUTOTUNE_REVERSE : 0;
+    config.reverse = one_in(3);
     plant.delay = (uint8_t)(1u + numbers_below(DELAY_MAX));
     plant.oldest = 0;
     plant.first_shift = (uint8_t)numbers_below(4);
@@ -70,7 +70,7 @@ static int16_t measure(void)
     }
     counts = (counts < 0) ? 0 : counts;
     counts = (counts > FULL_SCALE) ? FULL_SCALE : counts;
-    return (int16_t)((config.options != 0u) ? FULL_SCALE - counts : counts);
+    return (int16_t)(config.reverse ? FULL_SCALE - counts : counts);
 }
 
 static void move(int16_t output)
@@ -100,33 +100,76 @@ static void answer(uint32_t value)
     calls_answer(value, value);
 }
 
-static void ask_results(void)
+static void ask_progress(void)
 {
-    struct fixpid_autotune_process model = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+    struct fixpid_autotune_stage stage;
 
-    answer(fixpid_autotune_status(&tuner));
+    fixpid_autotune_progress(&tuner, &stage);
+    answer(stage.phase);
+    answer(stage.done);
+    answer(stage.expected);
+    answer(stage.period);
+}
+
+static void ask_model(void)
+{
+    struct fixpid_autotune_process model = {0, 0, 0, 0, 0, 0, 0};
+
     answer(fixpid_autotune_model(&tuner, &model));
     answer(model.gain_q8);
     answer(model.lag_q4);
     answer(model.dead_q4);
     answer(model.slope_q24);
-    answer(model.ultimate_q8);
-    answer(model.period_q4);
     answer((uint32_t)(int32_t)model.holding);
     answer(model.noise_q4);
     answer(model.hysteresis);
-    for (uint8_t rule = 0; rule < 8u; rule++) {
-        struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0,     0,    0, 0, 0,
-                                          false,        false, false};
+}
 
-        answer(fixpid_autotune_result(
-            &tuner, rule, (uint8_t)(8u + numbers_below(57)), &gains));
-        answer(gains.gains.kp_q8);
-        answer(gains.gains.ki_q24);
-        answer(gains.gains.kd_q8);
-        answer(gains.gains.derivative_filter);
-        answer(gains.setpoint_weight_q8);
-        answer(gains.proportional_on_measurement ? 1u : 0u);
+static void ask_gains(uint8_t rule, uint8_t robustness_q4)
+{
+    struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0,     0,    0, 0, 0,
+                                      false,        false, false};
+
+    answer(fixpid_autotune_result(&tuner, rule, robustness_q4, &gains) ? 1u
+                                                                       : 0u);
+    answer(gains.gains.kp_q8);
+    answer(gains.gains.ki_q24);
+    answer(gains.gains.kd_q8);
+    answer(gains.gains.derivative_filter);
+    answer(gains.setpoint_weight_q8);
+    answer(gains.proportional_on_measurement ? 1u : 0u);
+    answer(fixpid_autotune_reason(&tuner, rule, robustness_q4));
+}
+
+// The bytes of a record are the same on each machine. What only measures the
+// experiment and its result leaves the record out.
+#ifdef CALLS_RECORD
+static void ask_record(void)
+{
+    static struct fixpid_autotune_record record;
+    const bool packed = fixpid_autotune_pack(&tuner, &record);
+
+    answer(packed ? 1u : 0u);
+    if (packed) {
+        for (uint8_t i = 0; i < FIXPID_AUTOTUNE_RECORD_SIZE; i++) {
+            answer(record.bytes[i]);
+        }
+        answer(fixpid_autotune_unpack(&tuner, &record) ? 1u : 0u);
+    }
+}
+#define ASK_RECORD() ask_record()
+#else
+#define ASK_RECORD() ((void)0)
+#endif
+
+static void ask_results(void)
+{
+    answer(fixpid_autotune_status(&tuner));
+    ASK_RECORD();
+    ask_model();
+    for (uint8_t rule = 0; rule < 3u; rule++) {
+        ask_gains(rule, FIXPID_AUTOTUNE_SAFE);
+        ask_gains(rule, (uint8_t)(8u + numbers_below(57)));
     }
 }
 
@@ -183,11 +226,11 @@ void calls_random(uint32_t count)
         answer(fixpid_autotune_init(&tuner, &config));
         do {
             const int16_t target =
-                (int16_t)((config.options != 0u) ? FULL_SCALE - setpoint
-                                                 : setpoint);
+                (int16_t)(config.reverse ? FULL_SCALE - setpoint : setpoint);
 
             output = step(target, measure());
             answer((uint32_t)(int32_t)output);
+            ask_progress();
             move(output);
             steps++;
         } while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING);

@@ -109,8 +109,8 @@ module Images
     end
 
     # Any other program for a PIC18.
-    def program(name, words)
-      build('pic18f4520', name, 'port', '-Itest/support', *words)
+    def program(name, words, chip = 'pic18f4520')
+      build(chip, name, 'port', '-Itest/support', *words)
     end
 
     # All examples, as tools/firmware builds them.

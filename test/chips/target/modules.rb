@@ -19,8 +19,13 @@ class CalledModule
   # What is metered, if not `step`.
   FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result] }.freeze
 
-  # The autotuner fills a PIC18 and has no definition in C: test/model/autotune compares
-  # it.
+  # Whether a machine has the same of the autotuner's record, too.
+  MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
+
+  # Where the calls of a module, each of its functions among them, need more than 32 KB.
+  CHIPS = { 'autotune' => 'pic18f26k22' }.freeze
+
+  # The autotuner has no definition in C: test/model/autotune compares it.
   def initialize(name)
     @name = name
     @functions = FUNCTIONS.fetch(name, %w[step]).map { |verb| "fixpid_#{name}_#{verb}" }
@@ -51,7 +56,7 @@ class CalledModule
     if Modules::ALL[@name].key?(:rows)
       BUILT.make(rows, [Inputs.digest([maker, 'tools/lib/modules.rb', recorded])]) { written(rows, said('ruby', maker, recorded)) }
     end
-    [*FLAGS, "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS if compared?)]
+    [*FLAGS, *MORE_CALLS[@name], "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS if compared?)]
   end
 
   def digests(machine)
@@ -76,7 +81,7 @@ class CalledModule
 
   def pic18
     meters = BUILT.command("#{WORK}/calls", *Programs::CC, "#{FOLDER}/chip.cc", *Programs::SIMULATORS['gpsim'], '-o', "#{WORK}/calls")
-    text = said(meters, Images.program("calls-#{@name}", ['-DCALLS_SILENT', *calls, *sources]), *@functions)
+    text = said(meters, Images.program("calls-#{@name}", ['-DCALLS_SILENT', *calls, *sources], CHIPS.fetch(@name, 'pic18f4520')), *@functions)
     Target.same(answers, text.lines.first.sub(/ different.*/, ''))
     text
   end

@@ -24,7 +24,7 @@ namespace
 
 constexpr uint64_t cycles_of_an_answer = 2000000; // far more than any takes
 constexpr unsigned poison = 0xA5;
-constexpr unsigned object_size = 66;
+constexpr unsigned object_size = 70;
 constexpr unsigned answer_size =
     offsetof(struct answer, model) +
     offsetof(struct fixpid_autotune_process, hysteresis) + sizeof(uint16_t);
@@ -164,6 +164,7 @@ bool fixpid_autotune_model(const struct fixpid_autotune *,
     return found;
 }
 
+// One that has no gains leaves what it was given, as the chip does.
 bool fixpid_autotune_result(const struct fixpid_autotune *, uint8_t rule,
                             uint8_t robustness_q4,
                             struct fixpid_pid_config *config)
@@ -172,16 +173,29 @@ bool fixpid_autotune_result(const struct fixpid_autotune *, uint8_t rule,
 
     question.rule = rule;
     question.robustness_q4 = robustness_q4;
-    if (!ask(question, CALL_RESULT)) {
-        return false;
-    }
+    (void)ask(question, CALL_RESULT);
     config->gains.kp_q8 = last.kp_q8;
     config->gains.ki_q24 = last.ki_q24;
     config->gains.kd_q8 = last.kd_q8;
     config->gains.derivative_filter = last.derivative_filter;
     config->setpoint_weight_q8 = last.weight_q8;
     config->proportional_on_measurement = last.weightless != 0;
-    return true;
+    return last.accepted != 0;
+}
+
+// Of the last result: the chip has told both.
+uint8_t fixpid_autotune_reason(const struct fixpid_autotune *, uint8_t, uint8_t)
+{
+    return last.reason;
+}
+
+void fixpid_autotune_progress(const struct fixpid_autotune *,
+                              struct fixpid_autotune_stage *stage)
+{
+    stage->phase = last.phase;
+    stage->done = last.done;
+    stage->expected = last.expected;
+    stage->period = last.period;
 }
 }
 

@@ -27,6 +27,12 @@ struct answer {
     uint8_t weightless; // proportional_on_measurement
     uint8_t accepted;
     uint8_t status;
+    uint8_t reason;
+    uint8_t phase; // of the progress, after each call
+    uint8_t done;
+    uint8_t expected;
+    uint16_t period;
+    uint8_t none[2]; // instead of padding
     struct fixpid_autotune_process model;
 };
 
