@@ -142,20 +142,66 @@ static void gains_are_legal(const struct fixpid_pid_gains *gains)
     within(0, FIXPID_PID_FILTER_MAX, gains->derivative_filter);
 }
 
-static void autotune_steps(void)
+// Whatever was measured, the gains are legal, or there are none and a reason.
+static void ask_autotune(void)
 {
-    struct fixpid_autotune_process model;
+    struct fixpid_autotune_process process;
+    struct fixpid_autotune_stage stage;
     struct fixpid_pid_config config = {.output_max = 1};
 
+    fixpid_autotune_progress(&autotune, &stage);
+    (void)fixpid_autotune_model(&autotune, &process);
+    for (uint8_t rule = 0; rule < 3u; rule++) {
+        const uint8_t robustness_q4 = (uint8_t)numbers_below(80);
+        const bool found =
+            fixpid_autotune_result(&autotune, rule, robustness_q4, &config);
+        const uint8_t reason =
+            fixpid_autotune_reason(&autotune, rule, robustness_q4);
+
+        within(found ? FIXPID_AUTOTUNE_NO_REASON : FIXPID_AUTOTUNE_NOT_DONE,
+               found ? FIXPID_AUTOTUNE_NO_REASON
+                     : FIXPID_AUTOTUNE_GAIN_TOO_SMALL,
+               reason);
+        gains_are_legal(&config.gains);
+    }
+}
+
+// An object that was packed comes back as it was, as far as it is asked.
+static void autotune_record(void)
+{
+    struct fixpid_autotune_record record = {{0}};
+    struct fixpid_autotune_record again;
+
+    if (fixpid_autotune_pack(&autotune, &record) &&
+        fixpid_autotune_unpack(&autotune, &record)) {
+        (void)fixpid_autotune_pack(&autotune, &again);
+        for (unsigned i = 0; i < sizeof record.bytes; i++) {
+            within(record.bytes[i], record.bytes[i], again.bytes[i]);
+        }
+    }
+    if (numbers_below(4) == 0u) {
+        spoil(&record, sizeof record);
+        (void)fixpid_autotune_unpack(&autotune, &record);
+    }
+}
+
+// A bool of other bytes would be undefined before any function of the library
+// reads it.
+static void make_bool(bool *value)
+{
+    *(uint8_t *)value &= 1u;
+}
+
+static void autotune_steps(void)
+{
     spoil(&autotune, sizeof autotune);
+    make_bool(&autotune.config.reverse);
     if (numbers_below(2) == 0u) {
         autotune.state = FIXPID_AUTOTUNE_DONE;
     }
-    (void)fixpid_autotune_model(&autotune, &model);
-    for (uint8_t rule = 0; rule < 8u; rule++) {
-        (void)fixpid_autotune_result(&autotune, rule, 16, &config);
-        gains_are_legal(&config.gains);
-    }
+    ask_autotune();
+    autotune_record();
+    ask_autotune();
     for (unsigned i = 0; i < STEPS; i++) {
         const int16_t setpoint = numbers_int16();
 
