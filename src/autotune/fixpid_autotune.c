@@ -71,7 +71,7 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
     SELF.config.swing = config->swing;
     SELF.config.timeout_steps = config->timeout_steps;
     SELF.config.cycles = config->cycles;
-    SELF.config.reverse = config->reverse;
+    SELF.config.reverse = config->reverse ? 1u : 0u;
     if (!accepted) {
         SELF.config.cycles = 0;
         SELF.config.output_min = 0;
@@ -283,7 +283,7 @@ int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
         } else {
             int16_t deviation = deviation_from(setpoint, measurement);
 
-            if (SELF.config.reverse) {
+            if (SELF.config.reverse != 0u) {
                 deviation = (int16_t)-deviation;
             }
             if (SELF.state == PHASE_NOISE) {

@@ -79,7 +79,7 @@ bool fixpid_autotune_pack(FIXPID_DATA const struct fixpid_autotune *self,
     put(&bytes[CONFIG_AT + 10u], SELF.config.swing);
     put(&bytes[CONFIG_AT + 12u], SELF.config.timeout_steps);
     bytes[CYCLES_AT] = SELF.config.cycles;
-    bytes[REVERSE_AT] = SELF.config.reverse ? 1u : 0u;
+    bytes[REVERSE_AT] = (SELF.config.reverse != 0u) ? 1u : 0u;
     bytes[STATUS_AT] = SELF.state;
     put_sums(&bytes[SUMS_AT], &SELF.sums[0]);
     put_sums(&bytes[SUMS_AT + SUMS_SIZE], &SELF.sums[1]);
@@ -130,6 +130,9 @@ bool fixpid_autotune_unpack(FIXPID_DATA struct fixpid_autotune *self,
         return false;
     }
     if (!is_over(bytes[STATUS_AT])) {
+        return false;
+    }
+    if (bytes[REVERSE_AT] > 1u) {
         return false;
     }
     get_config(&config, bytes);

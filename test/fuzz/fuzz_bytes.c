@@ -185,17 +185,9 @@ static void autotune_record(void)
     }
 }
 
-// A bool of other bytes would be undefined before any function of the library
-// reads it.
-static void make_bool(bool *value)
-{
-    *(uint8_t *)value &= 1u;
-}
-
 static void autotune_steps(void)
 {
     spoil(&autotune, sizeof autotune);
-    make_bool(&autotune.config.reverse);
     if (numbers_below(2) == 0u) {
         autotune.state = FIXPID_AUTOTUNE_DONE;
     }
