@@ -3,95 +3,86 @@
 
 #include <math.h>
 
-#define STEPS_MAX 2000000L
 #define CYCLES 2
-#define ROBUSTNESS_Q4 16
-#define RUNNING 1
+#define STEPS_MAX 4000000L // 34 + 97 * 32767 is less
 
-static int16_t holding_counts(const struct task *task)
+static const uint8_t robustness[] = {
+    FIXPID_AUTOTUNE_QUICK, FIXPID_AUTOTUNE_SAFE, FIXPID_AUTOTUNE_CALM};
+
+static uint8_t rule_of(int number)
 {
-    return (int16_t)(task->power_on ? 0.0 : task->holding + 0.5);
+    return (uint8_t)((number < 3) ? FIXPID_AUTOTUNE_PI : FIXPID_AUTOTUNE_PID);
 }
 
-static void start_autotune(struct experiment *self, const struct task *task)
+static void start(struct experiment *self, const struct subject *subject)
 {
+    // An integrator from power-on needs its holding output, too, or it runs
+    // away while the noise is measured.
+    const bool holds = subject->at_rest || subject->plant.integrating;
+    const double rest = holds ? subject->holding * subject->output_max : 0.0;
     const struct fixpid_autotune_config config = {
         .output_min = 0,
-        .output_max = (int16_t)task->output_max,
-        .output_rest = holding_counts(task),
-        .measurement_min = -1,
-        .measurement_max = (int16_t)(task->sensor_max + 1.0),
-        .swing = (uint16_t)(task->sensor_max / 12.0),
-        .timeout_steps = (uint16_t)task->timeout_steps,
+        .output_max = (int16_t)subject->output_max,
+        .output_rest = (int16_t)rest,
+        .measurement_min = 0,
+        .measurement_max = (int16_t)subject->sensor_max,
+        .swing = (uint16_t)subject->swing,
+        .timeout_steps = (uint16_t)subject->timeout_steps,
         .cycles = CYCLES,
-        .options = task->reverse ? FIXPID_AUTOTUNE_REVERSE : 0u,
     };
-    (void)fixpid_autotune_init(&self->autotune, &config);
-}
 
-// One step of the tuner; its sensor is upside down on a plant that acts so.
-static int16_t step(struct experiment *self, const struct task *task,
-                    double reading)
-{
-    const int16_t top = (int16_t)task->sensor_max;
-    int16_t measurement = (int16_t)fmin(fmax(reading, 0.0), task->sensor_max);
-    int16_t setpoint = (int16_t)task->setpoint;
-    int16_t output;
-
-    if (task->reverse) {
-        measurement = (int16_t)(top - measurement);
-        setpoint = (int16_t)(top - setpoint);
-    }
-    output = fixpid_autotune_step(&self->autotune, setpoint, measurement);
-    self->status = fixpid_autotune_status(&self->autotune);
-    if (output < 0 || output > task->output_max) {
-        self->outside++;
-    }
-    self->steps++;
-    return output;
-}
-
-void experiment_run(struct experiment *self, const struct task *task)
-{
-    const double rest = task->plant.integrating ? 0.0 : holding_counts(task);
-    uint64_t noise_state = task->noise_state;
-    struct lags_motion motion;
-
-    *self = (struct experiment){.status = RUNNING};
-    start_autotune(self, task);
-    lags_start(&motion, &task->plant, rest);
-    while (self->status == RUNNING && self->steps < STEPS_MAX) {
-        const bool loaded = task->load_at >= 0 && self->steps >= task->load_at;
-        const double noise = task->noise * draw_noise(&noise_state);
-        const double value = lags_value(&motion) + task->zero;
-        const double output = step(self, task, floor(value + noise + 0.5));
-        lags_move(&motion, output - task->drift + (loaded ? task->load : 0.0));
+    *self = (struct experiment){.status = FIXPID_AUTOTUNE_REFUSED};
+    if (fixpid_autotune_init(&self->autotune, &config)) {
+        self->status = FIXPID_AUTOTUNE_RUNNING;
     }
 }
 
-const char *const *experiment_rules(int *count)
+void experiment_run(struct experiment *self, const struct subject *subject)
 {
-    static const char *const of_autotune[] = {"SIMC_PI",
-                                              "AMIGO_PI",
-                                              "AMIGO_PID",
-                                              "TYREUS_LUYBEN_PI",
-                                              "TYREUS_LUYBEN_PID",
-                                              "ZIEGLER_NICHOLS_PI",
-                                              "ZIEGLER_NICHOLS_PID"};
+    const int16_t setpoint = (int16_t)subject->setpoint;
+    struct bench bench;
 
-    *count = 7;
-    return of_autotune;
+    start(self, subject);
+    bench_start(&bench, subject);
+    while (self->status == FIXPID_AUTOTUNE_RUNNING && self->steps < STEPS_MAX) {
+        const int16_t measurement = (int16_t)bench_read(&bench);
+        const int16_t output =
+            fixpid_autotune_step(&self->autotune, setpoint, measurement);
+        if (output < 0 || output > subject->output_max) {
+            self->outside++;
+        }
+        bench_drive(&bench, output);
+        self->steps++;
+        self->status = fixpid_autotune_status(&self->autotune);
+    }
 }
 
-bool experiment_result(const struct experiment *self, int rule,
-                       struct fixpid_pid_gains *gains)
+const char *experiment_design_name(int number)
 {
-    struct fixpid_pid_config config = {.output_min = -32767,
-                                       .output_max = 32767};
-    bool found;
+    static const char *const names[DESIGNS] = {
+        "PI quick", "PI safe", "PI calm", "PID quick", "PID safe", "PID calm"};
 
-    found = fixpid_autotune_result(&self->autotune, (uint8_t)rule,
-                                   ROBUSTNESS_Q4, &config);
-    *gains = config.gains;
-    return found;
+    return names[number];
+}
+
+struct design experiment_design(const struct experiment *self, int number)
+{
+    struct fixpid_pid_config config;
+    struct design design = {false, 0.0, 0.0, 0.0, 0};
+
+    if (fixpid_autotune_result(&self->autotune, rule_of(number),
+                               robustness[number % 3], &config)) {
+        design.found = true;
+        design.kp = config.gains.kp_q8 / 256.0;
+        design.ki = config.gains.ki_q24 / 16777216.0;
+        design.kd = config.gains.kd_q8 / 256.0;
+        design.filter = config.gains.derivative_filter;
+    }
+    return design;
+}
+
+int experiment_reason(const struct experiment *self, int number)
+{
+    return fixpid_autotune_reason(&self->autotune, rule_of(number),
+                                  robustness[number % 3]);
 }

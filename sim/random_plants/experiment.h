@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The autotuner as one thing that takes a controller's place.
+// fixpid_autotune in the controller's place on a bench.
 #ifndef EXPERIMENT_H
 #define EXPERIMENT_H
-#include "draw.h"
+#include "bench.h"
+#include "design.h"
 #include "fixpid_autotune.h"
+
+// Two rules with three words of robustness each.
+#define DESIGNS 6
 
 struct experiment {
     struct fixpid_autotune autotune;
@@ -12,13 +16,15 @@ struct experiment {
     long outside; // steps with an output beyond the range that was given
 };
 
-// Does the task's experiment to its end, or for STEPS_MAX steps.
-void experiment_run(struct experiment *self, const struct task *task);
+// Does the subject's experiment to its end.
+void experiment_run(struct experiment *self, const struct subject *subject);
 
-// The rules of its tuner, by their names in the header, and how many.
-const char *const *experiment_rules(int *count);
+// "PI quick", "PI safe", "PI calm", and "PID ..." the same.
+const char *experiment_design_name(int number);
 
-bool experiment_result(const struct experiment *self, int rule,
-                       struct fixpid_pid_gains *gains);
+struct design experiment_design(const struct experiment *self, int number);
+
+// One of enum fixpid_autotune_cause.
+int experiment_reason(const struct experiment *self, int number);
 
 #endif
