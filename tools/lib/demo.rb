@@ -41,12 +41,13 @@ LOOPS = {
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
   'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
-  'random_plants' => Loop.new('the autotuner on 800 random plants, how good its gains are', -> { random_plants }),
+  'random_plants' => Loop.new('gains for random plants of 22 families, and what others find',
+                              -> { random_plants(ENV.key?('DEMO_LONG')) }),
   'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time',
-                       -> { run_faults(ENV.key?('FAULTS_LONG')) }),
-  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('FAULTS_LONG')) }),
+                       -> { run_faults(ENV.key?('DEMO_LONG')) }),
+  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('DEMO_LONG')) }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
 
@@ -110,7 +111,7 @@ def main(mode, root, *words)
   tell(loops, verbose)
   Report.good? or exit 1
   Regression.renew(loops) if mode == 'renew'
-  exit(Docs.update(mode, root) ? 0 : 1)
+  exit(Docs.update(mode, root, loops) ? 0 : 1)
 end
 
 if $PROGRAM_NAME == __FILE__

@@ -12,22 +12,25 @@ module Docs
   PARTS = {
     'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
                           'autotune' => :autotune, 'random_plants' => :random_plants,
-                          'holding' => :holding, 'dangers' => :dangers },
+                          'at_once' => :at_once },
     'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow, 'recovery' => :recovery,
                              'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }
   }.freeze
 
-  # Made by tools/demo --long only.
-  LONG = { 'docs/faults.md' => { 'long' => :long_faults } }.freeze
+  # Made by tools/demo --long only, of these loops.
+  LONG = { 'docs/faults.md' => { 'long' => :long_faults },
+           'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
+                                'study_refusals' => :study_refusals, 'study_peers' => :study_peers } }.freeze
+  LONG_LOOPS = { 'docs/faults.md' => %w[faults faults_chip], 'docs/tuning.md' => %w[random_plants] }.freeze
 
   class << self
     # True unless mode asks for a check that fails.
-    def update(mode, root)
+    def update(mode, root, loops)
       return true if %w[run renew].include?(mode)
 
-      parts = mode == 'long' ? LONG : PARTS
+      parts = mode == 'long' ? LONG.select { |name, _| (LONG_LOOPS.fetch(name) - loops).empty? } : PARTS
       stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       stale.none?

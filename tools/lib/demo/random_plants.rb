@@ -1,269 +1,208 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# Both autotuners on random plants: how good the gains are that they find. The
-# program `random_plants` prints a row for each plant, tuner and rule.
-BATCH_SEEDS = [31, 77].freeze
-BATCH_PLANTS = 400
-HOLDING_PERCENTS = [3, 10, 15, 50, 85, 95].freeze
-HOLDING_PLANTS = 150
-DANGERS = { 'servo' => 'position servos', 'dead time' => 'dead times' }.freeze
-DANGER_PLANTS = 150
-ALL_RULES = 9 # rows of a plant: a tuner and a rule in each
+# The autotuner and those of three other libraries on random plants of 22 families:
+# how good the gains are that they find.
+require_relative '../autotune/study'
 
-TUNERS = { 'autotune' => 'fixpid_autotune', 'relay' => 'fixpid_relay' }.freeze
-BATCH_RULES = {
-  'SIMC_PI' => 'SIMC PI', 'AMIGO_PI' => 'AMIGO PI', 'AMIGO_PID' => 'AMIGO PID',
-  'TYREUS_LUYBEN_PI' => 'Tyreus-Luyben PI', 'TYREUS_LUYBEN_PID' => 'Tyreus-Luyben PID',
-  'ZIEGLER_NICHOLS_PI' => 'Ziegler-Nichols PI', 'ZIEGLER_NICHOLS_PID' => 'Ziegler-Nichols PID'
-}.freeze
+STUDY_SEEDS = [31, 77].freeze
+STUDY_PLANTS = 60 * Study::FAMILIES.size # of each seed
+# Other seeds and far more plants: tools/demo --long random_plants.
+LONG_SEEDS = [5101, 5102].freeze
+LONG_PLANTS = 500 * Study::FAMILIES.size
 
-ROBUST = (1.2..1.8).freeze # Ms of a loop with a margin that is not too calm
-THIN = 2.2 # Ms of one with too little
+# A part of the answer of these comes at once, which the families of the study do not
+# have.
+AT_ONCE = 'at once'
+AT_ONCE_PLANTS = 300
 
-# What one tuner and rule did on a batch.
-class Batch
-  attr_reader :rows, :results
+# Lags with and without dead time, integrators and servos: what the header says that
+# it serves.
+PLAIN = ['lag-dominant', 'balanced', 'dead-time', 'equal lags', 'integrator', 'servo', 'integrator and lag', 'batch',
+         'two lags', 'servo and lag', 'servo without delay'].freeze
 
-  def initialize(rows)
-    @rows = rows
-    @results = rows.select { |row| row['result'] == '1' }
-  end
+def study_rows(part, seed, plants, designs, *family)
+  name = ['random_plants', part, seed, *family.map { |word| word.tr(' ', '-') }].join('-')
+  lines = File.readlines(Host.print('random_plants', "#{name}.txt", part, seed.to_s, plants.to_s, *family))
+  lines.size == plants * designs + 1 or
+    raise Host::Failure, "#{name}.txt has #{lines.size - 1} rows, not #{plants * designs}"
+  Study.rows(lines.drop(1))
+rescue ArgumentError => e
+  raise Host::Failure, "#{name}.txt: #{e.message}"
+end
 
-  def only(tuner, rule)
-    rows = @rows.select { |row| row['tuner'] == tuner && row['rule'] == rule }
-    rows.empty? and raise Host::Failure, "no plant tuned by #{tuner}, #{rule}"
-    Batch.new(rows)
-  end
+def random_plants(long)
+  seeds, plants = long ? [LONG_SEEDS, LONG_PLANTS] : [STUDY_SEEDS, STUDY_PLANTS]
+  drawn = seeds.to_h { |seed| [seed, study_rows('ours', seed, plants, Study::DESIGNS.size)] }
+  drawn.each { |seed, all| check_study("seed #{seed}", all) }
+  ours = drawn.values.reduce(:+)
+  check_robust(ours)
+  peers = seeds.map { |seed| study_rows('peers', seed, plants, Study::PEERS.values.sum(&:size)) }.reduce(:+)
+  tell_study(ours, peers)
+  return if long
 
-  def +(other)
-    Batch.new(@rows + other.rows)
-  end
+  tell_at_once
+  keep_study(ours)
+  draw_random_plants(ours, peers)
+end
 
-  # Plants for which a tuner has gains by any rule.
-  def served(tuner)
-    @results.select { |row| row['tuner'] == tuner }.map { |row| row['plant'] }.uniq.size
-  end
+# Whoever takes the gains of a word unseen must have a loop that is stable, and with
+# the default word nearly always one with a margin.
+def check_study(seed, all)
+  Study::DESIGNS.each { |design| Report.exactly("#{seed}, #{design}: unstable", all.of(Study::OURS, design).unstable, 0) }
+  Report.at_least("#{seed}, PI safe: Ms within 1.2 to 1.8", all.of(Study::OURS, 'PI safe').robust_percent, 99.0, '%')
+  Report.at_least("#{seed}, PID safe: Ms within 1.2 to 1.8", all.of(Study::OURS, 'PID safe').robust_percent, 95.0, '%')
+  check_conduct(seed, all.of(Study::OURS, 'PI safe'))
+end
 
-  def done
-    @rows.count { |row| row['status'].to_i == DONE }
-  end
+# A tuner that refuses all is safe and useless.
+def check_conduct(seed, safe)
+  plain = Study::Rows.new(safe.select { |row| PLAIN.include?(row.family) })
+  Report.at_least("#{seed}: plain families with gains", 100.0 * plain.gains / plain.count, 93.0, '%')
+  Report.at_most("#{seed}: experiments last, median, in L + T", safe.lasts(0.5), 32.0)
+  Report.exactly("#{seed}: outputs outside their range", safe.outside, 0)
+  Report.exactly("#{seed}: experiments without an end", safe.ended('RUNNING'), 0)
+end
 
-  def done_percent
-    percent(done, @rows.size)
-  end
+# Too few for each seed alone.
+def check_robust(all)
+  safe = all.of(Study::OURS, 'PI safe') + all.of(Study::OURS, 'PID safe')
+  Report.at_most('safe, of the loops: Ms above 2.2', safe.thin_percent, 0.02, '%')
+end
 
-  def hanging
-    @rows.count { |row| row['status'] == '1' }
-  end
-
-  def outside
-    @rows.sum { |row| row['outside'].to_i }
-  end
-
-  def unstable
-    @results.count { |row| row['iae'].to_f.negative? }
-  end
-
-  # Of loops that come to rest; the others have no such number.
-  def sensitivities
-    resting.map { |row| row['ms'].to_f }
-  end
-
-  def errors
-    resting.map { |row| row['iae'].to_f }
-  end
-
-  def lasts
-    @rows.select { |row| row['status'].to_i == DONE }.map { |row| row['lasts'].to_f }
-  end
-
-  def robust_percent
-    percent(sensitivities.count { |ms| ROBUST.cover?(ms) }, @results.size)
-  end
-
-  def thin
-    unstable + sensitivities.count { |ms| ms > THIN }
-  end
-
-  def thin_percent
-    done.zero? ? 0.0 : percent(thin, done) # what is refused is not dangerous
-  end
-
-  def self.quantile(values, share)
-    values.sort[(share * (values.size - 1)).round] unless values.empty?
-  end
-
-  private
-
-  def resting
-    @results.reject { |row| row['iae'].to_f.negative? }
-  end
-
-  def percent(part, whole)
-    100.0 * part / whole unless whole.zero?
+# What nobody requires.
+def keep_study(all)
+  Study::DESIGNS.each do |design|
+    rows = all.of(Study::OURS, design)
+    Report.unchanged("#{design}: plants with gains", rows.gains)
+    Report.unchanged("#{design}: Ms above 2.2", rows.thin)
+    Report.unchanged("#{design}: Ms in the middle, in 0.01", (100.0 * rows.ms(0.5)).round)
   end
 end
 
-# There are fewer rows where only the first rules of each tuner are asked for.
-def batch(name, seed, plants, *arguments, rows: ALL_RULES)
-  path = Host.print('random_plants', "random_plants-#{name}.txt", *[seed, plants, *arguments].map(&:to_s))
-  Batch.new(Loops.read(path, plants * rows))
+# The rows of the tables in docs/tuning.md.
+def tell_study(ours, peers)
+  Report.number('plants', ours.of(Study::OURS, 'PI safe').count)
+  Report.number('designs', Study::DESIGNS.map { |design| design_numbers(ours.of(Study::OURS, design), Study::OURS, design) } +
+                           Study::PEERS.flat_map { |peer, rules| rules.map { |rule| design_numbers(peers.of(peer, rule), peer, rule) } })
+  Report.number('families', Study::FAMILIES.map { |name, title| family_numbers(ours, name, title) })
+  Report.number('peers', Study::FAMILIES.map { |name, title| peer_numbers(peers, name, title) })
 end
 
-def random_plants
-  drawn = BATCH_SEEDS.to_h { |seed| [seed, batch(seed, seed, BATCH_PLANTS)] }
-  loaded = BATCH_SEEDS.to_h do |seed|
-    [seed, batch("#{seed}-loaded", seed, BATCH_PLANTS, 'mixed', 1, 1, rows: 2)]
-  end
-  dangers = DANGERS.keys.to_h do |kind|
-    [kind, batch(kind.tr(' ', '-'), BATCH_SEEDS[0], DANGER_PLANTS, kind)]
-  end
-  drawn.each { |seed, all| check_autotune(seed, all.only('autotune', 'SIMC_PI')) }
-  loaded.each { |seed, all| check_loaded(seed, all.only('autotune', 'SIMC_PI')) }
-  check_relay(drawn.transform_keys { |seed| "seed #{seed}" }, dangers)
-  both = drawn.values.reduce(:+)
-  tell_rules('rules', both)
-  dangers.each { |kind, all| tell_rules(DANGERS.fetch(kind), all) }
-  tell_holding
-  draw_random_plants(both)
+def design_numbers(rows, tuner, rule)
+  { 'tuner' => tuner, 'rule' => rule, 'gains' => rows.gains, 'ms' => [0.05, 0.5, 0.95, 1.0].map { |share| Study.shown(rows.ms(share)) },
+    'robust' => rows.robust_percent, 'thin' => rows.thin, 'unstable' => rows.unstable,
+    'slower' => rows.slower(0.5), 'lasts' => [0.5, 0.9].map { |share| rows.lasts(share) } }
 end
 
-# Each seed alone, with the rule that the header calls the default. A user who
-# takes it unseen must have a loop with a margin, 19 times of 20, and an experiment
-# that ends well as often; its errors may be half as large again as those with the
-# gains of a plant that is known.
-def check_autotune(seed, batch)
-  what = "seed #{seed}, SIMC PI"
-  Report.at_least("#{what}: experiments DONE", batch.done_percent, 96.0, '%')
-  Report.at_least("#{what}: Ms within 1.2 to 1.8", batch.robust_percent, 95.0, '%')
-  Report.at_most("#{what}: Ms above 2.2", batch.thin, 2)
-  Report.exactly("#{what}: unstable", batch.unstable, 0)
-  Report.at_most("#{what}: sum of errors over the best, median",
-                 Batch.quantile(batch.errors, 0.5), 1.05)
-  Report.at_most("#{what}: and of 90 %", Batch.quantile(batch.errors, 0.9), 1.5)
-  check_conduct(what, batch)
+def family_numbers(ours, name, title)
+  designs = Study::DESIGNS.to_h { |design| [design, ours.of(Study::OURS, design).family(name)] }
+  safe = designs['PI safe']
+  { 'family' => title, 'plants' => safe.count, 'gains' => safe.gains, 'lasts' => safe.lasts(0.5),
+    'statuses' => Study::STATUSES.to_h { |status| [status, safe.ended(status)] },
+    'reasons' => Study::REASONS.to_h { |reason| [reason, safe.refused(reason)] },
+    'loops' => designs.transform_values { |rows| { 'ms' => [0.5, 1.0].map { |share| Study.shown(rows.ms(share)) }, 'thin' => rows.thin, 'unstable' => rows.unstable } } }
 end
 
-def check_loaded(seed, batch)
-  what = "seed #{seed}, a load during each experiment"
-  Report.at_least("#{what}: Ms within 1.2 to 1.8", batch.robust_percent, 90.0, '%')
-  Report.exactly("#{what}: unstable", batch.unstable, 0)
-  check_conduct(what, batch)
+def peer_numbers(peers, name, title)
+  { 'family' => title,
+    'peers' => PEER_RULES.map do |peer, rule|
+      rows = peers.of(peer, rule).family(name)
+      { 'gains' => rows.gains, 'ms' => Study.shown(rows.ms(0.5)), 'thin' => rows.thin, 'unstable' => rows.unstable }
+    end }
 end
 
-def check_conduct(what, batch)
-  Report.exactly("#{what}: outputs outside their range", batch.outside, 0)
-  Report.exactly("#{what}: experiments without an end", batch.hanging, 0)
+def tell_at_once
+  all = study_rows('ours', STUDY_SEEDS[0], AT_ONCE_PLANTS, Study::DESIGNS.size, AT_ONCE)
+  Report.number('at_once', Study::DESIGNS.map { |design| design_numbers(all.of(Study::OURS, design), Study::OURS, design) })
 end
 
-# The relay may refuse what it cannot tune, and must refuse what is dangerous: by
-# its status, or a rule of it by the result.
-def check_relay(drawn, dangers)
-  drawn.merge(dangers.transform_keys { |kind| DANGERS.fetch(kind) })
-       .each do |name, all|
-    %w[TYREUS_LUYBEN_PI TYREUS_LUYBEN_PID].each do |rule|
-      found = all.only('relay', rule)
-      what = "#{name}, relay, #{BATCH_RULES.fetch(rule)}"
-      Report.exactly("#{what}: unstable", found.unstable, 0)
-      Report.at_most("#{what}: Ms above 2.2, of those DONE", found.thin_percent, 2.0, '%')
-      check_conduct(what, found)
-    end
-  end
-  check_served(drawn)
-end
+# What the picture has beside PI safe: the calmest rule of each.
+PEER_RULES = { 'Arduino PID AutoTune' => 'PI', 'QuickPID' => 'Tyreus-Luyben PI', 'sTune' => 'Ziegler-Nichols PI' }.freeze
+PEER_TITLES = { 'Arduino PID AutoTune' => ['Arduino PID', 'AutoTune, PI'], 'QuickPID' => %w[QuickPID Tyreus-Luyben],
+                'sTune' => %w[sTune Ziegler-Nichols] }.freeze
+MS_DRAWN = 10.0 # what is beyond is drawn there
+MS_EDGE = 26.0  # of the panel: room for a number
+NO_GAINS = { 'the experiment failed' => Plot::GREY, 'refused after it' => Plot::PURPLE }.freeze
 
-# Not all that is safe may be refused, either: 3 plants of 5 have gains.
-def check_served(drawn)
-  drawn.each do |name, all|
-    Report.at_least("#{name}, relay: plants with gains by a rule", all.served('relay'), 240)
-  end
-end
-
-# The rows of a table in docs/tuning.md.
-def tell_rules(name, all)
-  pairs = all.rows.map { |row| row.values_at('tuner', 'rule') }.uniq
-  Report.number(name, pairs.map { |tuner, rule| rule_numbers(all.only(tuner, rule), tuner, rule) })
-end
-
-def rule_numbers(found, tuner, rule)
-  ms = found.sensitivities
-  { 'tuner' => TUNERS.fetch(tuner), 'rule' => BATCH_RULES.fetch(rule),
-    'done' => found.done, 'results' => found.results.size, 'of' => found.rows.size,
-    'ms' => [0.05, 0.5, 0.95].map { |share| Batch.quantile(ms, share) },
-    'robust' => found.robust_percent, 'thin' => found.thin, 'unstable' => found.unstable,
-    'iae' => [0.5, 0.9].map { |share| Batch.quantile(found.errors, share) },
-    'lasts' => [0.5, 0.9].map { |share| Batch.quantile(found.lasts, share) } }
-end
-
-def tell_holding
-  rows = HOLDING_PERCENTS.map do |percent|
-    all = batch("holding-#{percent}", BATCH_SEEDS[0], HOLDING_PLANTS, 'mixed', 0.25, 2,
-                percent / 100.0, rows: 4)
-    autotune = all.only('autotune', 'SIMC_PI')
-    relay = all.only('relay', 'TYREUS_LUYBEN_PI') + all.only('relay', 'TYREUS_LUYBEN_PID')
-    Report.exactly("held by #{percent} %, SIMC PI: unstable", autotune.unstable, 0)
-    { 'percent' => percent, 'of' => HOLDING_PLANTS, 'autotune' => autotune.results.size,
-      'robust' => autotune.robust_percent, 'thin' => autotune.thin,
-      'relay' => relay.served('relay'), 'relay_thin' => relay.thin }
-  end
-  Report.number('holding', rows)
-end
-
-# What is beyond the picture is drawn at its edge.
-MS_DRAWN = 3.0
-ERRORS_DRAWN = (0.1..12.0).freeze
-BATCH_PANELS = { 'relay' => 'TYREUS_LUYBEN_PI', 'autotune' => 'SIMC_PI' }.freeze
-BATCH_COLORS = { 'relay' => Plot::RED, 'autotune' => Plot::BLUE }.freeze
-
-def draw_random_plants(all)
-  plot = Plot.new('random_plants', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants, each tuned by an " \
-                            'experiment of its own: a dot is a plant',
-                  height: 560, columns: [1.0, 1.0], gap_x: 0.05,
-                  margins: { left: 0.075, top: 0.83, bottom: 0.11 })
-  BATCH_PANELS.each_with_index do |(tuner, rule), column|
-    batch_panel(plot, column, tuner, all.only(tuner, rule))
+def draw_random_plants(ours, peers)
+  plot = Plot.new('random_plants', "#{ours.of(Study::OURS, 'PI safe').count} random plants of 22 families, and the gains that four autotuners find",
+                  width: 960, height: 860, columns: [0.72, 1.0, 1.0, 1.0, 1.0], gap_x: 0.012,
+                  margins: { left: 0.262, right: 0.99, top: 0.845, bottom: 0.14 })
+  safe = ours.of(Study::OURS, 'PI safe')
+  refusal_panel(plot, safe)
+  sensitivity_panel(plot, 1, safe, ['fixpid\\\\_autotune', 'PI safe'], Plot::BLUE)
+  PEER_RULES.each_with_index do |(peer, rule), i|
+    sensitivity_panel(plot, i + 2, peers.of(peer, rule), PEER_TITLES.fetch(peer), Plot::RED)
   end
   plot.draw
 end
 
-def batch_dots(tuner, found)
-  path = "#{Host.folder}/random_plants-#{tuner}.csv"
-  lines = found.results.map do |row|
-    ms, errors = row.values_at('ms', 'iae').map(&:to_f)
-    ms, errors = MS_DRAWN, ERRORS_DRAWN.max if errors.negative?
-    "#{[ms, MS_DRAWN].min},#{errors.clamp(ERRORS_DRAWN)}"
-  end
-  File.write(path, "#{lines.join("\n")}\n")
+def study_csv(name, rows)
+  path = "#{Host.folder}/random_plants-#{name}.csv"
+  File.write(path, rows.map { |row| "#{row.join(',')}\n" }.join)
   path
 end
 
-def batch_panel(plot, column, tuner, found)
-  dots = "'#{batch_dots(tuner, found)}' using 1:2 with points pointtype 7 " \
-         "pointsize 0.45 linecolor '#{BATCH_COLORS.fetch(tuner).sub('#', '#80')}' notitle"
-  title = "set title \"{/:Bold #{TUNERS.fetch(tuner).gsub('_', '\\\\\\_')}}, " \
-          "#{BATCH_RULES.fetch(BATCH_PANELS.fetch(tuner))}\\n" \
-          "gains for #{found.results.size} plants, none for " \
-          "#{found.rows.size - found.results.size}\""
-  plot.panel(0, column, [dots, '1 with lines linecolor \'#444444\' dashtype 2 notitle'],
-             [title, 'set key off', *batch_marks, *batch_axes(column)])
+# The families from above to below, in all panels.
+def study_rows_axis(names)
+  tics = Study::FAMILIES.values.each_with_index.map { |title, i| "'#{names ? title.sub('%', '%%') : ''}' #{i}" }
+  ["set yrange [#{Study::FAMILIES.size - 0.4}:-0.6]", "set ytics scale 0 (#{tics.join(', ')})", 'set key off',
+   'unset grid', "set grid xtics linecolor '#dddddd' linetype 1 linewidth 0.7"]
 end
 
-def batch_marks
-  low, high = ROBUST.minmax
-  ["set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind " \
-   "fillcolor '#DDF0E4' fillstyle solid noborder",
-   "set object 2 rectangle from #{THIN}, graph 0 to graph 1, graph 1 behind " \
-   "fillcolor '#F9E3DC' fillstyle solid noborder",
-   "set label 'a good margin' at #{(low + high) / 2.0}, graph 0.965 center",
-   "set label 'close to oscillation' at #{(THIN + MS_DRAWN) / 2.0}, graph 0.965 center",
-   "set label 'slower' at 1.03, 1.22", "set label 'quicker' at 1.03, 0.83"]
+def refusal_panel(plot, safe)
+  rows = Study::FAMILIES.keys.each_with_index.map do |name, i|
+    some = safe.family(name)
+    failed = 100.0 * (some.count - some.ended('DONE')) / some.count
+    [i, failed, 100.0 * (some.count - some.gains) / some.count]
+  end
+  path = study_csv('refusals', rows)
+  bar = ->(from, to, color) { "'#{path}' using #{from}:1:#{to}:(0) with vectors nohead linewidth 7 linecolor '#{color}' notitle" }
+  plot.panel(0, 0, [bar.call('(0)', 2, NO_GAINS.values[0]), bar.call(2, '($3-$2)', NO_GAINS.values[1]),
+                    "'#{path}' using ($3+2):1:($3 < 99.5 ? sprintf('%.0f', $3) : '') with labels left offset 0,0 notitle"],
+             [*study_rows_axis(true), 'set xrange [0:125]', 'set xtics (0, 50, 100)', "set xlabel 'of the plants, %'",
+              "set title \"{/:Bold fixpid\\\\_autotune}\\nno gains for\\n \\n \"", *study_legend])
 end
 
-def batch_axes(column)
-  ['set logscale y', "set xrange [1:#{MS_DRAWN}]",
-   "set yrange [#{ERRORS_DRAWN.minmax.join(':')}]",
-   'set xtics 0.2', 'set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10)',
-   "set xlabel 'Ms: the most that the loop makes of a disturbance'",
-   *(column.zero? ? ["set ylabel 'sum of errors after a load, 1: gains of the known plant'"] : [])]
+# Below the panels.
+def study_legend
+  lines = [['the loops with these gains, Ms:', 'the largest factor by which a loop makes a disturbance greater', Plot::BLACK],
+           ['bar: 5 to 95 % of the loops', 'square: the middle one; circle: the worst stable one, or beyond 10', Plot::BLACK],
+           ['number: unstable loops, %', 'green: a good margin; red: close to oscillation', Plot::BLACK]]
+  left = NO_GAINS.map { |title, color| [title, color] }
+  left.each_with_index.map { |(title, color), i| legend(title, 0.012, i, color) } +
+    lines.each_with_index.flat_map { |(one, other, color), i| [legend(one, 0.262, i, color), legend(other, 0.51, i, color)] }
+end
+
+def legend(title, x, line, color)
+  "set label '#{title}' at screen #{x}, screen #{(0.066 - 0.022 * line).round(3)} textcolor '#{color}'"
+end
+
+def sensitivity_panel(plot, column, all, title, color)
+  rows = Study::FAMILIES.keys.each_with_index.map { |name, i| [i, *sensitivity_row(all.family(name))] }
+  path = study_csv("ms-#{column}", rows)
+  curves = ["'#{path}' using 2:1:($4-$2):(0) with vectors nohead linewidth 6 linecolor '#{color.sub('#', '#90')}' notitle",
+            "'#{path}' using 3:1 with points pointtype 5 pointsize 0.7 linecolor '#{Plot::BLACK}' notitle",
+            "'#{path}' using 5:1 with points pointtype 6 pointsize 0.6 linecolor '#{Plot::BLACK}' notitle",
+            "'#{path}' using (#{MS_EDGE * 0.93}):1:($6 > 0 ? sprintf('%.0f %%', $6) : '') with labels right textcolor '#{Plot::RED}' notitle"]
+  lasts = format('%.1f', all.lasts(0.5)).sub(/\A(\d\d)\.\d\z/, '\1')
+  gains = (100.0 * all.gains / all.count).round
+  heading = "set title \"{/:Bold #{title[0]}}\\n#{title[1]}\\ngains for #{gains} %\\nlasts #{lasts} (L + T)\""
+  plot.panel(0, column, curves, [*study_rows_axis(false), *sensitivity_marks, heading])
+end
+
+# 5, 50 and 95 %, the worst stable one, and percent that are unstable.
+def sensitivity_row(some)
+  low, middle, high = [0.05, 0.5, 0.95].map { |share| [some.ms(share), MS_DRAWN].min }
+  worst = some.sensitivities.select(&:finite?).last || MS_DRAWN
+  [low, middle, high, [worst, MS_DRAWN].min, 100.0 * some.unstable / some.gains]
+end
+
+def sensitivity_marks
+  low, high = Study::ROBUST.minmax
+  ["set logscale x", "set xrange [1:#{MS_EDGE}]", "set xtics ('1' 1, '2.2' #{Study::THIN}, '4' 4, '10' #{MS_DRAWN})",
+   "set xlabel 'Ms, a factor'",
+   "set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind fillcolor '#DDF0E4' fillstyle solid noborder",
+   "set object 2 rectangle from #{Study::THIN}, graph 0 to #{MS_DRAWN}, graph 1 behind fillcolor '#F9E3DC' fillstyle solid noborder"]
 end

@@ -30,31 +30,62 @@ module Tables
             'settled after', rows)
     end
 
+    # All tuners and rules.
     def random_plants
-      rows = Report.numbers['random_plants']['rules'].map do |row|
-        low, middle, high = row['ms'].map { |ms| format('%.2f', ms) }
-        ["`#{row['tuner']}`", row['rule'], row['results'], "#{low}, #{middle}, #{high}",
-         format('%.1f %%', row['robust']), row['thin'] - row['unstable'], row['unstable'],
-         row['iae'].map { |errors| format('%.2f', errors) }.join(', '),
-         row['lasts'].map { |times| times.round.to_s }.join(', ')]
-      end
-      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'Ms in 1.2 to 1.8',
-            'above 2.2', 'unstable', 'errors: 50, 90 %', 'lasts: 50, 90 %', rows)
+      rows = Report.numbers['random_plants']['designs'].map { |row| design_row(row) }
+      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable',
+            'errors', 'lasts: 50, 90 %', rows)
     end
 
-    # Plants of one kind, of which a rule may be no good.
-    def dangers
-      numbers = Report.numbers['random_plants']
-      rows = numbers[DANGERS.values[0]].zip(numbers[DANGERS.values[1]]).map do |pair|
-        ["`#{pair[0]['tuner']}`", pair[0]['rule'],
-         *pair.flat_map do |row|
-           [row['results'], row['results'].zero? ? '' : format('%.2f', row['ms'][1]),
-            row['thin'] - row['unstable'], row['unstable']]
-         end]
+    # The same of more plants, when they were asked for.
+    def study
+      random_plants
+    end
+
+    def at_once
+      rows = Report.numbers['random_plants']['at_once'].map { |row| design_row(row).drop(1) }
+      table('rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable', 'errors',
+            'lasts: 50, 90 %', rows)
+    end
+
+    # By PI and by PID.
+    def study_words
+      rows = Report.numbers['random_plants']['designs'].first(Study::DESIGNS.size)
+      cells = rows.to_h do |row|
+        [row['rule'], [row['ms'].values_at(0, 2).join(' to '), row['thin'], format('%.2f', row['slower'])]]
       end
-      table('tuner', 'rule', *DANGERS.values.flat_map do |kind|
-        ["#{kind} with gains", 'Ms: 50 %', 'above 2.2', 'unstable']
-      end, rows)
+      table('word', 'PI: Ms, 5 to 95 %', 'above 2.2', 'errors', 'PID: Ms, 5 to 95 %', 'above 2.2', 'errors',
+            %w[quick safe calm].map do |word|
+              ["`FIXPID_AUTOTUNE_#{word.upcase}`", *cells.fetch("PI #{word}"), *cells.fetch("PID #{word}")]
+            end)
+    end
+
+    def study_families
+      rows = Report.numbers['random_plants']['families'].map do |row|
+        loops = row['loops'].values.map { |loop| "#{loop['ms'].join(' / ')}, #{loop['thin']}" }
+        [row['family'], row['gains'], row['lasts']&.round || '-', *loops]
+      end
+      table('family', 'gains', 'lasts', *Study::DESIGNS, rows)
+    end
+
+    # What never happened has no column.
+    def study_refusals
+      families = Report.numbers['random_plants']['families']
+      columns = { 'statuses' => Study::STATUSES - ['DONE'], 'reasons' => Study::REASONS - %w[NO_REASON NOT_DONE] }
+                .flat_map { |kind, names| names.map { |name| [kind, name] } }
+                .select { |kind, name| families.sum { |row| row[kind][name] }.positive? }
+      rows = families.map { |row| [row['family'], row['gains'], *columns.map { |kind, name| row[kind][name] }] }
+      table('family', 'gains', *columns.map { |_, name| name }, [*rows, totals('all', rows)])
+    end
+
+    def study_peers
+      numbers = Report.numbers['random_plants']
+      rows = numbers['peers'].zip(numbers['families']).map do |row, ours|
+        peers = row['peers'].map { |peer| "#{peer['gains']}; #{peer['ms']}, #{peer['thin']}, #{peer['unstable']}" }
+        safe = ours['loops']['PI safe']
+        [row['family'], "#{ours['gains']}; #{safe['ms'][0]}, #{safe['thin']}, #{safe['unstable']}", *peers]
+      end
+      table('family', '`fixpid_autotune`, PI safe', *PEER_RULES.map { |peer, rule| "#{peer}, #{rule}" }, rows)
     end
 
     # What came of the faults, a row for each kind and its numbers for each loop.
@@ -88,16 +119,6 @@ module Tables
                format('%.2f s', kinds.map { |row| row['back_s'] }.max),
                "#{numbers['low']} to #{numbers['high']}", format('%.2f ms', 1e3 * numbers['late_s'])]
             end)
-    end
-
-    def holding
-      rows = Report.numbers['random_plants']['holding'].map do |row|
-        ["#{row['percent']} %", row['autotune'], format('%.1f %%', row['robust']), row['thin'],
-         row['relay'], row['relay_thin']]
-      end
-      table('output that holds the setpoint', '`fixpid_autotune`: plants with gains',
-            'Ms in 1.2 to 1.8', 'above 2.2', '`fixpid_relay`: plants with gains',
-            'above 2.2', rows)
     end
 
     def cascade
@@ -167,6 +188,18 @@ module Tables
       lines = [head, head.map { '---' }, *rows]
       lines.map { |row| "| #{row.join(' | ')} |\n" }.join
            .gsub(/^\| ---.*/) { |line| line.delete(' ') }
+    end
+
+    def design_row(row)
+      ours = row['tuner'] == Study::OURS
+      [ours ? "`#{row['tuner']}`" : row['tuner'], row['rule'], row['gains'], row['ms'].first(3).join(', '), row['ms'].last,
+       format('%.1f %%', row['robust']), row['thin'], row['unstable'],
+       row['slower'] ? format('%.2f', row['slower']) : '',
+       row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }.join(', ')]
+    end
+
+    def totals(title, rows)
+      [title, *rows.map { |row| row.drop(1) }.transpose.map(&:sum)]
     end
 
     # Of one kind and loop: how many, and how long it took.

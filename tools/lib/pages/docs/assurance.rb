@@ -144,7 +144,9 @@ module Assurance
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
                "#{parts['cost']} checks: a bound of the linked code, and the worst that a search finds",
                '`tools/test cost`'),
-     Claim.new('measured', 'how good the gains of the autotuner are', "#{BATCH_SEEDS.size * BATCH_PLANTS} random plants",
+     Claim.new('measured', 'how good the gains of the autotuner are',
+               "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants " \
+               'in [tuning.md](tuning.md#which-autotuner)',
                '`tools/demo random_plants`'),
      Claim.new('measured', 'how the loops settle, and beside double precision', "#{parts['demo']} checks",
                '`tools/demo`')]

@@ -47,10 +47,12 @@ module Numbers
         'plants' => amounts[/\d+(?= random plants)/].to_i }
     end
 
-    # Of the rule to take first.
+    # Gains are those of the rule and the word to take first; no word's loop may be
+    # unstable.
     def tuner
-      row = table('docs/tuning.md', 'random_plants').first
-      { 'tuned' => row['plants with gains'].to_i, 'unstable' => row['unstable'].to_i }
+      ours = table('docs/tuning.md', 'study').select { |row| row['tuner'] == '`fixpid_autotune`' }
+      { 'tuned' => ours.find { |row| row['rule'] == 'PI safe' }['plants with gains'].to_i,
+        'unstable' => ours.sum { |row| row['unstable'].to_i } }
     end
 
     # A chip may have several rows, one for each memory model.
