@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "features.h"
 #include "peers.h"
+#include "wave_features.h"
 
 #define WANTED_MS 1.6
 

@@ -3,13 +3,15 @@
 
 # What tools/demo reads must be numbers, and all of them: a run that recorded none, or
 # none at the time that a check is about, does not pass, nor does one that breaks off or
-# misses a row. And what it prints at the end. Prints `ok` or `FAILED` for each case:
+# misses a row. And what it prints at the end, and what the study and the refit of the
+# autotuner make of their rows. Prints `ok` or `FAILED` for each case:
 #
 #   ruby test/tools/demo/readers.rb [NAME]... | --failed | --list
 require 'json'
 require 'stringio'
 require_relative '../gates/gate'
 require "#{PROJECT}/tools/lib/demo"
+require "#{PROJECT}/tools/lib/autotune/refit"
 
 HEAD = "time_s,angle\n"
 
@@ -88,8 +90,35 @@ def renewed
   end
 end
 
-def batch_of(rows)
-  Batch.new(Array.new(rows) { { 'tuner' => 'autotune', 'rule' => 'SIMC_PI', 'result' => '0', 'status' => Cell.new('3') } })
+# Rows of the study, one for each of these Ms: 0 has no gains, -1 is not stable.
+def study_of(*sensitivities, rule: 'PI safe', outside: 0)
+  Study.rows(sensitivities.map { |ms| "0;batch;fixpid_autotune;#{rule};2;0;900;28;#{outside};#{ms};1.5\n" })
+rescue Study::Failure => e
+  e.message
+end
+
+# The checks that fail of plants which all have this Ms by this rule, and 1.4 by the
+# others.
+def study_checks(sensitivity, wrong, **changes)
+  all = Study::DESIGNS.map { |rule| study_of(*[rule == wrong ? sensitivity : 1.4] * 3, rule: rule, **changes) }.reduce(:+)
+  Report.start('study')
+  before = Report.checks.size
+  check_study('seed', all)
+  check_robust(all)
+  Report.checks.drop(before).reject(&:ok?).map(&:what).join('; ')
+end
+
+# Of ten points on the line 2 + 3 x, one is far above it, and weighs nothing.
+def fitted
+  rows = (1..10).map { |x| [1.0, x.to_f].map { |term| term / (2.0 + 3.0 * x + (x == 5 ? 100.0 : 0.0)) } }
+  Quantile.line(rows, [1.0] * 10, 0.5).map { |value| value.round(2) }
+end
+
+# Of these values, how many lie at or below what is fitted.
+def below(share)
+  values = (1..100).map { |i| 10.0 + (i * 0.02) }
+  line = Quantile.line(values.map { |value| [1.0 / value] }, [1.0] * 100, share)
+  values.count { |value| value <= line[0] }
 end
 
 BEFORE = "loop | settled | 116\n"
@@ -143,13 +172,31 @@ Gate.expect('beyond a limit', [passes(:<=, 1.01, 1.0), passes(:>=, 0.99, 1.0), p
 Gate.expect('infinity above a limit', passes(:>=, Float::INFINITY, 1.0), false)
 Gate.expect('a limit that is no number', passes(:<=, 1.0, Float::NAN), false)
 Gate.expect('nothing measured', [passes(:<=, nil, 1.0), passes(:==, nil, nil)], [false] * 2)
-Gate.expect('a batch of no plants', batch_of(0).then { |batch| [batch.robust_percent, batch.done_percent] }, [nil, nil])
+Gate.expect('plants with gains, and how good', study_of(0, 1.1, 1.5, 2.3, -1).then do |all|
+  [all.gains, all.thin, all.unstable, all.robust_percent, all.thin_percent, all.ms(0.0), all.worst]
+end, [4, 1, 1, 25.0, 50.0, 1.1, Float::INFINITY])
+Gate.expect('no plants', study_of.then { |all| [all.robust_percent, all.ms(0.5), Study.shown(all.worst)] }, [0.0, nil, '-'])
 Gate.expect('a rule without plants', begin
-  batch_of(1).only('relay', 'SIMC_PI')
-rescue Host::Failure => e
+  study_of(1.5).of('fixpid_autotune', 'PI calm')
+rescue Study::Failure => e
   e.message
 end, /no plant tuned/)
-Gate.expect('no errors of no plants', Batch.quantile([], 0.5), nil)
+Gate.expect('an Ms that is no number', study_of('nan'), /"nan"/)
+Gate.expect('a row of the study that breaks off', begin
+  Study.rows(["0;batch;fixpid_autotune;PI safe;2;0;900\n"])
+rescue Study::Failure => e
+  e.message
+end, /not a row: 0;batch/)
+Gate.expect('good loops', study_checks(1.4, 'PI safe'), '')
+Gate.expect('a word whose loops are not stable', study_checks(-1, 'PID calm'), 'seed, PID calm: unstable')
+Gate.expect('a safe loop without a margin', study_checks(2.3, 'PI safe'),
+            'seed, PI safe: Ms within 1.2 to 1.8; safe, of the loops: Ms above 2.2')
+Gate.expect('a quick one', study_checks(2.3, 'PI quick'), '')
+Gate.expect('a tuner that refuses all', study_checks(0, 'PI safe'), /plain families with gains/)
+Gate.expect('an output outside its range', study_checks(1.4, 'PI safe', outside: 1), 'seed: outputs outside their range')
+Gate.expect('a line through points', fitted, [2.0, 3.0])
+Gate.expect('a quantile', below(0.9).between?(85, 95), true)
+Gate.expect('equations', Quantile.solve([[0.0, 2.0], [4.0, 1.0]], [6.0, 11.0]), [2.0, 3.0])
 Gate.expect('a value as it was', regression('loop', BEFORE) { Report.unchanged('settled', 116) }, true)
 Gate.expect('another value', regression('loop', BEFORE) { Report.unchanged('settled', 115) }, false)
 Gate.expect('a value that is new', regression('loop') { Report.unchanged('settled', 116) }, false)

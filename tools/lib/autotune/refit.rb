@@ -74,7 +74,7 @@ SHAPES = {
 
 # Weighted least squares, and quantiles by repeating them: a row that lies below the
 # line gets another weight than one above.
-module Regression
+module Quantile
   ROUNDS = 60
   NEAREST = 0.005 # a row on the line must not get all of the weight
   RIDGE = 1e-4
@@ -83,7 +83,7 @@ module Regression
 
   # The line that has `share` of the ones below it: rows * result is 1 or more for
   # them.
-  def quantile(rows, weights, share)
+  def line(rows, weights, share)
     line = solve(*normal(rows, weights))
     ROUNDS.times do
       now = rows.each_with_index.map do |row, i|
@@ -155,17 +155,20 @@ end
 
 # Of these plants, percent whose loop has at most the wanted Ms.
 def served(shape, plants, line)
-  good = plants.count { |one| Regression.dot(shape.terms.call(one), line) >= one.wanted }
+  good = plants.count { |one| Quantile.dot(shape.terms.call(one), line) >= one.wanted }
   100.0 * good / plants.size
 end
 
+LEAST = 100 # plants of a half
+
 def line_of(shape, plants)
   rows = plants.map { |one| shape.terms.call(one).map { |term| term / one.wanted } }
-  Regression.quantile(rows, plants.map(&:weight), shape.share)
+  Quantile.line(rows, plants.map(&:weight), shape.share)
 end
 
 # The halves tell how well a constant is known.
 def report(shape, halves)
+  halves.map(&:size).min < LEAST and abort "refit: too few plants to fit #{shape.constants.size} constants"
   lines = [shape.constants.values, *halves.map { |half| line_of(shape, half) }]
   puts "#{shape.name}, two halves of #{halves.map(&:size).join(' and ')} plants:",
        '  term        library   of one half   of the other'

@@ -4,11 +4,13 @@
 # What sim/random_plants prints, summed up: how good the gains are that autotuners
 # find on plants of many families. `study.rb PROGRAM SEED PLANTS` prints tables.
 module Study
+  class Failure < StandardError; end
+
   HEADER = File.expand_path('../../../include/fixpid_autotune.h', __dir__)
 
   # The names of an enumeration of the header, in their order.
   def self.names(enumeration)
-    text = File.read(HEADER)[/^enum #{enumeration} \{(.*?)^\};/m, 1] or raise "no #{enumeration} in #{HEADER}"
+    text = File.read(HEADER)[/^enum #{enumeration} \{(.*?)^\};/m, 1] or raise Failure, "no #{enumeration} in #{HEADER}"
     text.scan(/^ +FIXPID_AUTOTUNE_(\w+)/).flatten
   end
 
@@ -67,7 +69,7 @@ module Study
 
     def of(tuner, rule)
       found = rows.select { |row| row.tuner == tuner && row.rule == rule }
-      found.empty? and raise "no plant tuned by #{tuner}, #{rule}"
+      found.empty? and raise Failure, "no plant tuned by #{tuner}, #{rule}"
       Rows.new(found)
     end
 
@@ -147,13 +149,18 @@ module Study
     end
   end
 
+  COLUMNS = 11
+
   # Of the program's lines, without their first one.
   def self.rows(lines)
     Rows.new(lines.map do |line|
+      line.count(';') == COLUMNS - 1 or raise Failure, "not a row: #{line.chomp}"
       _, family, tuner, rule, status, reason, _, lasts, outside, ms, slower = line.chomp.split(';')
       Row.new(family, tuner, rule, Integer(status), Integer(reason), Float(lasts), Integer(outside), Float(ms),
               Float(slower))
     end)
+  rescue ArgumentError => e
+    raise Failure, e.message
   end
 
   # Ms with two digits.
@@ -180,8 +187,8 @@ module Study
     end
 
     def line(title, rows)
-      puts format(LINE, title, rows.count, rows.gains, *[0.05, 0.5, 0.95, 1.0].map { |share| Study.shown(rows.ms(share)) },
-                  format('%.1f %%', rows.robust_percent), rows.thin, rows.unstable, rows.lasts(0.5)&.round || '-')
+      sensitivities = [0.05, 0.5, 0.95, 1.0].map { |share| Study.shown(rows.ms(share)) }
+      puts format(LINE, title, rows.count, rows.gains, *sensitivities, format('%.1f %%', rows.robust_percent), rows.thin, rows.unstable, rows.lasts(0.5)&.round || '-')
     end
 
     # Of the plants without gains: what the experiment said, or else the result.

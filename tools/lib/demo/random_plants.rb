@@ -27,32 +27,40 @@ def study_rows(part, seed, plants, designs, *family)
   lines.size == plants * designs + 1 or
     raise Host::Failure, "#{name}.txt has #{lines.size - 1} rows, not #{plants * designs}"
   Study.rows(lines.drop(1))
-rescue ArgumentError => e
+rescue Study::Failure => e
   raise Host::Failure, "#{name}.txt: #{e.message}"
 end
 
 def random_plants(long)
-  seeds, plants = long ? [LONG_SEEDS, LONG_PLANTS] : [STUDY_SEEDS, STUDY_PLANTS]
+  ours, peers = study(STUDY_SEEDS, STUDY_PLANTS)
+  keep_study(ours)
+  tell_at_once
+  draw_random_plants(ours, peers)
+  return unless long
+
+  Report.start('random_plants long')
+  study(LONG_SEEDS, LONG_PLANTS)
+end
+
+# What the autotuner did, and what the others did, on plants of all seeds.
+def study(seeds, plants)
   drawn = seeds.to_h { |seed| [seed, study_rows('ours', seed, plants, Study::DESIGNS.size)] }
   drawn.each { |seed, all| check_study("seed #{seed}", all) }
   ours = drawn.values.reduce(:+)
   check_robust(ours)
   peers = seeds.map { |seed| study_rows('peers', seed, plants, Study::PEERS.values.sum(&:size)) }.reduce(:+)
   tell_study(ours, peers)
-  return if long
-
-  tell_at_once
-  keep_study(ours)
-  draw_random_plants(ours, peers)
+  [ours, peers]
 end
 
 # Whoever takes the gains of a word unseen must have a loop that is stable, and with
 # the default word nearly always one with a margin.
 def check_study(seed, all)
-  Study::DESIGNS.each { |design| Report.exactly("#{seed}, #{design}: unstable", all.of(Study::OURS, design).unstable, 0) }
-  Report.at_least("#{seed}, PI safe: Ms within 1.2 to 1.8", all.of(Study::OURS, 'PI safe').robust_percent, 99.0, '%')
-  Report.at_least("#{seed}, PID safe: Ms within 1.2 to 1.8", all.of(Study::OURS, 'PID safe').robust_percent, 95.0, '%')
-  check_conduct(seed, all.of(Study::OURS, 'PI safe'))
+  ours = Study::DESIGNS.to_h { |design| [design, all.of(Study::OURS, design)] }
+  ours.each { |design, rows| Report.exactly("#{seed}, #{design}: unstable", rows.unstable, 0) }
+  Report.at_least("#{seed}, PI safe: Ms within 1.2 to 1.8", ours['PI safe'].robust_percent, 99.0, '%')
+  Report.at_least("#{seed}, PID safe: Ms within 1.2 to 1.8", ours['PID safe'].robust_percent, 95.0, '%')
+  check_conduct(seed, ours['PI safe'])
 end
 
 # A tuner that refuses all is safe and useless.
@@ -83,16 +91,23 @@ end
 # The rows of the tables in docs/tuning.md.
 def tell_study(ours, peers)
   Report.number('plants', ours.of(Study::OURS, 'PI safe').count)
-  Report.number('designs', Study::DESIGNS.map { |design| design_numbers(ours.of(Study::OURS, design), Study::OURS, design) } +
-                           Study::PEERS.flat_map { |peer, rules| rules.map { |rule| design_numbers(peers.of(peer, rule), peer, rule) } })
+  Report.number('designs', design_rows(ours, Study::OURS, Study::DESIGNS) +
+                           Study::PEERS.flat_map { |peer, rules| design_rows(peers, peer, rules) })
   Report.number('families', Study::FAMILIES.map { |name, title| family_numbers(ours, name, title) })
   Report.number('peers', Study::FAMILIES.map { |name, title| peer_numbers(peers, name, title) })
 end
 
-def design_numbers(rows, tuner, rule)
-  { 'tuner' => tuner, 'rule' => rule, 'gains' => rows.gains, 'ms' => [0.05, 0.5, 0.95, 1.0].map { |share| Study.shown(rows.ms(share)) },
-    'robust' => rows.robust_percent, 'thin' => rows.thin, 'unstable' => rows.unstable,
-    'slower' => rows.slower(0.5), 'lasts' => [0.5, 0.9].map { |share| rows.lasts(share) } }
+def design_rows(all, tuner, rules)
+  rules.map do |rule|
+    rows = all.of(tuner, rule)
+    { 'tuner' => tuner, 'rule' => rule, 'gains' => rows.gains, 'ms' => shown_ms(rows, 0.05, 0.5, 0.95, 1.0),
+      'robust' => rows.robust_percent, 'thin' => rows.thin, 'unstable' => rows.unstable,
+      'slower' => rows.slower(0.5), 'lasts' => [0.5, 0.9].map { |share| rows.lasts(share) } }
+  end
+end
+
+def shown_ms(rows, *shares)
+  shares.map { |share| Study.shown(rows.ms(share)) }
 end
 
 def family_numbers(ours, name, title)
@@ -101,24 +116,29 @@ def family_numbers(ours, name, title)
   { 'family' => title, 'plants' => safe.count, 'gains' => safe.gains, 'lasts' => safe.lasts(0.5),
     'statuses' => Study::STATUSES.to_h { |status| [status, safe.ended(status)] },
     'reasons' => Study::REASONS.to_h { |reason| [reason, safe.refused(reason)] },
-    'loops' => designs.transform_values { |rows| { 'ms' => [0.5, 1.0].map { |share| Study.shown(rows.ms(share)) }, 'thin' => rows.thin, 'unstable' => rows.unstable } } }
+    'loops' => designs.transform_values { |rows| loop_numbers(rows) } }
+end
+
+def loop_numbers(rows)
+  { 'ms' => shown_ms(rows, 0.5, 1.0), 'thin' => rows.thin, 'unstable' => rows.unstable }
 end
 
 def peer_numbers(peers, name, title)
   { 'family' => title,
     'peers' => PEER_RULES.map do |peer, rule|
       rows = peers.of(peer, rule).family(name)
-      { 'gains' => rows.gains, 'ms' => Study.shown(rows.ms(0.5)), 'thin' => rows.thin, 'unstable' => rows.unstable }
+      { 'gains' => rows.gains, **loop_numbers(rows) }
     end }
 end
 
 def tell_at_once
   all = study_rows('ours', STUDY_SEEDS[0], AT_ONCE_PLANTS, Study::DESIGNS.size, AT_ONCE)
-  Report.number('at_once', Study::DESIGNS.map { |design| design_numbers(all.of(Study::OURS, design), Study::OURS, design) })
+  Report.number('at_once', design_rows(all, Study::OURS, Study::DESIGNS))
 end
 
 # What the picture has beside PI safe: the calmest rule of each.
-PEER_RULES = { 'Arduino PID AutoTune' => 'PI', 'QuickPID' => 'Tyreus-Luyben PI', 'sTune' => 'Ziegler-Nichols PI' }.freeze
+PEER_RULES = { 'Arduino PID AutoTune' => 'PI', 'QuickPID' => 'Tyreus-Luyben PI',
+               'sTune' => 'Ziegler-Nichols PI' }.freeze
 PEER_TITLES = { 'Arduino PID AutoTune' => ['Arduino PID', 'AutoTune, PI'], 'QuickPID' => %w[QuickPID Tyreus-Luyben],
                 'sTune' => %w[sTune Ziegler-Nichols] }.freeze
 MS_DRAWN = 10.0 # what is beyond is drawn there
@@ -126,10 +146,11 @@ MS_EDGE = 26.0  # of the panel: room for a number
 NO_GAINS = { 'the experiment failed' => Plot::GREY, 'refused after it' => Plot::PURPLE }.freeze
 
 def draw_random_plants(ours, peers)
-  plot = Plot.new('random_plants', "#{ours.of(Study::OURS, 'PI safe').count} random plants of 22 families, and the gains that four autotuners find",
+  safe = ours.of(Study::OURS, 'PI safe')
+  plot = Plot.new('random_plants', "#{safe.count} random plants of #{Study::FAMILIES.size} families, " \
+                                   'and the gains that four autotuners find',
                   width: 960, height: 860, columns: [0.72, 1.0, 1.0, 1.0, 1.0], gap_x: 0.012,
                   margins: { left: 0.262, right: 0.99, top: 0.845, bottom: 0.14 })
-  safe = ours.of(Study::OURS, 'PI safe')
   refusal_panel(plot, safe)
   sensitivity_panel(plot, 1, safe, ['fixpid\\\\_autotune', 'PI safe'], Plot::BLUE)
   PEER_RULES.each_with_index do |(peer, rule), i|
@@ -142,6 +163,19 @@ def study_csv(name, rows)
   path = "#{Host.folder}/random_plants-#{name}.csv"
   File.write(path, rows.map { |row| "#{row.join(',')}\n" }.join)
   path
+end
+
+# A bar from one column to another one, in the row of the first.
+def study_bar(path, from, to, width, color)
+  "'#{path}' using #{from}:1:#{to}:(0) with vectors nohead linewidth #{width} linecolor '#{color}' notitle"
+end
+
+def study_dots(path, column, style)
+  "'#{path}' using #{column}:1 with points #{style} linecolor '#{Plot::BLACK}' notitle"
+end
+
+def study_numbers(path, place, text, style)
+  "'#{path}' using (#{place}):1:(#{text}) with labels #{style} notitle"
 end
 
 # The families from above to below, in all panels.
@@ -158,34 +192,34 @@ def refusal_panel(plot, safe)
     [i, failed, 100.0 * (some.count - some.gains) / some.count]
   end
   path = study_csv('refusals', rows)
-  bar = ->(from, to, color) { "'#{path}' using #{from}:1:#{to}:(0) with vectors nohead linewidth 7 linecolor '#{color}' notitle" }
-  plot.panel(0, 0, [bar.call('(0)', 2, NO_GAINS.values[0]), bar.call(2, '($3-$2)', NO_GAINS.values[1]),
-                    "'#{path}' using ($3+2):1:($3 < 99.5 ? sprintf('%.0f', $3) : '') with labels left offset 0,0 notitle"],
+  failed, refused = NO_GAINS.values
+  plot.panel(0, 0, [study_bar(path, '(0)', 2, 7, failed), study_bar(path, 2, '($3-$2)', 7, refused),
+                    study_numbers(path, '$3+2', "sprintf('%.0f', $3)", 'left')],
              [*study_rows_axis(true), 'set xrange [0:125]', 'set xtics (0, 50, 100)', "set xlabel 'of the plants, %'",
               "set title \"{/:Bold fixpid\\\\_autotune}\\nno gains for\\n \\n \"", *study_legend])
 end
 
 # Below the panels.
 def study_legend
-  lines = [['the loops with these gains, Ms:', 'the largest factor by which a loop makes a disturbance greater', Plot::BLACK],
-           ['bar: 5 to 95 % of the loops', 'square: the middle one; circle: the worst stable one, or beyond 10', Plot::BLACK],
-           ['number: unstable loops, %', 'green: a good margin; red: close to oscillation', Plot::BLACK]]
-  left = NO_GAINS.map { |title, color| [title, color] }
+  right = { 'the loops with these gains, Ms:' => 'the largest factor by which a loop makes a disturbance greater',
+            'bar: 5 to 95 % of the loops' => 'square: the middle one; circle: the worst stable one, or beyond 10',
+            'number: unstable loops, %' => 'green: a good margin; red: close to oscillation' }
+  left = [*NO_GAINS, ['L: dead time, T: lag', Plot::BLACK]]
   left.each_with_index.map { |(title, color), i| legend(title, 0.012, i, color) } +
-    lines.each_with_index.flat_map { |(one, other, color), i| [legend(one, 0.262, i, color), legend(other, 0.51, i, color)] }
+    right.each_with_index.flat_map { |texts, i| texts.zip([0.262, 0.51]).map { |text, x| legend(text, x, i) } }
 end
 
-def legend(title, x, line, color)
+def legend(title, x, line, color = Plot::BLACK)
   "set label '#{title}' at screen #{x}, screen #{(0.066 - 0.022 * line).round(3)} textcolor '#{color}'"
 end
 
 def sensitivity_panel(plot, column, all, title, color)
   rows = Study::FAMILIES.keys.each_with_index.map { |name, i| [i, *sensitivity_row(all.family(name))] }
   path = study_csv("ms-#{column}", rows)
-  curves = ["'#{path}' using 2:1:($4-$2):(0) with vectors nohead linewidth 6 linecolor '#{color.sub('#', '#90')}' notitle",
-            "'#{path}' using 3:1 with points pointtype 5 pointsize 0.7 linecolor '#{Plot::BLACK}' notitle",
-            "'#{path}' using 5:1 with points pointtype 6 pointsize 0.6 linecolor '#{Plot::BLACK}' notitle",
-            "'#{path}' using (#{MS_EDGE * 0.93}):1:($6 > 0 ? sprintf('%.0f %%', $6) : '') with labels right textcolor '#{Plot::RED}' notitle"]
+  curves = [study_bar(path, 2, '($4-$2)', 6, color.sub('#', '#90')),
+            study_dots(path, 3, 'pointtype 5 pointsize 0.7'), study_dots(path, 5, 'pointtype 6 pointsize 0.6'),
+            study_numbers(path, MS_EDGE * 0.93, "$6 > 0 ? sprintf('%.0f %%', $6) : ''",
+                          "right textcolor '#{Plot::RED}'")]
   lasts = format('%.1f', all.lasts(0.5)).sub(/\A(\d\d)\.\d\z/, '\1')
   gains = (100.0 * all.gains / all.count).round
   heading = "set title \"{/:Bold #{title[0]}}\\n#{title[1]}\\ngains for #{gains} %\\nlasts #{lasts} (L + T)\""
@@ -201,8 +235,11 @@ end
 
 def sensitivity_marks
   low, high = Study::ROBUST.minmax
-  ["set logscale x", "set xrange [1:#{MS_EDGE}]", "set xtics ('1' 1, '2.2' #{Study::THIN}, '4' 4, '10' #{MS_DRAWN})",
+  ['set logscale x', "set xrange [1:#{MS_EDGE}]",
+   "set xtics ('1' 1, '2.2' #{Study::THIN}, '4' 4, '10' #{MS_DRAWN})",
    "set xlabel 'Ms, a factor'",
-   "set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind fillcolor '#DDF0E4' fillstyle solid noborder",
-   "set object 2 rectangle from #{Study::THIN}, graph 0 to #{MS_DRAWN}, graph 1 behind fillcolor '#F9E3DC' fillstyle solid noborder"]
+   "set object 1 rectangle from #{low}, graph 0 to #{high}, graph 1 behind " \
+   "fillcolor '#DDF0E4' fillstyle solid noborder",
+   "set object 2 rectangle from #{Study::THIN}, graph 0 to #{MS_DRAWN}, graph 1 behind " \
+   "fillcolor '#F9E3DC' fillstyle solid noborder"]
 end

@@ -3,6 +3,8 @@
 
 # The tables of the documents, from the numbers that the loops reported.
 module Tables
+  LONG_STUDY = 'random_plants long'
+
   class << self
     def tuning
       table('step', 'KP', 'KI', 'KD', 'upright', 'base moves', 'base reverses',
@@ -31,15 +33,15 @@ module Tables
     end
 
     # All tuners and rules.
-    def random_plants
-      rows = Report.numbers['random_plants']['designs'].map { |row| design_row(row) }
+    def random_plants(loop = 'random_plants')
+      rows = Report.numbers[loop]['designs'].map { |row| design_row(row) }
       table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable',
             'errors', 'lasts: 50, 90 %', rows)
     end
 
     # The same of more plants, when they were asked for.
     def study
-      random_plants
+      random_plants(LONG_STUDY)
     end
 
     def at_once
@@ -50,7 +52,7 @@ module Tables
 
     # By PI and by PID.
     def study_words
-      rows = Report.numbers['random_plants']['designs'].first(Study::DESIGNS.size)
+      rows = Report.numbers[LONG_STUDY]['designs'].first(Study::DESIGNS.size)
       cells = rows.to_h do |row|
         [row['rule'], [row['ms'].values_at(0, 2).join(' to '), row['thin'], format('%.2f', row['slower'])]]
       end
@@ -61,7 +63,7 @@ module Tables
     end
 
     def study_families
-      rows = Report.numbers['random_plants']['families'].map do |row|
+      rows = Report.numbers[LONG_STUDY]['families'].map do |row|
         loops = row['loops'].values.map { |loop| "#{loop['ms'].join(' / ')}, #{loop['thin']}" }
         [row['family'], row['gains'], row['lasts']&.round || '-', *loops]
       end
@@ -70,7 +72,7 @@ module Tables
 
     # What never happened has no column.
     def study_refusals
-      families = Report.numbers['random_plants']['families']
+      families = Report.numbers[LONG_STUDY]['families']
       columns = { 'statuses' => Study::STATUSES - ['DONE'], 'reasons' => Study::REASONS - %w[NO_REASON NOT_DONE] }
                 .flat_map { |kind, names| names.map { |name| [kind, name] } }
                 .select { |kind, name| families.sum { |row| row[kind][name] }.positive? }
@@ -79,11 +81,11 @@ module Tables
     end
 
     def study_peers
-      numbers = Report.numbers['random_plants']
+      numbers = Report.numbers[LONG_STUDY]
       rows = numbers['peers'].zip(numbers['families']).map do |row, ours|
-        peers = row['peers'].map { |peer| "#{peer['gains']}; #{peer['ms']}, #{peer['thin']}, #{peer['unstable']}" }
+        peers = row['peers'].map { |peer| peer_cell(peer['gains'], peer) }
         safe = ours['loops']['PI safe']
-        [row['family'], "#{ours['gains']}; #{safe['ms'][0]}, #{safe['thin']}, #{safe['unstable']}", *peers]
+        [row['family'], peer_cell(ours['gains'], safe), *peers]
       end
       table('family', '`fixpid_autotune`, PI safe', *PEER_RULES.map { |peer, rule| "#{peer}, #{rule}" }, rows)
     end
@@ -192,10 +194,14 @@ module Tables
 
     def design_row(row)
       ours = row['tuner'] == Study::OURS
-      [ours ? "`#{row['tuner']}`" : row['tuner'], row['rule'], row['gains'], row['ms'].first(3).join(', '), row['ms'].last,
-       format('%.1f %%', row['robust']), row['thin'], row['unstable'],
+      [ours ? "`#{row['tuner']}`" : row['tuner'], row['rule'], row['gains'],
+       row['ms'].first(3).join(', '), row['ms'].last, format('%.1f %%', row['robust']), row['thin'], row['unstable'],
        row['slower'] ? format('%.2f', row['slower']) : '',
        row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }.join(', ')]
+    end
+
+    def peer_cell(gains, loops)
+      "#{gains}; #{loops['ms'][0]}, #{loops['thin']}, #{loops['unstable']}"
     end
 
     def totals(title, rows)

@@ -2,8 +2,8 @@
 // What the refit of the delay's constants fits: the features of an experiment
 // from which fixpid_autotune computes the delay, in floating point, and the
 // delay that would have been right.
-#ifndef FEATURES_H
-#define FEATURES_H
+#ifndef WAVE_FEATURES_H
+#define WAVE_FEATURES_H
 #include "experiment.h"
 #include "judge.h"
 

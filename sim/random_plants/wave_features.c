@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "features.h"
+#include "wave_features.h"
 
 #include <math.h>
 
