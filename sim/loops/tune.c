@@ -8,7 +8,7 @@
 #include "loops.h"
 
 #define STEPS_MAX 200000
-#define ROBUSTNESS_Q4 16
+#define ROBUSTNESS_Q4 FIXPID_AUTOTUNE_SAFE
 
 // A plant, its actuator, where it is to be tuned, and how long the loop with
 // its gains is watched.
@@ -131,8 +131,7 @@ void print_autotune(void)
     static const struct {
         const char *name;
         uint8_t rule;
-    } rules[] = {{"PI", FIXPID_AUTOTUNE_SIMC_PI},
-                 {"PID", FIXPID_AUTOTUNE_AMIGO_PID}};
+    } rules[] = {{"PI", FIXPID_AUTOTUNE_PI}, {"PID", FIXPID_AUTOTUNE_PID}};
 
     (void)printf("plant;status;steps;k;t;l;slope;rule;kp;ki;kd;filter;"
                  "overshoot;settled;iae\n");
@@ -165,7 +164,7 @@ static void print_failure(const char *what, uint8_t expected,
     struct fixpid_pid_config gains = {.output_max = 255};
     const struct tuned tuned = experiment(subject, config, &motion);
     const bool refused = !fixpid_autotune_result(
-        &tuned.tuner, FIXPID_AUTOTUNE_SIMC_PI, ROBUSTNESS_Q4, &gains);
+        &tuned.tuner, FIXPID_AUTOTUNE_PI, ROBUSTNESS_Q4, &gains);
 
     (void)printf("%s;%d;%d;%d;%d\n", what, (int)expected, (int)tuned.status,
                  tuned.steps, refused ? 1 : 0);
@@ -196,9 +195,9 @@ void print_failures(void)
                   FIXPID_AUTOTUNE_IRREGULAR, &subject, &config);
 
     config.output_max = 255;
-    plant.lag_steps = 1.5;
-    plant.delay_steps = 1;
-    print_failure("a plant of 1.5 steps", FIXPID_AUTOTUNE_TOO_FAST, &subject,
+    plant.lag_steps = 1.0;
+    plant.delay_steps = 2;
+    print_failure("a plant of 3 steps", FIXPID_AUTOTUNE_TOO_FAST, &subject,
                   &config);
 
     plant = trials[4].plant;

@@ -7,7 +7,7 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
-TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_result.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")
 
@@ -96,19 +96,19 @@ void test_main_heater_is_off_while_the_noise_is_measured(void)
     TEST_ASSERT_EQUAL_INT16(1023, period(80));
 }
 
+// Of a swing of 160 counts the hysteresis is 30, and a conversion counts 4.
 void test_main_relay_switches_beyond_the_hysteresis_only(void)
 {
     listen(80);
     TEST_ASSERT_EQUAL_INT16(1023, period(80));
-    TEST_ASSERT_EQUAL_INT16(1023, period(SET));
-    higher = 1; // of a sum of 4: the hysteresis is 1 without noise
-    TEST_ASSERT_EQUAL_INT16(1023, period(SET));
     higher = 2;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET));
+    TEST_ASSERT_EQUAL_INT16(1023, period(SET + 7));
     higher = 3;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET - 1));
+    TEST_ASSERT_EQUAL_INT16(0, period(SET + 7));
     higher = 2;
-    TEST_ASSERT_EQUAL_INT16(1023, period(SET - 1));
+    TEST_ASSERT_EQUAL_INT16(0, period(SET - 8));
+    higher = 1;
+    TEST_ASSERT_EQUAL_INT16(1023, period(SET - 8));
 }
 
 void test_main_control_runs_once_in_100_ticks(void)
@@ -130,6 +130,7 @@ void test_main_experiment_over_gains_are_kept(void)
     TEST_ASSERT_GREATER_THAN_UINT32(0, tuned.gains.ki_q24);
     TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kd_q8);
     TEST_ASSERT_EQUAL_INT16(1023, tuned.output_max);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_NO_REASON, no_gains);
 }
 
 void test_main_control_starts_from_what_holds_the_temperature(void)
@@ -203,6 +204,28 @@ void test_main_failed_experiment_leaves_the_heater_off(void)
                             fixpid_autotune_status(&tuner));
     TEST_ASSERT_EQUAL_INT16(0, period(80));
     TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_NOT_DONE, no_gains);
+}
+
+// The temperature swings farther where the relay drives more: the experiment
+// measures, but finds two processes and no gains.
+void test_main_measured_without_gains_leaves_the_heater_off(void)
+{
+    int periods = 0;
+
+    listen(SET);
+    while ((fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) &&
+           (periods < 2000)) {
+        const bool above = ((periods / 20) % 2) != 0;
+        const uint16_t far = (driven > 700) ? 30 : 12;
+        (void)period((uint16_t)(above ? SET + 12 : SET - far));
+        periods++;
+    }
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
+                            fixpid_autotune_status(&tuner));
+    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TWO_PROCESSES, no_gains);
+    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
+    TEST_ASSERT_EQUAL_INT16(0, period(80));
 }
 
 void test_main_oven_that_stays_cold_is_given_up_after_a_minute(void)

@@ -11,7 +11,7 @@ OBJECT_MODE = Dir['include/fixpid_*.h'].sort.map { |header| File.basename(header
                                        .map { |noun| "-D#{noun.upcase}_OBJECT=#{noun.delete_prefix('fixpid_')}_controller" }.freeze
 # Wide and narrow arithmetic: XC8's name for a PIC16 chooses the second.
 FORMS = [[], ['-D_PIC14']].freeze
-BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|kept|autotune/ }.freeze
+BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|kept|autotune|experiment/ }.freeze
 BARE = 'build/lint'.freeze # the sources without the preprocessor's lines
 LINES_MAX = 40
 COMPLEXITY_MAX = 8

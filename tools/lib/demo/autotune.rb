@@ -2,19 +2,19 @@
 # frozen_string_literal: true
 
 # The experiment at 80 C, later 100 C and the door.
-TUNE_SCENE = { seconds: 140, setpoint_at: 90, setpoint_then: 100, door_at: 115,
+TUNE_SCENE = { seconds: 170, setpoint_at: 100, setpoint_then: 100, door_at: 140,
                door_for: 5 }.freeze
 HOTTER_C = 100.0
-HOTTER_AT_S = 90.0
-TUNE_DOOR_S = 115.0
-TUNE_DOOR_END_S = 120.0
-TUNE_END_S = 140.0
+HOTTER_AT_S = 100.0
+TUNE_DOOR_S = 140.0
+TUNE_DOOR_END_S = 145.0
+TUNE_END_S = 170.0
 HOTTER_BAND_C = 0.02 * 80.0 # of what it is above the air
 # 60 K through 2.5 K/W is 24 W of 160.
 HOLDING_COUNTS = 24.0 / 160.0 * 1023.0
 RULES = { 'PI' => 'autotune', 'PID' => 'autotune_pid' }.freeze
-RULE_NAMES = { 'PI' => 'SIMC PI', 'PID' => 'AMIGO PID' }.freeze
-TUNED_OVERSHOOT = { 'PI' => 18.0, 'PID' => 4.0 }.freeze
+# With a setpoint weight of 1; half of all plants overshoot by a quarter of the step.
+TUNED_OVERSHOOT = { 'PI' => 10.0, 'PID' => 15.0 }.freeze
 DONE = 2 # FIXPID_AUTOTUNE_DONE
 
 # What a plant's loop with the found gains may overshoot, in percent of the
@@ -33,6 +33,7 @@ def autotune
   end
   RULES.each { |rule, program| tell_gains(rule, Host.printed(program)) }
   check_experiment(runs['PI'])
+  check_progress(Host.printed(RULES.fetch('PI')), taken_over_s(runs['PI']))
   runs.each { |rule, run| check_tuned(rule, run) }
   check_tuned_plants(Loops.table('autotune', 12))
   check_failed_experiments(Loops.table('failures', 5))
@@ -53,7 +54,7 @@ def tell_gains(rule, text)
   gains.each { |name, value| Report.number("#{rule.downcase}_#{name}", value) }
   Report.note(format('%<rule>s: kp %<kp>.2f, ' \
                      'ki %<ki>.3f /s, kd %<kd>.2f s, filter %<filter>d',
-                     rule: RULE_NAMES[rule], kp: gains['kp'], ki: gains['ki_per_s'],
+                     rule: rule, kp: gains['kp'], ki: gains['ki_per_s'],
                      kd: gains['kd_s'], filter: filter))
   Report.at_least("#{rule}: gains found, kp", gains['kp'], 1.0 / 256.0)
 end
@@ -67,9 +68,22 @@ end
 def check_experiment(run)
   over = taken_over_s(run)
   Report.number('experiment_s', over)
-  Report.at_most('the experiment ends after', over, 70.0, 's')
+  Report.at_most('the experiment ends after', over, 90.0, 's')
   Report.at_most('and swings from side to side by',
                  run.swing('temperature_c', over - 10.0, over), 15.0, 'C')
+end
+
+# Nothing disturbs this oven: no cycle is thrown away, and the time that is left is
+# known as well as cycles of one relay are as long as those of the next.
+def check_progress(text, over)
+  told = text.scan(/^progress: ([\d.]+) s, phase \d, (\d+) %(?:, ([\d.]+) s left)?/)
+  percents = told.map { |_, percent, _| percent.to_i }
+  ends = told.filter_map { |at, _, left| at.to_f + left.to_f if left }
+  ends.empty? and raise Host::Failure, 'the program told no time that is left'
+  Report.exactly('progress: percentages that fall', percents.each_cons(2).count { |a, b| b < a }, 0)
+  Report.exactly('progress: at last', percents.last, 100, '%')
+  Report.at_most('progress: the end comes as told, within', ends.map { |at| (at - over).abs }.max, 0.1 * over, 's')
+  Report.exactly("the experiment's status and reason", text[/, 100 %, (.*)/, 1], "status #{DONE}, reason 0")
 end
 
 def check_tuned(rule, run)
@@ -85,10 +99,10 @@ def check_tuned(rule, run)
                  '%')
   Report.at_most("#{rule}: 100 C within 2 % after",
                  run.settling('temperature_c', HOTTER_C, HOTTER_BAND_C,
-                              HOTTER_AT_S, TUNE_DOOR_S), 12.0, 's')
+                              HOTTER_AT_S, TUNE_DOOR_S), 15.0, 's')
   Report.at_most("#{rule}: door shut, within 2 % after",
                  run.settling('temperature_c', HOTTER_C, HOTTER_BAND_C,
-                              TUNE_DOOR_END_S, TUNE_END_S), 16.0, 's')
+                              TUNE_DOOR_END_S, TUNE_END_S), 20.0, 's')
 end
 
 def check_tuned_plants(rows)
@@ -147,7 +161,7 @@ def autotune_temperature(plot, runs)
   curves = [Plot.curve(runs['PI'], 'setpoint_c', 'setpoint', Plot::BLACK,
                        style: 'dashtype 2', width: 1.2)]
   curves += runs.map do |rule, run|
-    Plot.curve(run, 'temperature_c', RULE_NAMES[rule], TUNE_COLORS[rule])
+    Plot.curve(run, 'temperature_c', rule, TUNE_COLORS[rule])
   end
   plot.panel(0, 0, curves,
              [*autotune_marks(over, 0.86, true), "set xrange [0:#{TUNE_END_S}]",

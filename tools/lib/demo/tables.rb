@@ -18,14 +18,14 @@ module Tables
               kp, ki, kd, filter = %w[kp ki_per_s kd_s filter].map do |name|
                 Report.numbers['autotune']["#{rule.downcase}_#{name}"]
               end
-              [RULE_NAMES[rule], format('%.3f', kp), format('%.4f', ki),
+              [rule, format('%.3f', kp), format('%.4f', ki),
                format('%.3f', kd), filter]
             end)
     end
 
     def autotune
       rows = Report.numbers['autotune']['plants'].map do |row|
-        [row['plant'], row['steps'], *process(row), RULE_NAMES[row['rule']], format('%.3f', row['kp']),
+        [row['plant'], row['steps'], *process(row), row['rule'], format('%.3f', row['kp']),
          format('%.5f', row['ki']), format('%.2f', row['kd']), format('%.1f %%', row['overshoot']), row['settled']]
       end
       table('plant', 'steps of the experiment', 'T found', 'L found', 'rule', 'kp', 'ki per step', 'kd', 'overshoot',
@@ -137,6 +137,24 @@ module Tables
         ["#{which} `fixpid_pid_track`", format('%.0f', pressure), format('%.0f', flow)]
       end
       table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
+    end
+
+    def behind_tpo
+      numbers = Report.numbers['recipes']
+      rows = { 'direct' => 'direct', 'tpo' => '`fixpid_tpo`' }.map do |way, title|
+        plants, gains, thin, largest, middle, long =
+          %w[plants gains thin largest middle long].map { |what| numbers["behind_tpo_#{way}_#{what}"] }
+        [title, "#{gains} of #{plants}", format('%.2f', largest), thin, middle, long]
+      end
+      table('output', 'plants with gains', 'largest Ms', 'above 2.2', 'steps of the experiment: 50 %', '95 %', rows)
+    end
+
+    def retune
+      numbers = Report.numbers['recipes']
+      rows = { 'narrow' => 'a fifth to each side', 'whole' => 'all' }.map do |which, title|
+        [title, format('%.0f', numbers["retune_#{which}_far"])]
+      end
+      table('range of the experiment', 'farthest from the setpoint of 500', rows)
     end
 
     def comparison

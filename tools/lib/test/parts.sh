@@ -36,6 +36,8 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
     'test_autotune_example':
       - FIXPID_PID_OBJECT=oven
       - FIXPID_AUTOTUNE_OBJECT=tuner
+    'test_experiment_example':
+      - FIXPID_AUTOTUNE_OBJECT=tuner
 :files:
   :test:
     - -:test/unit/test_fixpid_instances.c
