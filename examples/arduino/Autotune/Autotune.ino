@@ -24,6 +24,19 @@ static int16_t plant(int16_t drive)
     return (int16_t)(heat / 256);
 }
 
+static void print_progress(unsigned steps)
+{
+    fixpid_autotune_stage stage;
+    fixpid_autotune_progress(&tuner, &stage);
+    Serial.print(F("step "));
+    Serial.print(steps);
+    Serial.print(F(": phase "));
+    Serial.print(stage.phase);
+    Serial.print(F(", "));
+    Serial.print(100u * stage.done / stage.expected);
+    Serial.println(F(" %"));
+}
+
 // The drive that the experiment ends with.
 static int16_t tune()
 {
@@ -39,9 +52,13 @@ static int16_t tune()
     int16_t drive = 0;
     unsigned steps = 0;
     while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) {
+        if (steps % 100 == 0) {
+            print_progress(steps);
+        }
         drive = fixpid_autotune_step(&tuner, SETPOINT, plant(drive));
         steps++;
     }
+    print_progress(steps);
     Serial.print(F("status "));
     Serial.print(fixpid_autotune_status(&tuner));
     Serial.print(F(" after "));
@@ -57,8 +74,12 @@ void setup()
 
     fixpid_pid_config config = fixpid_pid_config();
     config.output_max = 255;
-    if (!fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_SIMC_PI, 16, &config)) {
-        Serial.println(F("no gains"));
+    if (!fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_PI,
+                                FIXPID_AUTOTUNE_SAFE, &config)) {
+        // A number of enum fixpid_autotune_cause: the header says what to do.
+        Serial.print(F("no gains, reason "));
+        Serial.println(fixpid_autotune_reason(&tuner, FIXPID_AUTOTUNE_PI,
+                                              FIXPID_AUTOTUNE_SAFE));
         return;
     }
     Serial.print(F("kp_q8 "));

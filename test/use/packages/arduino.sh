@@ -58,6 +58,7 @@ arduino_heater() {
 arduino_autotune() {
     same_output Autotune 0
     grep -q '^status 2 after ' uno.txt # FIXPID_AUTOTUNE_DONE
+    grep -q '^step .*: phase 6, 100 %' uno.txt
     same '400' "$(tail -n 2 uno.txt | sed -n '1s/ .*//p')"
 }
 
