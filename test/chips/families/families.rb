@@ -6,6 +6,7 @@
 require_relative '../../../tools/lib/faults/faults'
 require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
+require_relative 'alone'
 require_relative 'metered'
 require_relative 'msp430'
 require_relative 'ucsim'
@@ -70,6 +71,10 @@ class Families
     @tests = NamedTests.new('test/chips/families/run')
     (exact + refusals + seeded).each { |name, step| @tests.add(name, &step) }
     @tests.add('limits', needs: exact.map(&:first)) { limits }
+  end
+
+  def broken
+    @mutex.synchronize { @broken ||= break_library }
   end
 
   private
@@ -158,10 +163,6 @@ class Families
         Questions.new("#{@folder}/few", STEPS_PLANTED)
       end
     end
-  end
-
-  def broken
-    @mutex.synchronize { @broken ||= break_library }
   end
 
   def break_library
@@ -270,6 +271,7 @@ update = ARGV.delete('--update')
 long = ARGV.delete('--long') || update
 FileUtils.rm_rf('build/families') unless ARGV.first.to_s.match?(/\A-(-list|-help|h)\z/)
 families = Families.new(long ? STEPS_LONG : STEPS)
+Alone::Tests.new('build/families', -> { families.broken }, update).add(families.tests)
 families.tests.add('document', needs: families.tests.names.grep(/\Aexact /)) do
   document = Document.new(families.results, long)
   update ? document.update : document.check

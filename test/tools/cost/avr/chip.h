@@ -52,7 +52,7 @@ static void run_one(void)
 // Runs a function from its first instruction until it has returned, and gives
 // its cycles. `stack` becomes its bytes of the stack, with the return address,
 // if they are more.
-static unsigned long run_function(unsigned *stack)
+static inline unsigned long run_function(unsigned *stack)
 {
     const avr_cycle_count_t start = chip->cycle;
     const unsigned called = stack_pointer() + 2u;

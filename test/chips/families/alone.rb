@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+require_relative 'harness'
+require_relative '../../../tools/lib/measure/meters'
+
+# The experiment of fixpid_autotune alone, for chips that are too small for what makes
+# gains of it: the same experiments there and here, bit for bit, and what the library
+# adds to a program, with the experiment alone and with all of it.
+module Alone
+  FOLDER = 'test/chips/families/alone'
+  EXPERIMENT = %w[autotune autotune_cycle autotune_more].freeze
+  ALONE = [*EXPERIMENT, 'autotune_record'].freeze
+  WHOLE = [*EXPERIMENT, 'autotune_result'].freeze
+  PARTS = { 'nothing' => [%w[-DBARE_NOTHING], []], 'alone' => [[], ALONE], 'whole' => [%w[-DBARE_WHOLE], WHOLE] }.freeze
+  MODES = { 'pointer' => [], 'object' => %w[-DFIXPID_AUTOTUNE_OBJECT=tuner] }.freeze
+  INCLUDES = %W[-Iinclude -I#{FOLDER}].freeze
+
+  # Files of the library.
+  def self.sources(names, folder = 'src')
+    names.map { |name| "#{folder}/autotune/fixpid_#{name}.c" }
+  end
+
+  # Bytes that a program takes.
+  Size = Struct.new(:flash, :ram)
+
+  # One chip in one mode. `folder` is its own.
+  Chip = Struct.new(:name, :title, :flash, :runs, :most, keyword_init: true) do
+    # Of what the library adds, of one part; nil where the chip's linker refuses.
+    def added(part, mode, folder)
+      size = build(part, mode, "#{folder}/#{part}") or return
+      nothing = build('nothing', mode, "#{folder}/nothing")
+      Size.new(size.flash - nothing.flash, size.ram - nothing.ram)
+    end
+
+    private
+
+    def build(part, mode, folder)
+      FileUtils.mkdir_p(folder)
+      flags, names = PARTS.fetch(part)
+      size([*flags, *MODES.fetch(mode), *INCLUDES], ["#{FOLDER}/bare.c", *Alone.sources(names)], folder)
+    end
+
+    def objects(sources, folder, extension)
+      sources.map do |source|
+        "#{folder}/#{File.basename(source, '.c')}.#{extension}".tap { |object| yield(source, object) }
+      end
+    end
+
+    # What was written of the bytes below the stack's top.
+    def of_stack(bytes)
+      raise Host::Failure, "#{title}: its stack was not seen" unless bytes.size == 256
+
+      bytes.drop_while { |byte| byte == 0xA5 }.size
+    end
+
+    # Of an ELF file by its tools.
+    def elf_size(program, tool)
+      text, data, bss = Host.output(tool, program).lines.last.split.first(3).map(&:to_i)
+      Size.new(text + data, data + bss)
+    end
+  end
+
+  # An AVR, by avr-gcc and in simavr.
+  class Avr < Chip
+    OPTIONS = %w[-Os -std=c99 -Wall -Wextra -Werror -ffunction-sections -fdata-sections -Wl,--gc-sections].freeze
+
+    def size(flags, sources, folder)
+      compile(flags, sources, "#{folder}/bare.elf")
+      elf_size("#{folder}/bare.elf", 'avr-size')
+    rescue Host::Failure => e
+      raise unless e.message.match?(/region `text' overflowed/)
+    end
+
+    def run(flags, sources, folder)
+      compile(flags, ["#{FOLDER}/chip_avr.c", *sources], "#{folder}/alone.elf")
+      table = Host.output('avr-nm', "#{folder}/alone.elf")
+      addresses = %w[over alone_bytes].map { |symbol| table[/^(\h+) \w #{symbol}$/, 1] }
+      Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, '-Itest/tools/cost/avr', *INCLUDES, "#{FOLDER}/avr.c", '-lsimavr',
+                  '-o', "#{folder}/runner")
+      Host.output("#{folder}/runner", "#{folder}/alone.elf", name, *addresses, "#{folder}/results")[/^stack (\d+)/, 1].to_i
+    end
+
+    private
+
+    def compile(flags, sources, output)
+      Host.output('avr-gcc', "-mmcu=#{name}", *OPTIONS, *flags, *sources, '-o', output)
+    end
+  end
+
+  # An STM8, by SDCC and in ucsim.
+  class Stm8 < Chip
+    STACK = %w[0x1700 0x17ff].freeze # with its top, in the simulator
+    OPTIONS = %w[-mstm8 --std-c99 --opt-code-size --Werror --disable-warning 126].freeze
+
+    def size(flags, sources, folder)
+      found = link(flags, sources, "#{folder}/bare.ihx", folder)
+      bytes = File.readlines("#{folder}/bare.ihx").sum { |line| line[7, 2] == '00' ? line[1, 2].hex : 0 }
+      Size.new(bytes, found.sum { |object| File.read(object).scan(/^A (?:DATA|INITIALIZED) size (\h+)/).flatten.sum(&:hex) })
+    end
+
+    def run(flags, sources, folder)
+      link(flags, ["#{FOLDER}/chip_ucsim.c", *sources], "#{folder}/alone.ihx", folder)
+      lines = ["file \"#{folder}/alone.ihx\"", 'reset', "fill rom #{STACK.join(' ')} 0xa5", 'run', "dump rom #{STACK.join(' ')}", 'kill']
+      File.write("#{folder}/commands", lines.map { |line| "#{line}\n" }.join)
+      text = Host.output('timeout', '600', 'sstm8', '-t', 'S208', '-I', "if=rom[0x57ff],out=#{folder}/results", '-C', "#{folder}/commands")
+      of_stack(text.scan(/^0x\h+\s+((?:\h\h )+)/).flatten.flat_map(&:split).map(&:hex))
+    end
+
+    private
+
+    # The first source has main.
+    def link(flags, sources, output, folder)
+      found = objects(sources, folder, 'rel') { |source, object| Host.output('sdcc', *OPTIONS, *flags, '-c', source, '-o', object) }
+      Host.output('sdcc', '-mstm8', '--out-fmt-ihx', *found, '-o', output)
+      found
+    end
+  end
+
+  # An MSP430 without a multiplier, by clang and in mspdebug.
+  class Msp430 < Chip
+    OPTIONS = %w[--target=msp430 -mhwmult=none -std=gnu99 -ffreestanding -fno-builtin -Os -ffunction-sections -Wall -Wextra -Werror
+                 -Itest/chips/target/qemu].freeze
+    SUPPORT = 'test/chips/families/msp430'
+
+    def size(flags, sources, folder)
+      link(flags, sources, "#{folder}/bare.elf", folder, 'main')
+      elf_size("#{folder}/bare.elf", 'size')
+    end
+
+    def run(flags, sources, folder)
+      link(flags, ["#{FOLDER}/chip_msp430.c", *sources], "#{folder}/alone.elf", folder, 'start')
+      start, wait = %w[start wait].map { |name| "0x#{Host.output('nm', "#{folder}/alone.elf")[/^(\h+) \w #{name}$/, 1]}" }
+      lines = ["load #{folder}/alone.elf", 'reset', 'fill 0x2e00 0x100 0xa5', "set pc #{start}", "setbreak #{wait}", 'run',
+               "save_raw 0x4000 0x800 #{folder}/results", "save_raw 0x2e00 0x100 #{folder}/stack"]
+      File.write("#{folder}/commands", lines.map { |line| "#{line}\n" }.join)
+      Host.output('timeout', '600', 'mspdebug', '-q', 'sim', "read #{folder}/commands")
+      of_stack(File.binread("#{folder}/stack").bytes)
+    end
+
+    private
+
+    def link(flags, sources, output, folder, entry)
+      found = objects([*sources, "#{SUPPORT}/runtime.c"], folder, 'o') do |source, object|
+        Host.output('clang', *OPTIONS, *flags, '-c', source, '-o', object)
+      end
+      Host.output('ld.lld', '-T', "#{SUPPORT}/flash.ld", '-e', entry, '--gc-sections', *found, '-o', output)
+    end
+  end
+
+  # A PIC18, by build_pic; tools/demo chip runs its experiment.
+  class Pic18 < Chip
+    def size(flags, sources, folder)
+      board = "port/pic/#{name}"
+      Host.output('tools/lib/build/build_pic', name, "#{folder}/bare", *flags, '-Iport', '-Iport/pic', "-I#{board}", '--all-banks', *sources)
+      sections = PicCode.sections("#{folder}/bare.map")
+      Size.new(*%w[program data].map { |place| sections.select { |one| one.place == place }.sum(&:bytes) })
+    end
+  end
+
+  # A Cortex-M0, which test/model/autotune/chips runs.
+  class CortexM0 < Chip
+    OPTIONS = %w[-mcpu=cortex-m0 -mthumb -Os -std=c99 -ffreestanding -Wall -Wextra -Werror -ffunction-sections -fdata-sections
+                 -Wl,--gc-sections -nostdlib -Wl,-e,main].freeze
+
+    def size(flags, sources, folder)
+      Host.output('arm-none-eabi-gcc', *OPTIONS, *flags, *sources, '-lgcc', '-o', "#{folder}/bare.elf")
+      elf_size("#{folder}/bare.elf", 'arm-none-eabi-size')
+    end
+  end
+
+  # `most` is what the experiment alone may add to the flash, in the mode where it adds
+  # less; the flash is the chip's. What runs, does so in this test.
+  CHIPS = [
+    Avr.new(name: 'attiny85', title: 'ATtiny85', flash: 8192, runs: true, most: 3300),
+    Avr.new(name: 'atmega328p', title: 'ATmega328P', flash: 32_768, runs: true, most: 3400),
+    Stm8.new(name: 'stm8', title: 'STM8S103', flash: 8192, runs: true, most: 4300),
+    Msp430.new(name: 'msp430', title: 'MSP430G2553', flash: 16_384, runs: true, most: 3600),
+    Pic18.new(name: 'pic18f4520', title: 'PIC18F4520', flash: 32_768, runs: false, most: 16_000),
+    Pic18.new(name: 'pic18f26k22', title: 'PIC18F26K22', flash: 65_536, runs: false, most: 16_000),
+    CortexM0.new(name: 'cortex-m0', title: 'Cortex-M0 with 16 KB', flash: 16_384, runs: false, most: 2400)
+  ].freeze
+
+  # What a chip's runs and builds have shown, by chip and mode.
+  Found = Struct.new(:alone, :whole, :stack)
+
+  # The tests, and what they have found.
+  class Tests
+    DOCUMENT = 'docs/choosing.md'
+    # Of the flash; an application wants the rest.
+    WHOLE_MOST = 0.6
+    HEAD = ['', 'flash', 'experiment alone adds', 'its RAM, and stack', 'the whole tuner adds', 'take', 'the whole tuner from'].freeze
+
+    # `broken` makes a library with a fault, and gives its folder.
+    def initialize(folder, broken, update)
+      @folder = folder
+      @broken = broken
+      @update = update
+      @found = {}
+      @mutex = Mutex.new
+    end
+
+    def add(tests)
+      CHIPS.product(MODES.keys).each { |chip, mode| tests.add(name(chip, mode)) { try(chip, mode) } }
+      CHIPS.select(&:runs).each { |chip| tests.add("seeded alone #{chip.name}") { notice(chip) } }
+      tests.add('alone document', needs: tests.names.grep(/\Aalone /)) { @update ? rewrite : check }
+    end
+
+    private
+
+    def name(chip, mode)
+      "alone #{chip.name} #{mode}"
+    end
+
+    def try(chip, mode)
+      folder = "#{@folder}/alone-#{chip.name}-#{mode}"
+      found = Found.new(chip.added('alone', mode, folder), chip.added('whole', mode, folder))
+      text = compare(chip, mode, 'src', "#{folder}/run", found) if chip.runs
+      @mutex.synchronize { @found[[chip.name, mode]] = found }
+      "#{text} alone #{found.alone.flash} whole #{found.whole&.flash || 'none'} of #{chip.flash}".strip
+    end
+
+    def compare(chip, mode, source, folder, found)
+      text = ran(chip, mode, source, folder, found)
+      raise Host::Failure, text unless text.match?(/ different 0 gains 3$/)
+
+      "#{text} stack #{found.stack}"
+    end
+
+    def ran(chip, mode, source, folder, found)
+      FileUtils.mkdir_p(folder)
+      flags = [*MODES.fetch(mode), *INCLUDES]
+      found.stack = chip.run(flags, ["#{FOLDER}/alone.c", *Alone.sources(ALONE, source)], folder)
+      Host.output(host, "#{folder}/results").strip
+    end
+
+    def host
+      @mutex.synchronize do
+        @host ||= "#{@folder}/alone-host".tap do |path|
+          FileUtils.mkdir_p(@folder)
+          Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, *INCLUDES, "#{FOLDER}/host.c", "#{FOLDER}/alone.c",
+                      *Alone.sources([*ALONE, 'autotune_result']), '-o', path)
+        end
+      end
+    end
+
+    def notice(chip)
+      text = ran(chip, 'pointer', @broken.call, "#{@folder}/alone-#{chip.name}-seeded", Found.new)
+      raise Host::Failure, "not noticed: #{text}" if text.include?('different 0')
+
+      text
+    end
+
+    # In the mode that adds less.
+    def best(chip)
+      MODES.keys.map { |mode| @found.fetch([chip.name, mode]) }.min_by { |found| found.alone.flash }
+    end
+
+    def table
+      rows = CHIPS.map { |chip| row(chip, best(chip)) }
+      [HEAD, HEAD.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
+    end
+
+    def row(chip, found)
+      raise Host::Failure, "#{chip.title}: #{found.alone.flash} bytes, at most #{chip.most} allowed" if found.alone.flash > chip.most
+
+      whole = whole_of(chip)
+      fits = whole && whole <= WHOLE_MOST * chip.flash
+      [chip.title, "#{chip.flash / 1024} KB", found.alone.flash, [found.alone.ram, found.stack].compact.join(' + '), whole || 'does not link',
+       fits ? 'the whole tuner' : 'the experiment alone', whole ? "#{least(whole)} KB" : '']
+    end
+
+    def whole_of(chip)
+      MODES.keys.filter_map { |mode| @found.fetch([chip.name, mode]).whole&.flash }.min
+    end
+
+    # The smallest power of two of which it takes no more.
+    def least(whole)
+      kilobytes = 1
+      kilobytes *= 2 while whole > WHOLE_MOST * kilobytes * 1024
+      kilobytes
+    end
+
+    def renewed(text)
+      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table}#{$2}" }
+    end
+
+    def rewrite
+      File.write(DOCUMENT, renewed(File.read(DOCUMENT)))
+      "#{DOCUMENT} is rewritten"
+    end
+
+    def check
+      text = File.read(DOCUMENT)
+      raise Host::Failure, "#{DOCUMENT} has no markers of alone" unless text.include?('<!-- alone:begin -->')
+      return DOCUMENT if renewed(text) == text
+
+      raise Host::Failure, "#{DOCUMENT} is stale; test/chips/families/run --update alone renews it"
+    end
+  end
+end

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Tells avr.c when an experiment is over, and goes on when that has looked.
+#include "alone.h"
+
+volatile uint8_t over;
+
+int main(void)
+{
+    for (uint8_t number = 0; number < ALONE_EXPERIMENTS; number++) {
+        alone_do(number);
+        over = 1;
+        while (over != 0u) {
+        }
+    }
+    for (;;) {
+    }
+}
