@@ -15,6 +15,12 @@
 //   relay = fixpid_tpo_step(&tpo, fixpid_pid_step(&pid, setpoint, y));
 // The module has no clock. Integers only, no division.
 //
+// Behind a tuner: with fixpid_autotune in the controller's place, call
+// fixpid_tpo_step ten times for each step of the tuner, and later of the
+// controller, with a window of ten, which is one step of theirs. Then the gains
+// are as good as with an output that takes every value. Do not call it at the
+// tuner's own rate: the tuner would take each window for a swing of the plant.
+//
 // Only the duty of a window's first step counts. The others are ignored, so a
 // change waits for the next window. To switch off at once, call
 // fixpid_tpo_reset.

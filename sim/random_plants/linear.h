@@ -9,7 +9,7 @@
 
 #define LINEAR_SECTIONS 10
 #define LINEAR_STATES 12
-#define LINEAR_DEAD 1024 // steps of dead time are fewer
+#define LINEAR_DEAD 2048 // steps of dead time are fewer
 
 // Coefficients of 1, s and s^2: numerator over denominator, which goes up to s
 // at least.

@@ -15,7 +15,8 @@ module Docs
                           'at_once' => :at_once },
     'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow, 'recovery' => :recovery,
                              'bumps' => :bumps, 'drift' => :drift },
-    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override },
+    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override, 'behind_tpo' => :behind_tpo,
+                           'retune' => :retune },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }
   }.freeze
 
