@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The numbers of 16 significant bits, against arithmetic in 64 bits.
+// The numbers of 16 significant bits, against arithmetic in 64 bits, and the
+// constants among them.
 #include "unity.h"
 
 // By another name, or the test's runner would include it and use nothing of it.
-#define UNDER_TEST "autotune/fixpid_autotune_arith.h"
+#define UNDER_TEST "autotune/fixpid_autotune_constants.h"
 #include UNDER_TEST
 
 #define MANTISSAS 12
@@ -199,4 +200,56 @@ void test_flash_is_read_like_any_memory(void)
     TEST_ASSERT_EQUAL_UINT8(254, flash_byte(&bytes[1]));
     TEST_ASSERT_EQUAL_UINT16(1, flash_word(&words[0]));
     TEST_ASSERT_EQUAL_UINT16(65534u, flash_word(&words[1]));
+}
+
+// Some have more digits than their names: the regression gave them.
+void test_constants_have_these_mantissas_and_exponents(void)
+{
+    static const struct {
+        uint8_t which;
+        uint16_t mantissa;
+        int8_t exponent;
+    } rows[] = {{ONE, 32768u, -15},       {TWO, 32768u, -14},
+                {FOUR, 32768u, -13},      {EIGHT, 32768u, -12},
+                {HALF, 32768u, -16},      {QUARTER, 32768u, -17},
+                {C1_32ND, 32768u, -20},   {C1_256TH, 32768u, -23},
+                {C15_16THS, 61440u, -16}, {C63_64THS, 64512u, -16},
+                {C0_03, 62915u, -21},     {C0_05, 52429u, -20},
+                {C0_06, 62915u, -20},     {C0_1, 52429u, -19},
+                {C0_12, 62915u, -19},     {C0_2, 52429u, -18},
+                {C0_216, 56623u, -18},    {C0_3, 39322u, -17},
+                {C0_31, 40632u, -17},     {C0_4, 52429u, -17},
+                {C0_45, 58982u, -17},     {C0_46, 60293u, -17},
+                {C0_47, 61604u, -17},     {C0_53, 34734u, -16},
+                {C0_6, 39322u, -16},      {C0_64, 41943u, -16},
+                {C0_75, 49152u, -16},     {C0_8, 52429u, -16},
+                {C0_808, 52953u, -16},    {C0_875, 57344u, -16},
+                {C0_9, 58982u, -16},      {C1_03, 33751u, -15},
+                {C1_1, 36045u, -15},      {C1_16, 38011u, -15},
+                {C1_188, 38935u, -15},    {C1_193, 39086u, -15},
+                {C1_2, 39322u, -15},      {C1_5, 49152u, -15},
+                {C2_068, 33882u, -14},    {C2_272, 37224u, -14},
+                {C2_828, 46334u, -14},    {C3_204, 52494u, -14},
+                {C4_382, 35898u, -13},    {C4_608, 37748u, -13},
+                {C4_627, 37905u, -13},    {C5_285, 43295u, -13},
+                {C5_488, 44957u, -13},    {C6, 49152u, -13},
+                {C6_815, 55829u, -13},    {C9_462, 38757u, -12},
+                {C10, 40960u, -12},       {C11_667, 47790u, -12},
+                {C11_75, 48128u, -12},    {C22_4, 45875u, -11},
+                {C26_16, 53576u, -11},    {C28_086, 57520u, -11},
+                {C45_48, 46572u, -10},    {C64, 32768u, -9}};
+
+    TEST_ASSERT_EQUAL_UINT(sizeof constants / sizeof constants[0],
+                           sizeof rows / sizeof rows[0]);
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const struct constant *const constant =
+            &constants[rows[i].which - CONSTANT];
+
+        TEST_ASSERT_EQUAL_UINT(CONSTANT + i, rows[i].which);
+        TEST_ASSERT_EQUAL_UINT16(rows[i].mantissa,
+                                 flash_word(&constant->mantissa));
+        TEST_ASSERT_EQUAL_INT8(
+            rows[i].exponent,
+            (int8_t)flash_byte((const uint8_t *)&constant->exponent));
+    }
 }

@@ -24,6 +24,7 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
 
 #define COUNT 5
 
@@ -143,17 +144,18 @@ void test_pid_several_instances_keep_their_own_state(void)
     }
 }
 
-// A slow experiment and a fast one, step by step in turn. The swing is the
-// same, so the periods alone make the difference.
+// A slow experiment and a fast one, step by step in turn. Then each gets the
+// other's record.
 void test_autotune_several_instances_keep_their_own_state(void)
 {
     static const uint16_t half_steps[2] = {30, 10};
-    static const uint32_t period_q4[2] = {960, 320};
     struct fixpid_autotune experiments[2];
+    struct fixpid_autotune_record records[2];
+    struct fixpid_autotune_stage stage;
 
     for (unsigned i = 0; i < 2; i++) {
         const struct fixpid_autotune_config config = {
-            -300, 300, 0, INT16_MIN, INT16_MAX, 50, 1000, 1, 0};
+            -300, 300, 0, INT16_MIN, INT16_MAX, 50, 1000, 1, false};
 
         TEST_ASSERT_TRUE(fixpid_autotune_init(&experiments[i], &config));
     }
@@ -166,11 +168,16 @@ void test_autotune_several_instances_keep_their_own_state(void)
         }
     }
     for (unsigned i = 0; i < 2; i++) {
-        struct fixpid_autotune_process model;
-
         TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
                                 fixpid_autotune_status(&experiments[i]));
-        TEST_ASSERT_TRUE(fixpid_autotune_model(&experiments[i], &model));
-        TEST_ASSERT_EQUAL_UINT32(period_q4[i], model.period_q4);
+        fixpid_autotune_progress(&experiments[i], &stage);
+        TEST_ASSERT_EQUAL_UINT16(2u * half_steps[i], stage.period);
+        TEST_ASSERT_TRUE(fixpid_autotune_pack(&experiments[i], &records[i]));
+    }
+    for (unsigned i = 0; i < 2; i++) {
+        TEST_ASSERT_TRUE(
+            fixpid_autotune_unpack(&experiments[i], &records[1u - i]));
+        fixpid_autotune_progress(&experiments[i], &stage);
+        TEST_ASSERT_EQUAL_UINT16(2u * half_steps[1u - i], stage.period);
     }
 }
