@@ -13,8 +13,8 @@ module Breaks
                 '&&' => %w[||], '||' => %w[&&],
                 'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
                 'kd_q4' => %w[kp_q4], 'left' => %w[right], 'right' => %w[left], 'low' => %w[high], 'high' => %w[low],
-                'true' => %w[false], 'false' => %w[true], 'MULTIPLY' => %w[DIVIDE], 'DIVIDE' => %w[MULTIPLY],
-                'ADD' => %w[SUBTRACT], 'SUBTRACT' => %w[ADD], 'MINIMUM' => %w[MAXIMUM], 'MAXIMUM' => %w[MINIMUM],
+                'true' => %w[false], 'false' => %w[true], 'TIMES' => %w[OVER], 'OVER' => %w[TIMES],
+                'PLUS' => %w[MINUS], 'MINUS' => %w[PLUS], 'LESSER' => %w[GREATER], 'GREATER' => %w[LESSER], 'TIMES_ONTO' => %w[TIMES],
                 'X' => %w[Y], 'Y' => %w[X] }.freeze
   TOKEN = %r{//[^\n]*|\{END, [0-9, ]*\}|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d+\.\d+|\d\w*|\n|.}m.freeze
 
@@ -25,7 +25,7 @@ module Breaks
   ASSIGNMENT = /[A-Za-z_*.\[\]0-9>-]+ [|&^+-]?= [^;{}\\]+;/.freeze
   CALL = /(?!(?:if|for|while|switch|return|sizeof|FIXPID_ASSERT)\b)\w+\([^;{}\\]*\);/.freeze
   STATEMENT = /^ +(?<what>#{ASSIGNMENT}|#{CALL})$/.freeze
-  OPERATION = /(?<what>\{(?!END)[A-Z]+(?:, \w+){3}\},)/.freeze # of a table
+  OPERATION = /(?<what>\{(?!END)[A-Z]\w*(?:, \w+){3}\},)/.freeze # of a table
 
   class << self
     def of(file, text = File.read(file))

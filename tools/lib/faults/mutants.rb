@@ -87,6 +87,8 @@ def runs_of(file)
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
     pid_runs(Dir['src/pid/fixpid_pid{,_more,_track}.c'])
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/autotune/*.c'].sort)
+  when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
+  when 'fixpid_bytes' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c], []), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
   when 'fixpid_an937_turns' then [run_of('test_fixpid_an937_arith', %w[-D__riscv])]
   when 'fixpid_signed_riscv'
     [run_of('test_fixpid_pid_arith', %w[-D__riscv]), run_of('test_fixpid_pid_arith', %w[-D__riscv -D__riscv_mul])]
