@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: MIT
-// fixpid_autotune: its step is total, its output within its range, and what is
-// final stays so. The experiment itself is compared with a model by
-// test/model/autotune; its result is more arithmetic than a solver takes.
+// fixpid_autotune: its step is total, its output within its range, what is
+// final stays so, and a record is the experiment. What a cycle measures is
+// compared with a model by test/model/autotune, and the result is more
+// arithmetic than a solver takes.
 #include "prove.h"
 
 #include "fixpid_autotune.h"
 
 struct fixpid_autotune c; // of any bytes, where a proof begins
 struct fixpid_autotune nondet_autotune(void);
-struct fixpid_autotune_config nondet_autotune_config(void);
+struct fixpid_autotune_stage nondet_stage(void);
+struct fixpid_autotune_record nondet_record(void);
 
 #include "autotune/fixpid_autotune.c"
 #include "autotune/fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune_more.c"
+#include "autotune/fixpid_autotune_record.c"
 
-static bool legal_config(const struct fixpid_autotune_config *k)
+static bool legal_config(const struct fixpid_autotune_kept *k)
 {
     return (k->output_min < k->output_max) &&
            inside(k->output_rest, k->output_min, k->output_max) &&
            (k->measurement_min < k->measurement_max) &&
            ((k->swing == 0u) || inside(k->swing, 8, 16383)) &&
-           inside(k->timeout_steps, 2, 32767) && inside(k->cycles, 1, 4) &&
-           ((k->options & 0x7Fu) == 0u);
+           inside(k->timeout_steps, 2, 32767) && inside(k->cycles, 1, 4);
 }
 
-static bool same_config(const struct fixpid_autotune_config *a,
-                        const struct fixpid_autotune_config *b)
+// Reverse or not, by whichever bits.
+static bool same_config(const struct fixpid_autotune_kept *a,
+                        const struct fixpid_autotune_kept *b)
 {
     return (a->output_min == b->output_min) &&
            (a->output_max == b->output_max) &&
@@ -32,7 +36,8 @@ static bool same_config(const struct fixpid_autotune_config *a,
            (a->measurement_min == b->measurement_min) &&
            (a->measurement_max == b->measurement_max) &&
            (a->swing == b->swing) && (a->timeout_steps == b->timeout_steps) &&
-           (a->cycles == b->cycles) && (a->options == b->options);
+           (a->cycles == b->cycles) &&
+           ((a->reverse != 0u) == (b->reverse != 0u));
 }
 
 static void claim_started(bool legal)
@@ -41,18 +46,32 @@ static void claim_started(bool legal)
           (legal ? FIXPID_AUTOTUNE_RUNNING : FIXPID_AUTOTUNE_REFUSED));
     claim(c.output == c.config.output_rest);
     claim((c.elapsed == 0u) && (c.noise == 0u) && (c.seen == 0u));
+    claim((c.last_period == 0u) && (c.period == 0u));
     claim(legal || ((c.config.output_min == 0) && (c.config.output_max == 0) &&
                     (c.config.cycles == 0u)));
 }
 
 void prove_init(void)
 {
-    const struct fixpid_autotune_config config = nondet_autotune_config();
-    const bool legal = legal_config(&config);
+    const struct fixpid_autotune_config config = {
+        .output_min = nondet_int16(),
+        .output_max = nondet_int16(),
+        .output_rest = nondet_int16(),
+        .measurement_min = nondet_int16(),
+        .measurement_max = nondet_int16(),
+        .swing = nondet_uint16(),
+        .timeout_steps = nondet_uint16(),
+        .cycles = nondet_uint8(),
+        .reverse = any_bool};
+    const struct fixpid_autotune_kept kept = {
+        config.output_min,      config.output_max,      config.output_rest,
+        config.measurement_min, config.measurement_max, config.swing,
+        config.timeout_steps,   config.cycles,          config.reverse};
+    const bool legal = legal_config(&kept);
 
     c = nondet_autotune();
     claim(fixpid_autotune_init(&c, &config) == legal);
-    claim(!legal || same_config(&c.config, &config));
+    claim(!legal || same_config(&c.config, &kept));
     claim_started(legal);
     fixpid_autotune_reset(&c);
     claim_started(legal);
@@ -84,5 +103,130 @@ void prove_total(void)
     } else if (was.elapsed >= was.config.timeout_steps) {
         claim((c.state == FIXPID_AUTOTUNE_NO_OSCILLATION) &&
               (c.output == was.config.output_rest));
+    }
+}
+
+// In every state that an experiment can be in.
+void prove_progress(void)
+{
+    static const uint8_t relays[] = {0, 0, 2, 4, 4, 4}; // before each phase
+    struct fixpid_autotune_stage stage = nondet_stage();
+    uint8_t phase;
+    number each;
+    number done;
+
+    c = nondet_autotune();
+    assume(inside(c.config.cycles, 1, 4) ||
+           ((c.config.cycles == 0u) && (c.state == FIXPID_AUTOTUNE_REFUSED)));
+    assume(inside(c.state, PHASE_NOISE, PHASE_THIRD) ||
+           inside(c.state, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_TOO_SLOW) ||
+           (c.config.cycles == 0u));
+    assume((c.averaged == 255u) || (c.averaged < c.config.cycles));
+    assume((c.state >= PHASE_FIRST) || (c.averaged == 255u) ||
+           (c.averaged == 0u));
+    fixpid_autotune_progress(&c, &stage);
+    each = c.config.cycles + 1;
+    claim(stage.expected ==
+          ((c.config.cycles == 0u) ? 0 : (7 + (3 * c.config.cycles))));
+    claim(stage.period == c.last_period);
+    if (fixpid_autotune_status(&c) != FIXPID_AUTOTUNE_RUNNING) {
+        claim((stage.phase == 6u) && (stage.done == stage.expected));
+    } else {
+        phase = (uint8_t)(c.state - PHASE_NOISE);
+        done = relays[phase] + ((phase > 3u) ? ((phase - 3u) * each) : 0);
+        done += (c.averaged == 255u) ? 0 : (c.averaged + 1);
+        claim((stage.phase == phase) && (stage.done == done));
+        claim(stage.done < stage.expected);
+    }
+}
+
+static bool over(uint8_t status)
+{
+    return inside(status, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_TOO_SLOW);
+}
+
+static bool equal_sums(const struct fixpid_autotune_sums *a,
+                       const struct fixpid_autotune_sums *b)
+{
+    return (a->all == b->all) && (a->on == b->on) && (a->rise == b->rise) &&
+           (a->steps == b->steps) && (a->on_steps == b->on_steps);
+}
+
+// A function of the bytes, whichever it is: test/proof/record.c has the one
+// that it is.
+uint16_t check_of_contract(const uint8_t bytes[], uint8_t count)
+{
+    static uint8_t checked[CHECK_AT];
+    static uint16_t check;
+    static bool known;
+    bool same = known;
+
+    pre(count == CHECK_AT);
+    for (unsigned at = 0; at < CHECK_AT; at++) {
+        same = same && (bytes[at] == checked[at]);
+        checked[at] = bytes[at];
+    }
+    if (!same) {
+        check = nondet_uint16();
+    }
+    known = true;
+    return check;
+}
+
+// Of any bytes: what was packed is unpacked, if it is legal. By contract:
+// check_of.
+void prove_pack(void)
+{
+    struct fixpid_autotune_record record = nondet_record();
+    struct fixpid_autotune was;
+
+    c = nondet_autotune();
+    was = c;
+    claim(fixpid_autotune_pack(&c, &record) == over(was.state));
+    if (over(was.state)) {
+        c = nondet_autotune();
+        claim(record.bytes[0] == FIXPID_AUTOTUNE_RECORD_VERSION);
+        claim(record.bytes[17] == was.state);
+        claim(record.bytes[59] == (((uint16_t)was.lowest) >> 8));
+        claim(fixpid_autotune_unpack(&c, &record) == legal_config(&was.config));
+        if (legal_config(&was.config)) {
+            claim(same_config(&c.config, &was.config));
+            claim(equal_sums(&c.sums[0], &was.sums[0]));
+            claim(equal_sums(&c.sums[1], &was.sums[1]));
+            claim((c.state == was.state) && (c.centre == was.centre) &&
+                  (c.half == was.half) && (c.last_period == was.last_period) &&
+                  (c.edge == was.edge) && (c.noise == was.noise) &&
+                  (c.highest == was.highest) && (c.lowest == was.lowest));
+            claim(c.output == was.config.output_rest);
+        }
+    }
+}
+
+// Nothing but what an experiment can be is unpacked, and packed again it is the
+// record. By contract: check_of.
+void prove_unpack(void)
+{
+    const struct fixpid_autotune_record record = nondet_record();
+    const uint16_t check = check_of(record.bytes, CHECK_AT);
+    struct fixpid_autotune_record again = nondet_record();
+    struct fixpid_autotune was;
+    const uint8_t at = nondet_uint8();
+
+    assume(at < FIXPID_AUTOTUNE_RECORD_SIZE);
+    c = nondet_autotune();
+    was = c;
+    if (fixpid_autotune_unpack(&c, &record)) {
+        claim(legal_config(&c.config) && over(c.state));
+        claim(record.bytes[0] == FIXPID_AUTOTUNE_RECORD_VERSION);
+        claim(record.bytes[16] <= 1u);
+        claim(record.bytes[60] == (check & 0xFFu));
+        claim(record.bytes[61] == (check >> 8));
+        claim(fixpid_autotune_pack(&c, &again));
+        claim(again.bytes[at] == record.bytes[at]);
+    } else {
+        claim(same_config(&c.config, &was.config) && (c.state == was.state));
+        claim(equal_sums(&c.sums[0], &was.sums[0]) &&
+              equal_sums(&c.sums[1], &was.sums[1]));
+        claim((c.output == was.output) && (c.highest == was.highest));
     }
 }
