@@ -16,7 +16,6 @@ enum constant_name {
     ONE = CONSTANT,
     TWO,
     FOUR,
-    EIGHT,
     HALF,
     QUARTER,
     C1_32ND,
@@ -80,7 +79,6 @@ static const struct constant {
     {32768u, -15}, // 1: exact
     {32768u, -14}, // 2: exact
     {32768u, -13}, // 4: exact
-    {32768u, -12}, // 8: exact
     // 1/2: exact; two processes if their slopes are so far apart: by trial on
     // random plants
     {32768u, -16},

@@ -67,7 +67,7 @@ int16_t fixpid_autotune_level(FIXPID_DATA const struct fixpid_autotune *self,
 {
     const uint16_t centre = (uint16_t)SELF.centre;
     int16_t end = SELF.config.output_min;
-    uint16_t far = 0;
+    uint16_t far;
 
     if (side == AT_HIGH) {
         end = SELF.config.output_max;

@@ -347,7 +347,7 @@ static const struct operation pid[] FIXPID_AUTOTUNE_FLASH = {
     {END, 0, 0, 0},
 };
 
-// With Z = min(BEND, 0.12): KP (1 + 10 Z), TI = 8 L / (1 + 6 Z), TD = L / 4
+// With Z = min(BEND, 0.12): KP (1 + 10 Z), TI / (1 + 6 Z), TD = L / 4
 static const struct operation pid_of_integrator[] FIXPID_AUTOTUNE_FLASH = {
     {Z, BEND, LESSER, C0_12},
     {X, Z, TIMES, C10},
@@ -355,7 +355,6 @@ static const struct operation pid_of_integrator[] FIXPID_AUTOTUNE_FLASH = {
     {KP, KP, TIMES, X},
     {X, Z, TIMES, C6},
     {X, ONE, PLUS, X},
-    {TI, L, TIMES, EIGHT},
     {TI, TI, OVER, X},
     {TD, L, TIMES, QUARTER},
     {END, 0, 0, 0},
@@ -482,6 +481,11 @@ static bool is_zero(FIXPID_DATA const struct sheet *sheet, uint8_t which)
     return sheet->numbers[which].mantissa == 0u;
 }
 
+static void clear(FIXPID_DATA struct sheet *sheet, uint8_t which)
+{
+    make(&sheet->numbers[which], 0, 0);
+}
+
 static uint32_t magnitude(int32_t x)
 {
     const uint32_t pattern = (uint32_t)x;
@@ -588,7 +592,7 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
     set(sheet, RISE, rise, 0);
     calculate(sheet, one_relay);
     if (sums->rise < 0) {
-        set(sheet, X0, 0, 0);
+        clear(sheet, X0);
     }
     return true;
 }
@@ -628,7 +632,7 @@ static bool measure_gain(FIXPID_DATA struct sheet *sheet,
         deviation_q8(&SELF.sums[0]) - deviation_q8(&SELF.sums[1]);
     const int32_t driven = output_q8(self, 0) - output_q8(self, 1);
 
-    set(sheet, R, 0, 0);
+    clear(sheet, R);
     set(sheet, DU, magnitude(driven), 0);
     if (measured > ((int32_t)swing(self) * 16)) { // a 16th of the swing
         set(sheet, DY, (uint32_t)measured, 0);
@@ -637,7 +641,7 @@ static bool measure_gain(FIXPID_DATA struct sheet *sheet,
             if (above(sheet, R, C0_06)) {
                 return false;
             }
-            set(sheet, R, 0, 0);
+            clear(sheet, R);
         }
     }
     return true;
@@ -657,7 +661,7 @@ static void limit_ratio(FIXPID_DATA struct sheet *sheet)
     }
     calculate(sheet, what_means_leave);
     if (!above(sheet, S, C0_03)) {
-        set(sheet, R, 0, 0);
+        clear(sheet, R);
     }
 }
 
@@ -677,8 +681,8 @@ static uint8_t identify(FIXPID_DATA struct sheet *sheet,
     limit_ratio(sheet);
     calculate(sheet, slope);
     if (is_zero(sheet, R)) {
-        set(sheet, FLAT, 0, 0);
-        set(sheet, LEVEL, 0, 0);
+        clear(sheet, FLAT);
+        clear(sheet, LEVEL);
         set(sheet, V, fixpid_autotune_noise_band(self), 0);
         calculate(sheet, integrator);
         if (!is_zero(sheet, FLATTER)) {
@@ -753,7 +757,7 @@ static void apply_rule(FIXPID_DATA struct sheet *sheet, uint8_t rule,
     const bool integrating = is_zero(sheet, FLAT);
 
     set(sheet, ROBUST, robustness_q4 + ROBUST_MORE, -5);
-    set(sheet, TD, 0, 0);
+    clear(sheet, TD);
     calculate(sheet, pi);
     if (rule == (uint8_t)FIXPID_AUTOTUNE_PI) {
         if (!integrating) {

@@ -18,7 +18,6 @@ module AutotuneConstants
     1 => 'exact',
     2 => 'exact',
     4 => 'exact',
-    8 => 'exact',
     1r / 2 => 'exact; two processes if their slopes are so far apart: by trial on random plants',
     1r / 4 => 'exact',
     1r / 32 => 'exact: what the mean outputs leave open, of the relay',
@@ -81,7 +80,7 @@ module AutotuneConstants
 
   FRACTIONS = { 1r / 2 => 'HALF', 1r / 4 => 'QUARTER', 1r / 32 => 'C1_32ND', 1r / 256 => 'C1_256TH',
                 15r / 16 => 'C15_16THS', 63r / 64 => 'C63_64THS' }.freeze
-  WORDS = { 1 => 'ONE', 2 => 'TWO', 4 => 'FOUR', 8 => 'EIGHT' }.merge(FRACTIONS).freeze
+  WORDS = { 1 => 'ONE', 2 => 'TWO', 4 => 'FOUR' }.merge(FRACTIONS).freeze
 
   module_function
 
