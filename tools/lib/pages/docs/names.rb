@@ -22,7 +22,7 @@ module DocumentNames
   # Names that CHANGELOG.md says are gone.
   GONE = %w[fixpid_pid_status fixpid_an937_status fixpid_an937_status2 fixpid_arith.h src/fixpid_..._access.c
             src/fixpid_x.c src/pic14/ src/pic18/ src/avr/ src/arm/ src/sdcc/
-            output_low output_high].freeze
+            output_low output_high fixpid_relay].freeze
 
   class << self
     def failures
