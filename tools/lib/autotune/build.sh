@@ -15,7 +15,7 @@ numbers() {
 
 build_random_plants() {
     need cmake cc:gcc :libc6-dev make ruby
-    build=$root/build/host-examples
+    build=${root:?}/build/host-examples
     work_folder "$build" 64
     {
         cmake -S "$root" -B "$build" -G 'Unix Makefiles' \
@@ -26,5 +26,6 @@ build_random_plants() {
         tail -n 30 "$build/log" >&2
         die "could not build sim/random_plants (all of it: $build/log)"
     }
+    # shellcheck disable=SC2034 # for what sources this
     program=$build/sim/random_plants
 }
