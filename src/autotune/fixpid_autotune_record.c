@@ -16,7 +16,7 @@
 #define SUMS_AT 18u
 #define SUMS_SIZE 14u
 #define RELAY_AT 46u
-#define CHECK_AT 60u
+#define CHECKED_BYTES 60u
 
 static void put_sums(uint8_t bytes[],
                      FIXPID_DATA const struct fixpid_autotune_sums *sums)
@@ -84,7 +84,7 @@ bool fixpid_autotune_pack(FIXPID_DATA const struct fixpid_autotune *self,
     put_sums(&bytes[SUMS_AT], &SELF.sums[0]);
     put_sums(&bytes[SUMS_AT + SUMS_SIZE], &SELF.sums[1]);
     put_relay(&bytes[RELAY_AT], self);
-    put(&bytes[CHECK_AT], check_of(bytes, CHECK_AT));
+    put(&bytes[CHECKED_BYTES], check_of(bytes, CHECKED_BYTES));
     return true;
 }
 
@@ -126,7 +126,7 @@ bool fixpid_autotune_unpack(FIXPID_DATA struct fixpid_autotune *self,
     if (bytes[VERSION_AT] != FIXPID_AUTOTUNE_RECORD_VERSION) {
         return false;
     }
-    if (get(&bytes[CHECK_AT]) != check_of(bytes, CHECK_AT)) {
+    if (get(&bytes[CHECKED_BYTES]) != check_of(bytes, CHECKED_BYTES)) {
         return false;
     }
     if (!is_over(bytes[STATUS_AT])) {

@@ -156,13 +156,13 @@ static bool equal_sums(const struct fixpid_autotune_sums *a,
 // that it is.
 uint16_t check_of_contract(const uint8_t bytes[], uint8_t count)
 {
-    static uint8_t checked[CHECK_AT];
+    static uint8_t checked[60];
     static uint16_t check;
     static bool known;
     bool same = known;
 
-    pre(count == CHECK_AT);
-    for (unsigned at = 0; at < CHECK_AT; at++) {
+    pre(count == 60u);
+    for (unsigned at = 0; at < 60u; at++) {
         same = same && (bytes[at] == checked[at]);
         checked[at] = bytes[at];
     }
@@ -207,7 +207,7 @@ void prove_pack(void)
 void prove_unpack(void)
 {
     const struct fixpid_autotune_record record = nondet_record();
-    const uint16_t check = check_of(record.bytes, CHECK_AT);
+    const uint16_t check = check_of(record.bytes, 60u);
     struct fixpid_autotune_record again = nondet_record();
     struct fixpid_autotune was;
     const uint8_t at = nondet_uint8();
