@@ -11,12 +11,14 @@
 void fixpid_autotune_progress(FIXPID_DATA const struct fixpid_autotune *self,
                               struct fixpid_autotune_stage *stage)
 {
-    const uint8_t each = (uint8_t)(SELF.config.cycles + 1u);
-    uint8_t phase = SELF.state;
+    uint8_t each;
+    uint8_t phase;
     uint8_t done = 0;
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(stage != 0);
+    each = (uint8_t)(SELF.config.cycles + 1u);
+    phase = SELF.state;
     stage->expected = 0;
     if (SELF.config.cycles != 0u) {
         stage->expected = (uint8_t)(CYCLES_BEFORE + each + each + each);

@@ -326,7 +326,7 @@ static const struct operation gain_and_lag[] FIXPID_AUTOTUNE_FLASH = {
 
 // With C = C ROBUST: KP = 1 / (SLOPE C), TI = 4 C
 // and for the other rule L = C / 2
-static const struct operation pi[] FIXPID_AUTOTUNE_FLASH = {
+static const struct operation pi_rule[] FIXPID_AUTOTUNE_FLASH = {
     {C, C, TIMES, ROBUST},
     {TI, C, TIMES, FOUR},
     {L, C, TIMES, HALF},
@@ -341,7 +341,7 @@ static const struct operation pi_of_lag[] FIXPID_AUTOTUNE_FLASH = {
 };
 
 // AMIGO PID, with half of its TD: KP = 0.45 / (SLOPE L)
-static const struct operation pid[] FIXPID_AUTOTUNE_FLASH = {
+static const struct operation pid_rule[] FIXPID_AUTOTUNE_FLASH = {
     {X, SLOPE, TIMES, L},
     {KP, C0_45, OVER, X},
     {END, 0, 0, 0},
@@ -758,13 +758,13 @@ static void apply_rule(FIXPID_DATA struct sheet *sheet, uint8_t rule,
 
     set(sheet, ROBUST, robustness_q4 + ROBUST_MORE, -5);
     clear(sheet, TD);
-    calculate(sheet, pi);
+    calculate(sheet, pi_rule);
     if (rule == (uint8_t)FIXPID_AUTOTUNE_PI) {
         if (!integrating) {
             calculate(sheet, pi_of_lag);
         }
     } else {
-        calculate(sheet, pid);
+        calculate(sheet, pid_rule);
         calculate(sheet, integrating ? pid_of_integrator : pid_of_lag);
     }
     calculate(sheet, gains_of_times);
