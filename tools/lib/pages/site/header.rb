@@ -39,7 +39,8 @@ class Header
       comment = depth.zero? && line.start_with?('//')
       found << [[], []] if depth.zero? && (line.empty? || (comment && found.last[1].any?))
       found.last[comment ? 0 : 1] << line unless line.empty? && depth.zero?
-      depth += line.count('{') - line.count('}') unless line.start_with?('#')
+      code = line.start_with?('#') ? '' : line.sub(%r{//.*}, '')
+      depth += code.count('{') - code.count('}')
     end
     found.reject { |pair| pair.all?(&:empty?) }
   end
