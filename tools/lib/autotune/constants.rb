@@ -149,6 +149,7 @@ module AutotuneConstants
 end
 
 if $PROGRAM_NAME == __FILE__
+  Dir.chdir(File.expand_path('../../..', __dir__))
   header = AutotuneConstants.header
   File.write(AutotuneConstants::FILE, header) if ARGV == ['--update']
   if File.read(AutotuneConstants::FILE) != header
