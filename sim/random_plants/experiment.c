@@ -4,7 +4,6 @@
 #include <math.h>
 
 #define CYCLES 2
-#define STEPS_MAX 4000000L // 34 + 97 * 32767 is less
 
 static const uint8_t robustness[] = {
     FIXPID_AUTOTUNE_QUICK, FIXPID_AUTOTUNE_SAFE, FIXPID_AUTOTUNE_CALM};
@@ -14,12 +13,9 @@ static uint8_t rule_of(int number)
     return (uint8_t)((number < 3) ? FIXPID_AUTOTUNE_PI : FIXPID_AUTOTUNE_PID);
 }
 
-static void start(struct experiment *self, const struct subject *subject)
+void experiment_start(struct experiment *self, const struct subject *subject,
+                      double rest)
 {
-    // An integrator from power-on needs its holding output, too, or it runs
-    // away while the noise is measured.
-    const bool holds = subject->at_rest || subject->plant.integrating;
-    const double rest = holds ? subject->holding * subject->output_max : 0.0;
     const struct fixpid_autotune_config config = {
         .output_min = 0,
         .output_max = (int16_t)subject->output_max,
@@ -39,12 +35,17 @@ static void start(struct experiment *self, const struct subject *subject)
 
 void experiment_run(struct experiment *self, const struct subject *subject)
 {
+    // An integrator from power-on needs its holding output, too, or it runs
+    // away while the noise is measured.
+    const bool holds = subject->at_rest || subject->plant.integrating;
+    const double rest = holds ? subject->holding * subject->output_max : 0.0;
     const int16_t setpoint = (int16_t)subject->setpoint;
     struct bench bench;
 
-    start(self, subject);
+    experiment_start(self, subject, rest);
     bench_start(&bench, subject);
-    while (self->status == FIXPID_AUTOTUNE_RUNNING && self->steps < STEPS_MAX) {
+    while (self->status == FIXPID_AUTOTUNE_RUNNING &&
+           self->steps < EXPERIMENT_STEPS) {
         const int16_t measurement = (int16_t)bench_read(&bench);
         const int16_t output =
             fixpid_autotune_step(&self->autotune, setpoint, measurement);

@@ -8,6 +8,7 @@
 
 // Two rules with three words of robustness each.
 #define DESIGNS 6
+#define DESIGN_PI_SAFE 1
 
 struct experiment {
     struct fixpid_autotune autotune;
@@ -15,6 +16,13 @@ struct experiment {
     long steps;
     long outside; // steps with an output beyond the range that was given
 };
+
+// No experiment is longer: 34 + 97 * 32767 steps.
+#define EXPERIMENT_STEPS 4000000L
+
+// With this output at rest; the first step is the caller's.
+void experiment_start(struct experiment *self, const struct subject *subject,
+                      double rest);
 
 // Does the subject's experiment to its end.
 void experiment_run(struct experiment *self, const struct subject *subject);

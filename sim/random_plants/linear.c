@@ -158,7 +158,9 @@ static void multiply(double self[HELD][HELD], double other[HELD][HELD],
             product[i][j] = sum;
         }
     }
-    memcpy(self, product, sizeof product);
+    for (int i = 0; i < size; i++) {
+        memcpy(self[i], product[i], (size_t)size * sizeof self[i][0]);
+    }
 }
 
 // How often it must be halved for the largest sum of a row to be small.

@@ -33,7 +33,6 @@ enum number {
     ON,   // of them, at high
     OFF,  // and at low
     RISE, // deviation at the turns
-    D0,
     D1,
     STEP, // one of a cycle of the second relay
 
@@ -150,7 +149,7 @@ static const struct operation keep_second[] FIXPID_AUTOTUNE_FLASH = {
 
 // K, M: the means of both
 // NET = 1 + (W - NOISE)
-// ROUND = K0 M0 D0 / 2 / NET
+// ROUND = K0 M0 D / 2 / NET
 // CHI = (X0 + X1) / 2 / KM
 // Q = |K0 - K1| / K
 // LIMIT = 1.1 ROUND + 1 / M + 0.3 CHI

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "crc16.h"
 #include "fixpid_autotune.h"
 #include "numbers.h"
 #include "poison.h"
@@ -1311,27 +1312,10 @@ static const uint8_t packed_bytes[FIXPID_AUTOTUNE_RECORD_SIZE] = {
 
 static struct fixpid_autotune_record record;
 
-// Bit by bit, from the definition in the header and not from src/.
-static uint16_t check_of(const uint8_t bytes[], uint16_t first)
-{
-    uint32_t rest = first;
-
-    for (unsigned bit = 0; bit < 8u * CHECK_AT; bit++) {
-        const unsigned in = (unsigned)(bytes[bit / 8u] >> (7u - bit % 8u)) & 1u;
-        const bool differ = ((rest >> 15) & 1u) != in;
-
-        rest = (rest << 1) & 0xFFFFu;
-        if (differ) {
-            rest ^= 0x1021u;
-        }
-    }
-    return (uint16_t)rest;
-}
-
 // So that only what was changed is wrong, or nothing.
 static void make_check(void)
 {
-    const uint16_t check = check_of(record.bytes, 0xFFFF);
+    const uint16_t check = crc16(record.bytes, CHECK_AT, 0xFFFF);
 
     record.bytes[CHECK_AT] = (uint8_t)(check & 0xFFu);
     record.bytes[CHECK_AT + 1u] = (uint8_t)(check >> 8);
@@ -1510,7 +1494,7 @@ void test_unpack_any_1_2_or_3_wrong_bits_are_noticed(void)
         wrong[bit / 8u] = (uint8_t)(1u << bit % 8u);
         record.bytes[bit / 8u] ^= wrong[bit / 8u];
         is_not_unpacked();
-        change = (uint16_t)(check_of(wrong, 0) ^ wrong[CHECK_AT] ^
+        change = (uint16_t)(crc16(wrong, CHECK_AT, 0) ^ wrong[CHECK_AT] ^
                             wrong[CHECK_AT + 1u] * 256u);
         while (n < COUNT(taken) && power != change) {
             power = (uint16_t)((power & 0x7FFFu) << 1 ^

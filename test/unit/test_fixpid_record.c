@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <string.h>
 
+#include "crc16.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
 #include "numbers.h"
@@ -83,27 +84,10 @@ static void is_refused(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &config, sizeof before);
 }
 
-// Bit by bit, from the definition in the header and not from src/.
-static uint16_t check_of(const uint8_t bytes[])
-{
-    uint32_t rest = 0xFFFF;
-
-    for (unsigned bit = 0; bit < 8u * CHECK_AT; bit++) {
-        const unsigned in = (unsigned)(bytes[bit / 8u] >> (7u - bit % 8u)) & 1u;
-        const bool differ = ((rest >> 15) & 1u) != in;
-
-        rest = (rest << 1) & 0xFFFFu;
-        if (differ) {
-            rest ^= 0x1021u;
-        }
-    }
-    return (uint16_t)rest;
-}
-
 // So that only the version or nothing is wrong.
 static void make_check(void)
 {
-    const uint16_t check = check_of(record.bytes);
+    const uint16_t check = crc16(record.bytes, CHECK_AT, 0xFFFF);
 
     record.bytes[CHECK_AT] = (uint8_t)(check & 0xFFu);
     record.bytes[CHECK_AT + 1u] = (uint8_t)(check >> 8);
@@ -113,7 +97,7 @@ void test_pack_worked_example_gives_these_bytes(void)
 {
     TEST_ASSERT_EQUAL_UINT(23, sizeof record);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(oven_bytes, record.bytes, FIXPID_RECORD_SIZE);
-    TEST_ASSERT_EQUAL_HEX16(0x12C0, check_of(oven_bytes));
+    TEST_ASSERT_EQUAL_HEX16(0x12C0, crc16(oven_bytes, CHECK_AT, 0xFFFF));
 }
 
 void test_unpack_gives_what_was_packed(void)
