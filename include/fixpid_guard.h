@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
+// fixpid_guard: says when a loop no longer does what it should.
+//
+// Where the plant's dead time is longer than a quarter of its lag, what can do
+// harm needs a hardware cut-out, such as a thermal fuse: there nothing that
+// reads the sensor can be early enough. Elsewhere a guard in software is no
+// safety device, either, but it says early what would otherwise be seen late.
+//
+// A guard stands beside any controller and is called once per step, after it,
+// with what it got and gave:
+//   output = fixpid_pid_step(&pid, setpoint, y);
+//   flags = fixpid_guard_step(&guard, setpoint, y, output);
+//   if ((flags & FIXPID_GUARD_ALARMS) != 0) {
+//       off = true; // until a person says that the loop may go on
+//   }
+// It never changes the output: the application decides. What it should do with
+// an alarm is to switch the output off, to keep it off whatever the flags say
+// later, to tell a person, and to go on only when that person acknowledges,
+// with fixpid_guard_acknowledge. With FIXPID_GUARD_NOT_FALLING the output is
+// off already or does nothing: cut the supply, with a second contactor.
+//
+// The steps are the clock. Setpoint and measurement are counts of the sensor,
+// the output is counts of the actuator, any int16_t each. Nothing is rounded,
+// and no difference overflows. The module has no division, no product and no
+// number of 32 bits.
+//
+// There is nothing to arm: a new setpoint, a ramp, a cold start, an output that
+// is long at its end while the reading moves are no faults and need no call.
+// Where nobody controls, as by hand or while a tuner runs, call
+// fixpid_guard_step(&guard, y, y, output): then only the sensor is judged.
+// Before fixpid_tpo, give the guard the duty, not the relay's state. Under
+// on-off control the band must be wider than the swing, which is else reported.
+//
+// What it does not see: a sensor that drifts slowly; one without noise that
+// sticks exactly at the setpoint; one that sticks inside the band, until the
+// output comes to its end and stays there.
+//
+// Any number of them work side by side. Functions of one must not interrupt
+// each other; fixpid.h says on which chips those of two must not.
+#ifndef FIXPID_GUARD_H
+#define FIXPID_GUARD_H
+#include <stdbool.h>
+#include <stdint.h>
+
+FIXPID_C_BEGIN
+
+// What fixpid_guard_init takes. With a model of the plant, as
+// fixpid_autotune_model has it, that is the gain K in counts of the measurement
+// for one of the output, the dead time L in steps, the slope in counts per step
+// for one of the output, and the noise s in counts, the rule is
+//   band     = ceil(max(8 s + 4, 2 K)); 8 s + 4 if the plant integrates
+//   patience = ceil(2 L + 20 band / (slope * (output_max - output_min))), at
+//              least 4
+//   noisy    if s >= 1 and patience >= 16
+// Half of that patience raises false alarms. Without a model: three times as
+// many counts as the reading jitters, peak to peak, and twice the time in which
+// full output moves it by a band just below reach_max. A loop without an
+// integral needs a band above its standing offset.
+struct fixpid_guard_config {
+    // The controller's range, output_min < output_max. An output at or beyond
+    // an end counts as at that end.
+    int16_t output_min;
+    int16_t output_max;
+
+    // The readings that a sound sensor can give, measurement_min <
+    // measurement_max: an open or shorted one reads outside. If both are 0, any
+    // reading can be.
+    int16_t measurement_min;
+    int16_t measurement_max;
+
+    // Where the ends of the output surely bring the process, even in the
+    // warmest room and at the lowest supply, within the readings above and
+    // farther apart than two bands. A setpoint beyond counts as this, so that
+    // "off" and "full" raise no alarm. If both are 0, they are the readings'
+    // ends.
+    int16_t reach_min;
+    int16_t reach_max;
+
+    // The least movement that is not noise, 1..32767 counts of the measurement.
+    uint16_t band;
+
+    // The steps in which an end of the output surely moves the reading by a
+    // band: 2..32767.
+    uint16_t patience;
+
+    bool reverse; // the output falls to raise the reading
+    bool noisy;   // a sound sensor never gives 2 * patience equal readings
+};
+
+// What a step returns: bits. An alarm stays set until fixpid_guard_acknowledge
+// or fixpid_guard_reset.
+//
+// NOT_RISING: asked to rise by the end of its range for `patience` steps, the
+// process has not come a band nearer to the setpoint than where it was
+// farthest from it. A heater is broken, a sensor off, stuck or shorted, a sign
+// wrong. NOT_FALLING: likewise downward, as with a relay that does not open.
+#define FIXPID_GUARD_NOT_RISING 0x01u
+#define FIXPID_GUARD_NOT_FALLING 0x02u
+#define FIXPID_GUARD_FROZEN 0x04u      // the reading does not change
+#define FIXPID_GUARD_OSCILLATING 0x08u // 12 swings across the band
+#define FIXPID_GUARD_SENSOR_LOW 0x10u  // 4 readings below measurement_min
+#define FIXPID_GUARD_SENSOR_HIGH 0x20u // 4 readings above measurement_max
+#define FIXPID_GUARD_ALARMS 0x3Fu      // all of the above
+
+// No alarm: the reading has been in the band for `patience` steps and is still.
+#define FIXPID_GUARD_SETTLED 0x40u
+
+// There was no good init: nothing is watched.
+#define FIXPID_GUARD_REFUSED 0x80u
+
+// This is private, and open only so that the application can allocate it: 32
+// bytes.
+struct fixpid_guard {
+    int16_t output_min;
+    int16_t output_max;
+    int16_t measurement_min;
+    int16_t measurement_max;
+    int16_t reach_min;
+    int16_t reach_max;
+    uint16_t band;
+    uint16_t patience; // 0: refused
+    int16_t last;      // the reading of the last `run` steps and the one before
+    uint16_t run;
+    int16_t hold;   // the output when `run` came to patience
+    uint16_t count; // of int16_t: at an end inside the band, it is below 0
+    int16_t mark;   // the reading from which progress counts
+    int16_t anchor; // the setpoint for which swings are counted
+    uint8_t flags;
+    uint8_t state;
+    uint8_t swings;
+    uint8_t strikes;
+};
+
+#define fixpid_guard_mark
+#define fixpid_guard_init FIXPID_MARKED(guard, init)
+#define fixpid_guard_reset FIXPID_MARKED(guard, reset)
+#define fixpid_guard_acknowledge FIXPID_MARKED(guard, acknowledge)
+#define fixpid_guard_step FIXPID_MARKED(guard, step)
+#define fixpid_guard_flags FIXPID_MARKED(guard, flags)
+
+// Nothing is known yet, and no flag is set. A value outside its range above is
+// refused: the result is false, and until a good init the flags are
+// FIXPID_GUARD_REFUSED. An all-zero object is refused, too.
+bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
+                       const struct fixpid_guard_config *config);
+
+// As after init with the same configuration.
+void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self);
+
+// The alarms are off, and so is all that was on its way to one. Call it when a
+// person has looked, and by nothing else. FIXPID_GUARD_SETTLED stays.
+void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self);
+
+// One step, after the controller's; returns the flags. What it counts:
+//   range        4 readings in a row outside measurement_min..max;
+//   frozen       `patience` equal readings within reach, and then as many in
+//                which the output is more than a quarter of its range away from
+//                where it was, or, of a noisy sensor, any;
+//   not rising   outside the band around the setpoint: steps at the end of the
+//   not falling  output that pushes the reading to it; steps not at an end do
+//                not count, nor do they begin the count anew. Inside: steps in
+//                a row at an end, while the reading is not the setpoint itself;
+//   oscillating  changes from one side of the band to the other, while the
+//                setpoint does not move by more than a band and the loop does
+//                not settle.
+// Whoever has left the band is back in it at half its width.
+uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
+                          int16_t setpoint, int16_t measurement,
+                          int16_t output);
+
+// What the last call left of the flags.
+uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self);
+
+FIXPID_C_END
+
+#endif

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_guard.h"
+
+#undef OBJECT
+#include "../common/fixpid_self.h"
+
+#define BAND_MAX 32767u
+#define PATIENCE_MIN 2u
+#define PATIENCE_MAX 32767u
+#define STRIKES 4u
+#define SWINGS 12u
+#define NEGATIVE 0x8000u
+
+// The bits of `state`. A zone is where the reading is. An end of the output has
+// the name of the zone that it pushes the reading out of.
+#define INSIDE 0x00u
+#define BELOW 0x01u
+#define ABOVE 0x02u
+#define ZONE 0x03u
+#define LAST 0x0Cu // the last zone outside, since the loop was settled
+#define END 0x30u  // the last end of the output, inside the band
+#define NOISY 0x40u
+#define REVERSE 0x80u
+
+// high - low, which is 0..65535. pre: low <= high
+static uint16_t less(int16_t high, int16_t low)
+{
+    return (uint16_t)((uint16_t)high - (uint16_t)low);
+}
+
+static uint16_t distance(int16_t a, int16_t b)
+{
+    return (a < b) ? less(b, a) : less(a, b);
+}
+
+static void take_ranges(FIXPID_DATA struct fixpid_guard *self,
+                        const struct fixpid_guard_config *config)
+{
+    SELF.output_min = config->output_min;
+    SELF.output_max = config->output_max;
+    SELF.measurement_min = config->measurement_min;
+    SELF.measurement_max = config->measurement_max;
+    if ((config->measurement_min | config->measurement_max) == 0) {
+        SELF.measurement_min = INT16_MIN;
+        SELF.measurement_max = INT16_MAX;
+    }
+    SELF.reach_min = config->reach_min;
+    SELF.reach_max = config->reach_max;
+    if ((config->reach_min | config->reach_max) == 0) {
+        SELF.reach_min = SELF.measurement_min;
+        SELF.reach_max = SELF.measurement_max;
+    }
+}
+
+// Whether the readings, reach and band that were taken are legal. A reach of
+// more than two bands is no empty one.
+static bool reach_legal(FIXPID_DATA const struct fixpid_guard *self)
+{
+    if (SELF.reach_min < SELF.measurement_min) {
+        return false;
+    }
+    if (SELF.reach_max > SELF.measurement_max) {
+        return false;
+    }
+    if (SELF.reach_min > SELF.reach_max) {
+        return false;
+    }
+    if (SELF.band < 1u) {
+        return false;
+    }
+    if (SELF.band > BAND_MAX) {
+        return false;
+    }
+    return less(SELF.reach_max, SELF.reach_min) > (uint16_t)(SELF.band << 1);
+}
+
+static bool legal(FIXPID_DATA const struct fixpid_guard *self)
+{
+    if (SELF.output_min >= SELF.output_max) {
+        return false;
+    }
+    if (SELF.patience < PATIENCE_MIN) {
+        return false;
+    }
+    if (SELF.patience > PATIENCE_MAX) {
+        return false;
+    }
+    return reach_legal(self);
+}
+
+bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
+                       const struct fixpid_guard_config *config)
+{
+    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(config != 0);
+    take_ranges(self, config);
+    SELF.band = config->band;
+    SELF.patience = config->patience;
+    SELF.state = 0;
+    if (config->reverse) {
+        SELF.state |= REVERSE;
+    }
+    if (config->noisy) {
+        SELF.state |= NOISY;
+    }
+    fixpid_guard_reset(self);
+    if (!legal(self)) {
+        SELF.patience = 0;
+        return false;
+    }
+    return true;
+}
+
+void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self)
+{
+    fixpid_guard_acknowledge(self);
+    SELF.last = 0;
+    SELF.hold = 0;
+    SELF.mark = 0;
+    SELF.anchor = 0;
+    SELF.flags = 0;
+    SELF.state &= REVERSE | NOISY;
+}
+
+void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    SELF.flags &= FIXPID_GUARD_SETTLED;
+    SELF.count = 0;
+    SELF.run = 0;
+    SELF.swings = 0;
+    SELF.strikes = 0;
+}
+
+uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self)
+{
+    FIXPID_ASSERT(VALID(self));
+    return (SELF.patience == 0u) ? FIXPID_GUARD_REFUSED : SELF.flags;
+}
+
+static void watch_range(FIXPID_DATA struct fixpid_guard *self, int16_t reading)
+{
+    uint8_t alarm = FIXPID_GUARD_SENSOR_LOW;
+
+    if (reading >= SELF.measurement_min) {
+        if (reading <= SELF.measurement_max) {
+            SELF.strikes = 0;
+            return;
+        }
+        alarm = FIXPID_GUARD_SENSOR_HIGH;
+    }
+    SELF.strikes++;
+    if (SELF.strikes == STRIKES) {
+        SELF.strikes = 0;
+        SELF.flags |= alarm;
+    }
+}
+
+static bool is_within_reach(FIXPID_DATA const struct fixpid_guard *self,
+                            int16_t reading)
+{
+    if (reading < SELF.reach_min) {
+        return false;
+    }
+    return reading <= SELF.reach_max;
+}
+
+// Whether a reading that has been equal for `patience` steps is one more step
+// toward an alarm.
+static bool should_have_moved(FIXPID_DATA const struct fixpid_guard *self,
+                              int16_t output)
+{
+    if ((SELF.state & NOISY) != 0u) {
+        return true;
+    }
+    return distance(output, SELF.hold) >
+           (uint16_t)(less(SELF.output_max, SELF.output_min) >> 2);
+}
+
+// pre: the reading is the last one, and within reach
+static void watch_equal(FIXPID_DATA struct fixpid_guard *self, int16_t output)
+{
+    if (SELF.run < SELF.patience) {
+        SELF.run++;
+        if (SELF.run == SELF.patience) {
+            SELF.hold = output;
+        }
+    } else if (should_have_moved(self, output)) {
+        SELF.run++;
+        if (SELF.run == (uint16_t)(SELF.patience << 1)) {
+            SELF.run = 0;
+            SELF.flags |= FIXPID_GUARD_FROZEN;
+        }
+    } else {
+        // It rests, and so does the output.
+    }
+}
+
+static void watch_reading(FIXPID_DATA struct fixpid_guard *self,
+                          int16_t reading, int16_t output)
+{
+    if (reading != SELF.last) {
+        SELF.last = reading;
+        SELF.run = 0;
+    } else if (is_within_reach(self, reading)) {
+        watch_equal(self, output);
+    } else {
+        SELF.run = 0;
+    }
+}
+
+static int16_t goal_of(FIXPID_DATA const struct fixpid_guard *self,
+                       int16_t setpoint)
+{
+    if (setpoint < SELF.reach_min) {
+        return SELF.reach_min;
+    }
+    if (setpoint > SELF.reach_max) {
+        return SELF.reach_max;
+    }
+    return setpoint;
+}
+
+static uint8_t zone_of(FIXPID_DATA const struct fixpid_guard *self,
+                       int16_t goal, int16_t reading)
+{
+    uint16_t band = SELF.band;
+
+    if ((SELF.state & ZONE) != INSIDE) {
+        band >>= 1;
+    }
+    if (reading < goal) {
+        return (less(goal, reading) > band) ? BELOW : INSIDE;
+    }
+    return (less(reading, goal) > band) ? ABOVE : INSIDE;
+}
+
+static void watch_swing(FIXPID_DATA struct fixpid_guard *self, int16_t setpoint,
+                        uint8_t last, uint8_t now)
+{
+    if (distance(setpoint, SELF.anchor) > SELF.band) {
+        SELF.anchor = setpoint;
+        SELF.swings = 0;
+    } else if ((last ^ now) == LAST) { // one of them is each
+        SELF.swings++;
+        if (SELF.swings == SWINGS) {
+            SELF.swings = 0;
+            SELF.flags |= FIXPID_GUARD_OSCILLATING;
+        }
+    } else {
+        // It came from inside, or is on this side again.
+    }
+}
+
+static void enter(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
+                  int16_t setpoint, int16_t reading)
+{
+    const uint8_t last = SELF.state & LAST;
+    const uint8_t now = (uint8_t)(zone << 2);
+
+    SELF.mark = reading;
+    SELF.count = 0;
+    SELF.state = (uint8_t)((SELF.state & (uint8_t)~ZONE) | zone);
+    if (zone != INSIDE) {
+        SELF.flags &= (uint8_t)~FIXPID_GUARD_SETTLED;
+        watch_swing(self, setpoint, last, now);
+        SELF.state = (uint8_t)((SELF.state & (uint8_t)~LAST) | now);
+    }
+}
+
+static uint8_t end_of(FIXPID_DATA const struct fixpid_guard *self,
+                      int16_t output)
+{
+    uint8_t end = BELOW;
+
+    if (output < SELF.output_max) {
+        if (output > SELF.output_min) {
+            return INSIDE;
+        }
+        end = ABOVE;
+    }
+    if ((SELF.state & REVERSE) != 0u) {
+        end ^= ZONE;
+    }
+    return end;
+}
+
+static void raise_alarm(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
+{
+    SELF.count = 0;
+    SELF.flags |=
+        (end == BELOW) ? FIXPID_GUARD_NOT_RISING : FIXPID_GUARD_NOT_FALLING;
+}
+
+static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
+                          int16_t reading, uint8_t end)
+{
+    const bool is_above_mark = reading >= SELF.mark;
+
+    if (is_above_mark == (zone == BELOW)) {
+        if (distance(reading, SELF.mark) >= SELF.band) {
+            SELF.mark = reading;
+            SELF.count = 0;
+            return;
+        }
+    } else {
+        SELF.mark = reading;
+    }
+    if (end == zone) {
+        SELF.count++;
+        if (SELF.count == SELF.patience) {
+            raise_alarm(self, end);
+        }
+    }
+}
+
+// At an end, inside: steps in a row count downward from 0.
+static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
+{
+    const uint8_t now = (uint8_t)(end << 4);
+
+    if ((SELF.count & NEGATIVE) == 0u) {
+        SELF.count = 0;
+    }
+    if ((SELF.state & END) != now) {
+        SELF.state = (uint8_t)((SELF.state & (uint8_t)~END) | now);
+        SELF.count = 0;
+    }
+    SELF.count--;
+    if ((uint16_t)(SELF.count + SELF.patience) == 0u) {
+        raise_alarm(self, end);
+    }
+}
+
+static void watch_rest(FIXPID_DATA struct fixpid_guard *self)
+{
+    SELF.count++;
+    if (SELF.count == SELF.patience) {
+        SELF.count = 0;
+        SELF.swings = 0;
+        SELF.state &= (uint8_t)~LAST;
+        SELF.flags |= FIXPID_GUARD_SETTLED;
+    }
+}
+
+// Whether an end of the output is no reason to wait: the setpoint is beyond
+// what the output can hold, or the reading is the setpoint.
+static bool may_rest(int16_t setpoint, int16_t goal, int16_t reading)
+{
+    if (goal != setpoint) {
+        return true;
+    }
+    return goal == reading;
+}
+
+uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
+                          int16_t setpoint, int16_t measurement, int16_t output)
+{
+    int16_t goal;
+    uint8_t zone;
+    uint8_t end;
+
+    FIXPID_ASSERT(VALID(self));
+    if (SELF.patience == 0u) {
+        return FIXPID_GUARD_REFUSED;
+    }
+    watch_range(self, measurement);
+    watch_reading(self, measurement, output);
+    goal = goal_of(self, setpoint);
+    zone = zone_of(self, goal, measurement);
+    if (zone != (SELF.state & ZONE)) {
+        enter(self, zone, setpoint, measurement);
+    }
+    end = end_of(self, output);
+    if (zone != INSIDE) {
+        watch_outside(self, zone, measurement, end);
+    } else if (end == INSIDE) {
+        watch_rest(self);
+    } else if (may_rest(setpoint, goal, measurement)) {
+        watch_rest(self);
+    } else {
+        watch_end(self, end);
+    }
+    return SELF.flags;
+}
