@@ -91,18 +91,20 @@ static bool legal(FIXPID_DATA const struct fixpid_guard *self)
 bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
                        const struct fixpid_guard_config *config)
 {
+    uint8_t state = 0;
+
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(config != 0);
     take_ranges(self, config);
     SELF.band = config->band;
     SELF.patience = config->patience;
-    SELF.state = 0;
     if (config->reverse) {
-        SELF.state |= REVERSE;
+        state = REVERSE;
     }
     if (config->noisy) {
-        SELF.state |= NOISY;
+        state |= NOISY;
     }
+    SELF.state = state;
     fixpid_guard_reset(self);
     if (!legal(self)) {
         SELF.patience = 0;
@@ -138,6 +140,7 @@ uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self)
     return (SELF.patience == 0u) ? FIXPID_GUARD_REFUSED : SELF.flags;
 }
 
+// pre: the reading is beyond reach
 static void watch_range(FIXPID_DATA struct fixpid_guard *self, int16_t reading)
 {
     uint8_t alarm = FIXPID_GUARD_SENSOR_LOW;
@@ -156,6 +159,41 @@ static void watch_range(FIXPID_DATA struct fixpid_guard *self, int16_t reading)
     }
 }
 
+// Whether a reading that has been equal for `patience` steps is one more step
+// toward an alarm.
+static bool should_have_moved(FIXPID_DATA const struct fixpid_guard *self,
+                              int16_t output)
+{
+    uint16_t quarter;
+
+    if ((SELF.state & NOISY) != 0u) {
+        return true;
+    }
+    quarter = (uint16_t)(less(SELF.output_max, SELF.output_min) >> 2);
+    return distance(output, SELF.hold) > quarter;
+}
+
+// pre: the reading is the last one, and within reach
+static void watch_equal(FIXPID_DATA struct fixpid_guard *self, int16_t output)
+{
+    uint16_t run = SELF.run;
+
+    if (run >= SELF.patience) {
+        if (!should_have_moved(self, output)) {
+            return;
+        }
+    }
+    run++;
+    if (run == SELF.patience) {
+        SELF.hold = output;
+    }
+    if (run == (uint16_t)(SELF.patience << 1)) {
+        run = 0;
+        SELF.flags |= FIXPID_GUARD_FROZEN;
+    }
+    SELF.run = run;
+}
+
 static bool is_within_reach(FIXPID_DATA const struct fixpid_guard *self,
                             int16_t reading)
 {
@@ -165,48 +203,38 @@ static bool is_within_reach(FIXPID_DATA const struct fixpid_guard *self,
     return reading <= SELF.reach_max;
 }
 
-// Whether a reading that has been equal for `patience` steps is one more step
-// toward an alarm.
-static bool should_have_moved(FIXPID_DATA const struct fixpid_guard *self,
-                              int16_t output)
-{
-    if ((SELF.state & NOISY) != 0u) {
-        return true;
-    }
-    return distance(output, SELF.hold) >
-           (uint16_t)(less(SELF.output_max, SELF.output_min) >> 2);
-}
-
-// pre: the reading is the last one, and within reach
-static void watch_equal(FIXPID_DATA struct fixpid_guard *self, int16_t output)
-{
-    if (SELF.run < SELF.patience) {
-        SELF.run++;
-        if (SELF.run == SELF.patience) {
-            SELF.hold = output;
-        }
-    } else if (should_have_moved(self, output)) {
-        SELF.run++;
-        if (SELF.run == (uint16_t)(SELF.patience << 1)) {
-            SELF.run = 0;
-            SELF.flags |= FIXPID_GUARD_FROZEN;
-        }
-    } else {
-        // It rests, and so does the output.
-    }
-}
-
+// A reading within reach is one that a sound sensor can give, too.
 static void watch_reading(FIXPID_DATA struct fixpid_guard *self,
                           int16_t reading, int16_t output)
 {
-    if (reading != SELF.last) {
-        SELF.last = reading;
-        SELF.run = 0;
-    } else if (is_within_reach(self, reading)) {
-        watch_equal(self, output);
+    if (is_within_reach(self, reading)) {
+        SELF.strikes = 0;
+        if (reading == SELF.last) {
+            watch_equal(self, output);
+            return;
+        }
     } else {
-        SELF.run = 0;
+        watch_range(self, reading);
     }
+    SELF.last = reading;
+    SELF.run = 0;
+}
+
+static uint8_t end_of(FIXPID_DATA const struct fixpid_guard *self,
+                      int16_t output)
+{
+    uint8_t end = BELOW;
+
+    if (output < SELF.output_max) {
+        if (output > SELF.output_min) {
+            return INSIDE;
+        }
+        end = ABOVE;
+    }
+    if ((SELF.state & REVERSE) != 0u) {
+        end ^= ZONE;
+    }
+    return end;
 }
 
 static int16_t goal_of(FIXPID_DATA const struct fixpid_guard *self,
@@ -229,10 +257,10 @@ static uint8_t zone_of(FIXPID_DATA const struct fixpid_guard *self,
     if ((SELF.state & ZONE) != INSIDE) {
         band >>= 1;
     }
-    if (reading < goal) {
-        return (less(goal, reading) > band) ? BELOW : INSIDE;
+    if (distance(reading, goal) <= band) {
+        return INSIDE;
     }
-    return (less(reading, goal) > band) ? ABOVE : INSIDE;
+    return (reading < goal) ? BELOW : ABOVE;
 }
 
 static void watch_swing(FIXPID_DATA struct fixpid_guard *self, int16_t setpoint,
@@ -241,14 +269,14 @@ static void watch_swing(FIXPID_DATA struct fixpid_guard *self, int16_t setpoint,
     if (distance(setpoint, SELF.anchor) > SELF.band) {
         SELF.anchor = setpoint;
         SELF.swings = 0;
-    } else if ((last ^ now) == LAST) { // one of them is each
+    } else if ((last ^ now) == LAST) { // from one side to the other
         SELF.swings++;
         if (SELF.swings == SWINGS) {
             SELF.swings = 0;
             SELF.flags |= FIXPID_GUARD_OSCILLATING;
         }
     } else {
-        // It came from inside, or is on this side again.
+        // It is on the side on which it was, or was settled.
     }
 }
 
@@ -268,23 +296,6 @@ static void enter(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
     }
 }
 
-static uint8_t end_of(FIXPID_DATA const struct fixpid_guard *self,
-                      int16_t output)
-{
-    uint8_t end = BELOW;
-
-    if (output < SELF.output_max) {
-        if (output > SELF.output_min) {
-            return INSIDE;
-        }
-        end = ABOVE;
-    }
-    if ((SELF.state & REVERSE) != 0u) {
-        end ^= ZONE;
-    }
-    return end;
-}
-
 static void raise_alarm(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 {
     SELF.count = 0;
@@ -295,16 +306,22 @@ static void raise_alarm(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
                           int16_t reading, uint8_t end)
 {
-    const bool is_above_mark = reading >= SELF.mark;
+    // upper - lower is by how much the reading is nearer than the mark.
+    int16_t upper = reading;
+    int16_t lower = SELF.mark;
 
-    if (is_above_mark == (zone == BELOW)) {
-        if (distance(reading, SELF.mark) >= SELF.band) {
-            SELF.mark = reading;
-            SELF.count = 0;
-            return;
-        }
-    } else {
+    if (zone != BELOW) {
+        upper = lower;
+        lower = reading;
+    }
+    if (upper < lower) {
         SELF.mark = reading;
+    } else if (less(upper, lower) >= SELF.band) {
+        SELF.mark = reading;
+        SELF.count = 0;
+        return;
+    } else {
+        // That is no progress yet.
     }
     if (end == zone) {
         SELF.count++;
@@ -317,17 +334,20 @@ static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
 // At an end, inside: steps in a row count downward from 0.
 static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 {
-    const uint8_t now = (uint8_t)(end << 4);
+    const uint8_t state =
+        (uint8_t)((SELF.state & (uint8_t)~END) | (uint8_t)(end << 4));
+    uint16_t count = SELF.count;
 
-    if ((SELF.count & NEGATIVE) == 0u) {
-        SELF.count = 0;
+    if ((count & NEGATIVE) == 0u) {
+        count = 0;
     }
-    if ((SELF.state & END) != now) {
-        SELF.state = (uint8_t)((SELF.state & (uint8_t)~END) | now);
-        SELF.count = 0;
+    if (SELF.state != state) {
+        SELF.state = state;
+        count = 0;
     }
-    SELF.count--;
-    if ((uint16_t)(SELF.count + SELF.patience) == 0u) {
+    count--;
+    SELF.count = count;
+    if ((uint16_t)(count + SELF.patience) == 0u) {
         raise_alarm(self, end);
     }
 }
@@ -343,8 +363,20 @@ static void watch_rest(FIXPID_DATA struct fixpid_guard *self)
     }
 }
 
-// Whether an end of the output is no reason to wait: the setpoint is beyond
-// what the output can hold, or the reading is the setpoint.
+static void watch_zone(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
+                       int16_t reading, uint8_t end)
+{
+    if (zone != INSIDE) {
+        watch_outside(self, zone, reading, end);
+    } else if (end != INSIDE) {
+        watch_end(self, end);
+    } else {
+        watch_rest(self);
+    }
+}
+
+// Whether an end of the output is no reason to wait, inside: the setpoint is
+// beyond reach, or the reading is the setpoint.
 static bool may_rest(int16_t setpoint, int16_t goal, int16_t reading)
 {
     if (goal != setpoint) {
@@ -364,22 +396,18 @@ uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
     if (SELF.patience == 0u) {
         return FIXPID_GUARD_REFUSED;
     }
-    watch_range(self, measurement);
     watch_reading(self, measurement, output);
+    end = end_of(self, output);
     goal = goal_of(self, setpoint);
     zone = zone_of(self, goal, measurement);
+    if (zone == INSIDE) {
+        if (may_rest(setpoint, goal, measurement)) {
+            end = INSIDE;
+        }
+    }
     if (zone != (SELF.state & ZONE)) {
         enter(self, zone, setpoint, measurement);
     }
-    end = end_of(self, output);
-    if (zone != INSIDE) {
-        watch_outside(self, zone, measurement, end);
-    } else if (end == INSIDE) {
-        watch_rest(self);
-    } else if (may_rest(setpoint, goal, measurement)) {
-        watch_rest(self);
-    } else {
-        watch_end(self, end);
-    }
+    watch_zone(self, zone, measurement, end);
     return SELF.flags;
 }
