@@ -9,6 +9,7 @@
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_slew.h"
 #include "fixpid_tpo.h"
@@ -24,6 +25,7 @@ static struct fixpid_pid pid;
 static struct fixpid_autotune autotune;
 static struct fixpid_slew slew;
 static struct fixpid_tpo tpo;
+static struct fixpid_guard guard;
 
 // What is not even a range answers with one of its ends.
 static void within(int32_t low, int32_t high, int32_t answer)
@@ -206,9 +208,15 @@ static void other_steps(void)
 {
     spoil(&slew, sizeof slew);
     spoil(&tpo, sizeof tpo);
+    spoil(&guard, sizeof guard);
     for (unsigned i = 0; i < STEPS; i++) {
+        const int16_t setpoint = numbers_int16();
+        const int16_t measurement = numbers_int16();
+
         (void)fixpid_slew_step(&slew, numbers_int16());
         (void)fixpid_tpo_step(&tpo, numbers_int16());
+        (void)fixpid_guard_step(&guard, setpoint, measurement, numbers_int16());
+        (void)fixpid_guard_flags(&guard);
     }
 }
 

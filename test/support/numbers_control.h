@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Random arguments of fixpid_slew, fixpid_tpo and fixpid_gains: legal ones,
-// their ends often, and a few that are not.
+// Random arguments of fixpid_slew, fixpid_tpo, fixpid_guard and fixpid_gains:
+// legal ones, their ends often, and a few that are not.
 #ifndef NUMBERS_CONTROL_H
 #define NUMBERS_CONTROL_H
 #include "fixpid_gains.h"
+#include "fixpid_guard.h"
 #include "fixpid_tpo.h"
 
 // True once in `count` times.
@@ -19,6 +20,20 @@ void numbers_tpo_config(struct fixpid_tpo_config *config);
 
 // Duties of that configuration's range, its ends, and others.
 int16_t numbers_tpo_duty(int16_t full);
+
+// What a guard is given, step by step.
+struct numbers_guard {
+    int16_t setpoint;
+    int16_t measurement;
+    int16_t output;
+};
+
+// Short patiences and narrow bands, so that many alarms are seen.
+void numbers_guard_config(struct fixpid_guard_config *config);
+
+// The next step of that configuration: what it was, or near it, or at an end.
+void numbers_guard_move(struct numbers_guard *now,
+                        const struct fixpid_guard_config *config);
 
 void numbers_gains_milli(struct fixpid_gains_milli *milli);
 uint32_t numbers_gains_rate(void);

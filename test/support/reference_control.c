@@ -78,6 +78,211 @@ bool reference_tpo_step(struct reference_tpo *self, int64_t duty)
     return on;
 }
 
+// A range of which both ends are 0 is another one.
+static void guard_range(int64_t *low, int64_t *high, int64_t other_low,
+                        int64_t other_high)
+{
+    if (*low == 0 && *high == 0) {
+        *low = other_low;
+        *high = other_high;
+    }
+}
+
+bool reference_guard_init(struct reference_guard *self,
+                          const struct fixpid_guard_config *config)
+{
+    struct reference_guard asked = {
+        .output_min = config->output_min,
+        .output_max = config->output_max,
+        .measurement_min = config->measurement_min,
+        .measurement_max = config->measurement_max,
+        .reach_min = config->reach_min,
+        .reach_max = config->reach_max,
+        .band = config->band,
+        .patience = config->patience,
+        .reverse = config->reverse,
+        .noisy = config->noisy,
+    };
+
+    guard_range(&asked.measurement_min, &asked.measurement_max, INT16_MIN,
+                INT16_MAX);
+    guard_range(&asked.reach_min, &asked.reach_max, asked.measurement_min,
+                asked.measurement_max);
+    memset(self, 0, sizeof *self);
+    if (asked.output_min >= asked.output_max ||
+        asked.measurement_min >= asked.measurement_max ||
+        asked.reach_min < asked.measurement_min ||
+        asked.reach_max > asked.measurement_max || asked.band < 1 ||
+        asked.band > 32767 ||
+        asked.reach_max - asked.reach_min <= 2 * asked.band ||
+        asked.patience < 2 || asked.patience > 32767) {
+        return false;
+    }
+    *self = asked;
+    return true;
+}
+
+void reference_guard_reset(struct reference_guard *self)
+{
+    self->last = self->hold = self->mark = self->anchor = 0;
+    self->zone = self->end = self->outside = REFERENCE_INSIDE;
+    self->flags = 0;
+    reference_guard_acknowledge(self);
+}
+
+void reference_guard_acknowledge(struct reference_guard *self)
+{
+    self->flags &= FIXPID_GUARD_SETTLED;
+    self->count = self->run = self->swings = self->strikes = 0;
+}
+
+unsigned reference_guard_flags(const struct reference_guard *self)
+{
+    return self->patience == 0 ? FIXPID_GUARD_REFUSED : self->flags;
+}
+
+static void guard_range_step(struct reference_guard *self, int64_t y)
+{
+    if (y >= self->measurement_min && y <= self->measurement_max) {
+        self->strikes = 0;
+    } else if (++self->strikes == 4) {
+        self->strikes = 0;
+        self->flags |= y < self->measurement_min ? FIXPID_GUARD_SENSOR_LOW
+                                                 : FIXPID_GUARD_SENSOR_HIGH;
+    }
+}
+
+static int64_t distance(int64_t a, int64_t b)
+{
+    return a < b ? b - a : a - b;
+}
+
+static void guard_frozen_step(struct reference_guard *self, int64_t y,
+                              int64_t u)
+{
+    const int64_t quarter = (self->output_max - self->output_min) / 4;
+
+    if (y != self->last || y < self->reach_min || y > self->reach_max) {
+        self->last = y;
+        self->run = 0;
+    } else if (self->run < self->patience) {
+        self->run++;
+        self->hold = self->run == self->patience ? u : self->hold;
+    } else if (self->noisy || distance(u, self->hold) > quarter) {
+        if (++self->run == 2 * self->patience) {
+            self->run = 0;
+            self->flags |= FIXPID_GUARD_FROZEN;
+        }
+    }
+}
+
+static void guard_enter(struct reference_guard *self, enum reference_zone zone,
+                        int64_t r, int64_t y)
+{
+    self->zone = zone;
+    self->mark = y;
+    self->count = 0;
+    if (zone == REFERENCE_INSIDE) {
+        return;
+    }
+    self->flags &= ~(unsigned)FIXPID_GUARD_SETTLED;
+    if (distance(r, self->anchor) > self->band) {
+        self->anchor = r;
+        self->swings = 0;
+    } else if (self->outside != REFERENCE_INSIDE && self->outside != zone &&
+               ++self->swings == 12) {
+        self->swings = 0;
+        self->flags |= FIXPID_GUARD_OSCILLATING;
+    }
+    self->outside = zone;
+}
+
+static void guard_alarm(struct reference_guard *self, enum reference_zone end)
+{
+    self->count = 0;
+    self->flags |= end == REFERENCE_BELOW ? FIXPID_GUARD_NOT_RISING
+                                          : FIXPID_GUARD_NOT_FALLING;
+}
+
+static void guard_outside(struct reference_guard *self, int64_t y,
+                          enum reference_zone end)
+{
+    const int64_t nearer =
+        self->zone == REFERENCE_BELOW ? y - self->mark : self->mark - y;
+
+    if (nearer < 0 || nearer >= self->band) {
+        self->mark = y;
+    }
+    if (nearer >= self->band) {
+        self->count = 0;
+    } else if (end == self->zone && ++self->count == self->patience) {
+        guard_alarm(self, end);
+    }
+}
+
+static void guard_inside(struct reference_guard *self, enum reference_zone end)
+{
+    if (end != REFERENCE_INSIDE) {
+        if (self->count > 0 || end != self->end) {
+            self->count = 0;
+        }
+        self->end = end;
+        if (--self->count == -self->patience) {
+            guard_alarm(self, end);
+        }
+    } else if (++self->count == self->patience) {
+        self->count = 0;
+        self->swings = 0;
+        self->outside = REFERENCE_INSIDE;
+        self->flags |= FIXPID_GUARD_SETTLED;
+    }
+}
+
+static enum reference_zone guard_end(const struct reference_guard *self,
+                                     int64_t u)
+{
+    if (u >= self->output_max) {
+        return self->reverse ? REFERENCE_ABOVE : REFERENCE_BELOW;
+    }
+    if (u <= self->output_min) {
+        return self->reverse ? REFERENCE_BELOW : REFERENCE_ABOVE;
+    }
+    return REFERENCE_INSIDE;
+}
+
+unsigned reference_guard_step(struct reference_guard *self, int64_t setpoint,
+                              int64_t measurement, int64_t output)
+{
+    const int64_t goal =
+        reference_clamp(setpoint, self->reach_min, self->reach_max);
+    const int64_t band =
+        self->zone == REFERENCE_INSIDE ? self->band : self->band / 2;
+    const enum reference_zone end = guard_end(self, output);
+    enum reference_zone zone = REFERENCE_INSIDE;
+
+    if (self->patience == 0) {
+        return FIXPID_GUARD_REFUSED;
+    }
+    guard_range_step(self, measurement);
+    guard_frozen_step(self, measurement, output);
+    if (goal - measurement > band) {
+        zone = REFERENCE_BELOW;
+    } else if (measurement - goal > band) {
+        zone = REFERENCE_ABOVE;
+    }
+    if (zone != self->zone) {
+        guard_enter(self, zone, setpoint, measurement);
+    }
+    if (zone != REFERENCE_INSIDE) {
+        guard_outside(self, measurement, end);
+    } else if (goal == setpoint && goal != measurement) {
+        guard_inside(self, end);
+    } else {
+        guard_inside(self, REFERENCE_INSIDE);
+    }
+    return self->flags;
+}
+
 // floor(a / b + 1 / 2) of numbers that are not negative, below 2^63
 static uint64_t half_up(uint64_t a, uint64_t b)
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The definitions of fixpid_slew, fixpid_tpo and fixpid_gains in 64-bit
-// arithmetic. Recorded rows, random calls and chips compare with them.
+// The definitions of fixpid_slew, fixpid_tpo, fixpid_guard and fixpid_gains in
+// 64-bit arithmetic. Recorded rows, random calls and chips compare with them.
 #ifndef REFERENCE_CONTROL_H
 #define REFERENCE_CONTROL_H
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid_gains.h"
+#include "fixpid_guard.h"
 #include "fixpid_tpo.h"
 
 struct reference_slew {
@@ -30,6 +31,27 @@ bool reference_tpo_init(struct reference_tpo *self,
                         const struct fixpid_tpo_config *config);
 void reference_tpo_reset(struct reference_tpo *self);
 bool reference_tpo_step(struct reference_tpo *self, int64_t duty);
+
+// Where the reading is, and what an end of the output pushes it out of.
+enum reference_zone { REFERENCE_INSIDE, REFERENCE_BELOW, REFERENCE_ABOVE };
+
+// An all-zero one is refused, like the module.
+struct reference_guard {
+    int64_t output_min, output_max, measurement_min, measurement_max;
+    int64_t reach_min, reach_max, band, patience; // patience 0: refused
+    bool reverse, noisy;
+    int64_t last, run, hold, count, mark, anchor, swings, strikes;
+    enum reference_zone zone, end, outside;
+    unsigned flags;
+};
+
+bool reference_guard_init(struct reference_guard *self,
+                          const struct fixpid_guard_config *config);
+void reference_guard_reset(struct reference_guard *self);
+void reference_guard_acknowledge(struct reference_guard *self);
+unsigned reference_guard_step(struct reference_guard *self, int64_t setpoint,
+                              int64_t measurement, int64_t output);
+unsigned reference_guard_flags(const struct reference_guard *self);
 
 bool reference_gains_from_milli(struct fixpid_pid_gains *gains,
                                 const struct fixpid_gains_milli *milli,

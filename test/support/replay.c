@@ -8,6 +8,7 @@
 //   replay track FILE
 //   replay slew FILE
 //   replay tpo FILE
+//   replay guard FILE
 //   replay gains FILE
 //
 // Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
@@ -21,6 +22,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_gains.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_slew.h"
 #include "fixpid_tpo.h"
@@ -113,6 +115,29 @@ enum {
     TPO_COLUMNS = TPO_ON + 2 // one more: the definition's carry
 };
 
+// Columns of guard.csv.
+enum {
+    GUARD_RUN,
+    GUARD_EVENT,
+    GUARD_ACCEPTED,
+    GUARD_OUTPUT_MIN,
+    GUARD_OUTPUT_MAX,
+    GUARD_MEASUREMENT_MIN,
+    GUARD_MEASUREMENT_MAX,
+    GUARD_REACH_MIN,
+    GUARD_REACH_MAX,
+    GUARD_BAND,
+    GUARD_PATIENCE,
+    GUARD_OPTIONS,
+    GUARD_FLAGS_BEFORE,
+    GUARD_SETPOINT,
+    GUARD_MEASUREMENT,
+    GUARD_OUTPUT,
+    GUARD_REPEAT,
+    GUARD_FLAGS,
+    GUARD_COLUMNS
+};
+
 // Columns of gains.csv.
 enum {
     GAINS_KP_MILLI,
@@ -131,8 +156,15 @@ enum {
     GAINS_COLUMNS
 };
 
-// What was called before the row's step of a slew or tpo.
-enum { EVENT_NOTHING, EVENT_INIT, EVENT_RESET, EVENT_SET_RATES, EVENT_SEED };
+// What was called before the row's step of a slew, a tpo or a guard.
+enum {
+    EVENT_NOTHING,
+    EVENT_INIT,
+    EVENT_RESET,
+    EVENT_SET_RATES,
+    EVENT_ACKNOWLEDGE = EVENT_SET_RATES, // of a guard
+    EVENT_SEED
+};
 
 // What was called before the row's step.
 enum {
@@ -332,6 +364,54 @@ static bool tpo_row_is_same(const int32_t at[], bool fresh)
     equal &= same("accepted", at[TPO_ACCEPTED], accepted);
     equal &=
         same("on", at[TPO_ON], fixpid_tpo_step(&tpo, (int16_t)at[TPO_DUTY]));
+    return equal;
+}
+
+// A row's options are bits. One with another bit stands for what is refused.
+static struct fixpid_guard_config guard_config(const int32_t at[])
+{
+    const unsigned options = (unsigned)at[GUARD_OPTIONS];
+    const struct fixpid_guard_config config = {
+        .output_min = (int16_t)at[GUARD_OUTPUT_MIN],
+        .output_max = (int16_t)at[GUARD_OUTPUT_MAX],
+        .measurement_min = (int16_t)at[GUARD_MEASUREMENT_MIN],
+        .measurement_max = (int16_t)at[GUARD_MEASUREMENT_MAX],
+        .reach_min = (int16_t)at[GUARD_REACH_MIN],
+        .reach_max = (int16_t)at[GUARD_REACH_MAX],
+        .band = (uint16_t)at[GUARD_BAND],
+        .patience = (options & 0x3Fu) != 0u ? 0u : (uint16_t)at[GUARD_PATIENCE],
+        .reverse = (options & 0x80u) != 0u,
+        .noisy = (options & 0x40u) != 0u,
+    };
+
+    return config;
+}
+
+static bool guard_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_guard guard;
+    const struct fixpid_guard_config config = guard_config(at);
+    bool accepted = true;
+    bool equal = true;
+    uint8_t flags = 0;
+
+    (void)fresh;
+    if (at[GUARD_EVENT] == EVENT_INIT) {
+        accepted = fixpid_guard_init(&guard, &config);
+    } else if (at[GUARD_EVENT] == EVENT_RESET) {
+        fixpid_guard_reset(&guard);
+    } else if (at[GUARD_EVENT] == EVENT_ACKNOWLEDGE) {
+        fixpid_guard_acknowledge(&guard);
+    }
+    equal &= same("accepted", at[GUARD_ACCEPTED], accepted);
+    equal &= same("flags_before", at[GUARD_FLAGS_BEFORE],
+                  fixpid_guard_flags(&guard));
+    for (int32_t i = 0; i < at[GUARD_REPEAT]; i++) {
+        flags = fixpid_guard_step(&guard, (int16_t)at[GUARD_SETPOINT],
+                                  (int16_t)at[GUARD_MEASUREMENT],
+                                  (int16_t)at[GUARD_OUTPUT]);
+    }
+    equal &= same("flags", at[GUARD_FLAGS], flags);
     return equal;
 }
 
@@ -587,10 +667,13 @@ int main(int argc, char *argv[])
     if (argc == 3 && strcmp(argv[1], "tpo") == 0) {
         return replay("tpo", 1000, TPO_COLUMNS, tpo_row_is_same);
     }
+    if (argc == 3 && strcmp(argv[1], "guard") == 0) {
+        return replay("guard", 1000, GUARD_COLUMNS, guard_row_is_same);
+    }
     if (argc == 3 && strcmp(argv[1], "gains") == 0) {
         return replay("gains", 1000, GAINS_COLUMNS, gains_row_is_same);
     }
     fprintf(stderr,
-            "usage: replay an937|an964|pid|track|slew|tpo|gains FILE\n");
+            "usage: replay an937|an964|pid|track|slew|tpo|guard|gains FILE\n");
     return EXIT_WRONG_FILE;
 }

@@ -10,6 +10,7 @@
 #   fuzz     inputs that test/fuzz/run makes, and most bytes of each
 #   narrow   that it makes them for the arithmetic of an 8-bit chip, too
 #   rows     the columns of its recorded rows, with their types, that its calls_x.c takes
+#   shared   more of them, which are the same in many rows
 #   calls    what tools/cost meters of its calls_x.c, and bounds: CalledModule in tools/lib/measure/
 #
 # A controller of the notes, and fixpid_pid, has its cost in CONTROLLERS of
@@ -27,6 +28,14 @@ module Modules
       fuzz: [20_000, 256],
       rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
       calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }]
+    },
+    'guard' => {
+      title: 'Guard', what: 'An alarm when a loop no longer does what it should',
+      fuzz: [20_000, 512],
+      rows: %w[event:uint8_t setpoint:int16_t measurement:int16_t output:int16_t repeat:uint16_t],
+      shared: %w[output_min:int16_t output_max:int16_t measurement_min:int16_t measurement_max:int16_t
+                 reach_min:int16_t reach_max:int16_t band:uint16_t patience:uint16_t options:uint8_t],
+      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' } }]
     },
     'gains' => {
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',

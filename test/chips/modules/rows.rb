@@ -1,18 +1,31 @@
 # SPDX-License-Identifier: MIT
 # Prints the rows of a module's recorded file as tables in C, one for each column
-# that its entry of tools/lib/modules.rb names: ruby rows.rb MODULE.csv
+# that its entry of tools/lib/modules.rb names. Columns that many rows share, its `shared`,
+# are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv
 require_relative '../../../tools/lib/modules'
 
+# A table in C of a column, whose name has its type behind it.
+def table(column, values, size)
+  name, type = column.split(':')
+  suffix = type == 'uint32_t' ? 'u' : ''
+  lines = values.map { |value| "#{value == -32_768 ? '(-32767 - 1)' : value}#{suffix}" }.each_slice(10)
+  puts "static const IN_FLASH #{type} rows_#{name}[#{size}] = {", lines.map { |line| "#{line.join(', ')}," }, '};'
+end
+
 path = ARGV.fetch(0)
-columns = Modules::ALL.fetch(File.basename(path, '.csv'))[:rows]
+entry = Modules::ALL.fetch(File.basename(path, '.csv'))
 head, *rows = File.readlines(path, chomp: true).map { |line| line.split(',') }
+values = lambda do |column|
+  at = head.index(column[/\w+/]) or abort "#{path} has no column #{column[/\w+/]}"
+  rows.map { |row| Integer(row[at], 10) }
+end
 puts '// Made by rows.rb: do not edit.', '#include <stdint.h>', "#define ROWS #{rows.size}u"
 puts '#ifdef __AVR__ // its RAM has no room for them', '#define IN_FLASH __flash', '#else', '#define IN_FLASH', '#endif'
-columns.each do |column|
-  name, type = column.split(':')
-  at = head.index(name) or abort "#{path} has no column #{name}"
-  suffix = type == 'uint32_t' ? 'u' : ''
-  values = rows.map { |row| Integer(row[at], 10) }
-  lines = values.map { |value| "#{value == -32_768 ? '(-32767 - 1)' : value}#{suffix}" }.each_slice(10)
-  puts "static const IN_FLASH #{type} rows_#{name}[ROWS] = {", lines.map { |line| "#{line.join(', ')}," }, '};'
+entry[:rows].each { |column| table(column, values.call(column), 'ROWS') }
+if entry[:shared]
+  each = entry[:shared].map(&values).transpose
+  entry[:shared].zip(each.uniq.transpose) { |column, some| table(column, some, some.size) }
+  which = each.map { |row| each.uniq.index(row) }
+  abort "#{path}: more than 256 of them are shared" if which.max > 255
+  table('shared:uint8_t', which, 'ROWS')
 end

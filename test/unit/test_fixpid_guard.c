@@ -1,0 +1,799 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_guard.h"
+#include "numbers.h"
+#include "numbers_control.h"
+#include "poison.h"
+#include "reference.h"
+#include "reference_control.h"
+#include "unity.h"
+#include "vectors.h"
+
+TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
+
+#ifndef TEST_RANDOM_STEPS
+#define TEST_RANDOM_STEPS 1000000
+#endif
+
+#define ROWS 1000
+#define INSTANCES 5
+
+#define RISING FIXPID_GUARD_NOT_RISING
+#define FALLING FIXPID_GUARD_NOT_FALLING
+#define FROZEN FIXPID_GUARD_FROZEN
+#define OSCILLATING FIXPID_GUARD_OSCILLATING
+#define LOW FIXPID_GUARD_SENSOR_LOW
+#define HIGH FIXPID_GUARD_SENSOR_HIGH
+#define SETTLED FIXPID_GUARD_SETTLED
+#define REFUSED FIXPID_GUARD_REFUSED
+
+// Columns of guard.csv.
+enum {
+    RUN,
+    EVENT,
+    ACCEPTED,
+    OUTPUT_MIN,
+    OUTPUT_MAX,
+    MEASUREMENT_MIN,
+    MEASUREMENT_MAX,
+    REACH_MIN,
+    REACH_MAX,
+    BAND,
+    PATIENCE,
+    OPTIONS,
+    FLAGS_BEFORE,
+    SETPOINT,
+    MEASUREMENT,
+    OUTPUT,
+    REPEAT,
+    FLAGS
+};
+
+enum { EVENT_INIT = 1, EVENT_RESET, EVENT_ACKNOWLEDGE };
+
+static FIXPID_DATA struct fixpid_guard guard;
+static struct reference_guard reference;
+static struct fixpid_guard_config config;
+static int16_t setpoint;
+
+void setUp(void)
+{
+    config = (struct fixpid_guard_config){
+        .output_min = 0, .output_max = 160, .band = 4, .patience = 5};
+    setpoint = 100;
+}
+
+void tearDown(void)
+{
+}
+
+static void flags_are(unsigned flags)
+{
+    TEST_ASSERT_EQUAL_HEX8(flags, fixpid_guard_flags(&guard));
+    TEST_ASSERT_EQUAL_HEX8(flags, reference_guard_flags(&reference));
+}
+
+static bool init(void)
+{
+    const bool accepted = fixpid_guard_init(&guard, &config);
+
+    TEST_ASSERT_EQUAL(reference_guard_init(&reference, &config), accepted);
+    flags_are(accepted ? 0 : REFUSED);
+    return accepted;
+}
+
+static void begin(void)
+{
+    TEST_ASSERT_TRUE(init());
+}
+
+static void reset(void)
+{
+    fixpid_guard_reset(&guard);
+    reference_guard_reset(&reference);
+}
+
+static void acknowledge(void)
+{
+    fixpid_guard_acknowledge(&guard);
+    reference_guard_acknowledge(&reference);
+}
+
+static uint8_t step(int16_t measurement, int16_t output)
+{
+    const uint8_t flags =
+        fixpid_guard_step(&guard, setpoint, measurement, output);
+
+    if (flags !=
+            reference_guard_step(&reference, setpoint, measurement, output) ||
+        flags != fixpid_guard_flags(&guard)) {
+        TEST_FAIL_MESSAGE("not as defined");
+    }
+    return flags;
+}
+
+// Each of so many steps leaves these flags.
+static void steps(unsigned count, int16_t measurement, int16_t output,
+                  unsigned flags)
+{
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_EQUAL_HEX8(flags, step(measurement, output));
+    }
+}
+
+// Edges: of each rule the last step without it, and the first with it.
+
+void test_step_3_nearer_are_not_a_band(void)
+{
+    begin();
+    steps(4, 50, 160, 0);
+    steps(1, 53, 160, RISING);
+    acknowledge();
+    steps(4, 53, 160, 0); // the mark is 50
+    steps(4, 54, 160, 0); // a band nearer: they count from here
+    steps(9, 53, 159, 0); // not at the end
+    steps(1, 52, 160, 0);
+    steps(1, 52, 160, RISING);
+}
+
+void test_step_what_has_left_the_band_is_back_at_half_its_width(void)
+{
+    begin();
+    steps(4, 96, 80, 0);
+    steps(1, 96, 80, SETTLED);
+    steps(1, 95, 80, 0);
+    steps(5, 97, 80, 0);
+    steps(4, 98, 80, 0);
+    steps(1, 98, 80, SETTLED);
+}
+
+void test_step_half_of_an_odd_band_is_rounded_down(void)
+{
+    config.band = 5;
+    begin();
+    steps(1, 94, 80, 0);
+    steps(9, 97, 80, 0);
+    steps(4, 98, 80, 0);
+    steps(1, 98, 80, SETTLED);
+}
+
+void test_step_inside_patience_steps_at_one_end_are_an_alarm(void)
+{
+    begin();
+    steps(4, 98, 160, 0);
+    steps(1, 102, 160, RISING);
+    begin();
+    steps(4, 98, 0, 0);
+    steps(1, 102, 0, FALLING);
+}
+
+// Inside the band, with a reading that is not frozen.
+static void inside(unsigned count, int16_t output, unsigned flags)
+{
+    for (unsigned i = 0; i < count; i++) {
+        steps(1, (i % 2u == 0u) ? 98 : 102, output, flags);
+    }
+}
+
+void test_step_inside_they_are_steps_in_a_row_at_the_same_end(void)
+{
+    begin();
+    for (int turn = 0; turn < 3; turn++) {
+        inside(4, 160, 0);
+        inside(4, 0, 0);
+    }
+    begin();
+    inside(4, 80, 0);
+    inside(4, 160, 0); // what was counted to settle does not help them
+    inside(1, 160, RISING);
+    begin();
+    inside(4, 160, 0);
+    inside(8, 80, 0); // first back to 0, and then to settle
+    inside(1, 80, SETTLED);
+}
+
+void test_step_inside_a_reading_that_is_the_setpoint_is_none(void)
+{
+    begin();
+    steps(4, 100, 160, 0);
+    steps(9, 100, 160, SETTLED);
+}
+
+void test_step_falling_is_watched_as_rising_is(void)
+{
+    begin();
+    steps(9, 105, 160, 0);
+    steps(4, 105, 0, 0);
+    steps(1, 104, 0, FALLING);
+}
+
+void test_step_the_mark_is_where_it_was_farthest(void)
+{
+    begin();
+    steps(1, 50, 160, 0);
+    steps(1, 40, 160, 0);
+    steps(2, 43, 160, 0);
+    steps(5, 44, 160, 0); // the first is a band nearer
+    steps(1, 44, 160, RISING);
+    begin();
+    steps(1, 150, 0, 0);
+    steps(1, 160, 0, 0);
+    steps(2, 157, 0, 0);
+    steps(5, 156, 0, 0);
+    steps(1, 156, 0, FALLING);
+}
+
+void test_step_an_output_beyond_an_end_counts_as_at_that_end(void)
+{
+    begin();
+    steps(4, 50, INT16_MAX, 0);
+    steps(1, 50, 161, RISING);
+    begin();
+    steps(4, 150, INT16_MIN, 0);
+    steps(1, 150, -1, FALLING);
+}
+
+void test_step_at_the_other_end_nothing_counts_outside(void)
+{
+    begin();
+    for (int16_t at = 0; at < 20; at++) {
+        steps(1, (int16_t)(50 - at), 0, 0);
+    }
+    begin();
+    for (int16_t at = 0; at < 20; at++) {
+        steps(1, (int16_t)(150 + at), 160, 0);
+    }
+}
+
+void test_step_saturation_while_the_reading_moves_is_no_fault(void)
+{
+    setpoint = 1000;
+    begin();
+    for (int16_t at = 0; at < 900; at++) { // a band in 4 steps, of 5
+        steps(1, at, 160, 0);
+    }
+}
+
+void test_step_a_new_setpoint_needs_no_call(void)
+{
+    begin();
+    steps(4, 100, 80, 0);
+    steps(1, 100, 80, SETTLED);
+    setpoint = 200;
+    steps(2, 101, 160, 0);
+    for (int16_t at = 102; at < 199; at += 2) {
+        (void)step(at, 160);
+    }
+    flags_are(0);
+}
+
+void test_step_frozen_where_the_output_is_more_than_a_quarter_away(void)
+{
+    begin();
+    steps(4, 100, 80, 0);
+    steps(2, 100, 80, SETTLED);  // now it was equal for 5 steps, at 80
+    steps(4, 100, 121, SETTLED); // 41 away
+    steps(20, 100, 120, SETTLED);
+    steps(1, 100, 39, SETTLED | FROZEN);
+}
+
+void test_step_frozen_a_reading_that_moves_begins_anew(void)
+{
+    config.noisy = true;
+    begin();
+    for (int16_t turn = 0; turn < 5; turn++) {
+        for (int at = 0; at < 10; at++) {
+            TEST_ASSERT_EQUAL_HEX8(0, step((int16_t)(98 + turn), 80) & FROZEN);
+        }
+    }
+    TEST_ASSERT_EQUAL_HEX8(FROZEN, step(102, 80) & FROZEN);
+}
+
+void test_step_noisy_sensor_is_frozen_after_twice_the_patience(void)
+{
+    config.noisy = true;
+    begin();
+    steps(4, 99, 80, 0);
+    steps(6, 99, 80, SETTLED);
+    steps(1, 99, 80, SETTLED | FROZEN);
+    acknowledge();
+    steps(9, 99, 80, SETTLED);
+    steps(1, 99, 80, SETTLED | FROZEN);
+}
+
+void test_step_frozen_is_not_judged_beyond_reach(void)
+{
+    config.noisy = true;
+    config.reach_min = 20;
+    config.reach_max = 120;
+    begin();
+    setpoint = 121;
+    (void)step(121, 80);
+    for (int at = 0; at < 50; at++) {
+        TEST_ASSERT_EQUAL_HEX8(0, step(121, 80) & FROZEN);
+    }
+    setpoint = 19;
+    for (int at = 0; at < 50; at++) {
+        TEST_ASSERT_EQUAL_HEX8(0, step(19, 80) & FROZEN);
+    }
+    acknowledge();
+    setpoint = 20;
+    (void)step(20, 80);
+    for (int at = 0; at < 9; at++) {
+        TEST_ASSERT_EQUAL_HEX8(0, step(20, 80) & FROZEN);
+    }
+    TEST_ASSERT_EQUAL_HEX8(FROZEN, step(20, 80) & FROZEN);
+}
+
+void test_step_reverse_exchanges_the_ends(void)
+{
+    config.reverse = true;
+    begin();
+    steps(6, 50, 160, 0);
+    steps(4, 50, 0, 0);
+    steps(1, 50, -1, RISING | FROZEN);
+    begin();
+    steps(9, 150, 0, 0);
+    begin();
+    steps(4, 150, 160, 0);
+    steps(1, 150, 160, FALLING);
+}
+
+void test_step_setpoint_beyond_reach_counts_as_its_end(void)
+{
+    config.reach_min = 20;
+    config.reach_max = 120;
+    begin();
+    setpoint = 200;
+    steps(4, 118, 160, 0);
+    steps(8, 118, 160, SETTLED);
+    setpoint = 120;
+    steps(4, 118, 160, SETTLED);
+    steps(1, 118, 160, SETTLED | RISING);
+    begin();
+    setpoint = -200;
+    steps(4, 22, 0, 0);
+    steps(8, 22, 0, SETTLED);
+    setpoint = 20;
+    steps(4, 22, 0, SETTLED);
+    steps(1, 22, 0, SETTLED | FALLING);
+}
+
+static void swing(unsigned times, unsigned flags)
+{
+    for (unsigned at = 0; at < times; at++) {
+        (void)step((reference.zone == REFERENCE_BELOW) ? 105 : 95, 80);
+    }
+    flags_are(flags);
+}
+
+void test_step_oscillating_after_12_swings(void)
+{
+    begin();
+    swing(1, 0); // and none yet
+    swing(11, 0);
+    swing(1, OSCILLATING);
+    acknowledge();
+    swing(11, 0);
+    swing(1, OSCILLATING);
+}
+
+void test_step_what_goes_back_to_its_side_has_not_swung(void)
+{
+    begin();
+    for (int turn = 0; turn < 20; turn++) {
+        steps(1, 95, 80, 0);
+        steps(1, 100, 80, 0);
+    }
+}
+
+void test_step_a_setpoint_that_moves_by_more_than_a_band_begins_anew(void)
+{
+    begin();
+    swing(12, 0);
+    setpoint = 105; // 4 + 1
+    swing(1, 0);
+    begin();
+    setpoint = 100;
+    swing(12, 0);
+    setpoint = 104; // 4: still the same
+    swing(1, OSCILLATING);
+}
+
+void test_step_a_settled_loop_begins_anew(void)
+{
+    begin();
+    swing(12, 0);
+    steps(4, 100, 80, 0);
+    steps(1, 100, 80, SETTLED);
+    swing(1, 0);
+    swing(11, 0);
+    swing(1, OSCILLATING);
+}
+
+void test_step_4_readings_in_a_row_beyond_what_a_sensor_gives(void)
+{
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    begin();
+    steps(3, 0, 80, 0);
+    steps(1, 1, 80, 0);
+    steps(3, 0, 80, 0);
+    steps(1, 0, 80, LOW);
+    acknowledge();
+    steps(3, 1023, 80, 0);
+    steps(1, 1022, 80, 0);
+    steps(3, 1023, 80, 0);
+    steps(1, 1023, 80, HIGH);
+    acknowledge();
+    steps(3, -32768, 80, 0);
+    steps(1, 32767, 80, HIGH); // what the fourth was
+}
+
+void test_step_without_a_range_any_reading_can_be(void)
+{
+    begin();
+    steps(9, INT16_MIN, 80, 0);
+    steps(9, INT16_MAX, 80, 0);
+}
+
+void test_step_by_hand_only_the_sensor_is_judged(void)
+{
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    begin();
+    for (int at = 0; at < 100; at++) {
+        setpoint = (int16_t)(50 + at % 7);
+        TEST_ASSERT_EQUAL_HEX8(0, step(setpoint, 160) & FIXPID_GUARD_ALARMS);
+    }
+    setpoint = 0;
+    steps(3, 0, 160, SETTLED);
+    steps(1, 0, 160, SETTLED | LOW);
+}
+
+void test_acknowledge_drops_all_that_is_on_its_way(void)
+{
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    begin();
+    steps(4, 50, 160, 0);
+    acknowledge();
+    steps(4, 50, 160, 0);
+    steps(1, 50, 160, RISING);
+    steps(4, 100, 160, RISING);
+    steps(5, 100, 160, RISING | SETTLED);
+    acknowledge();
+    flags_are(SETTLED);
+    steps(3, 0, 160, 0);
+    acknowledge();
+    steps(3, 0, 160, 0);
+    swing(11, 0);
+    acknowledge();
+    swing(11, 0);
+    swing(1, OSCILLATING);
+}
+
+void test_alarm_stays_set_until_it_is_acknowledged(void)
+{
+    begin();
+    steps(4, 50, 160, 0);
+    steps(1, 50, 160, RISING);
+    steps(4, 100, 80, RISING);
+    steps(50, 100, 80, RISING | SETTLED);
+    reset();
+    flags_are(0);
+}
+
+void test_reset_is_as_after_init(void)
+{
+    config.noisy = true;
+    config.reverse = true;
+    begin();
+    for (int at = 0; at < 300; at++) {
+        (void)step((int16_t)(50 + at / 3), (int16_t)(at % 200));
+    }
+    reset();
+    flags_are(0);
+    steps(6, 50, 160, 0);
+    steps(4, 50, 0, 0);
+    steps(1, 50, -1, RISING | FROZEN);
+}
+
+static void is_refused(void)
+{
+    const struct fixpid_guard_config bad = config;
+
+    setUp();
+    begin();
+    steps(1, 50, 80, 0);
+    config = bad;
+    TEST_ASSERT_FALSE(init());
+    steps(20, 50, 160, REFUSED);
+    reset();
+    flags_are(REFUSED);
+    acknowledge();
+    flags_are(REFUSED);
+    steps(20, 50, 160, REFUSED);
+    setUp();
+}
+
+void test_init_output_range_that_is_none_is_refused(void)
+{
+    config.output_min = 160;
+    is_refused();
+    config.output_min = 161;
+    is_refused();
+    config.output_min = INT16_MAX;
+    config.output_max = INT16_MIN;
+    is_refused();
+    config.output_min = 159;
+    begin();
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    begin();
+}
+
+void test_init_measurement_range_that_is_none_is_refused(void)
+{
+    config.measurement_min = 1;
+    config.measurement_max = 1;
+    is_refused();
+    config.measurement_min = 1;
+    config.measurement_max = 0;
+    is_refused();
+    config.measurement_min = 0;
+    config.measurement_max = -1;
+    is_refused();
+    config.measurement_min = 1;
+    config.measurement_max = 10;
+    begin();
+}
+
+void test_init_reach_beyond_the_readings_is_refused(void)
+{
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    config.reach_min = 1;
+    config.reach_max = 1022;
+    begin();
+    config.reach_min = 0;
+    is_refused();
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    config.reach_min = 1;
+    config.reach_max = 1023;
+    is_refused();
+    config.reach_min = 200;
+    config.reach_max = 100;
+    is_refused();
+    config.reach_min = INT16_MAX;
+    config.reach_max = INT16_MIN;
+    is_refused();
+}
+
+void test_init_reach_is_wider_than_two_bands(void)
+{
+    config.reach_min = 10;
+    config.reach_max = 19;
+    begin();
+    config.reach_max = 18;
+    is_refused();
+    config.reach_min = INT16_MIN;
+    config.reach_max = INT16_MAX;
+    config.band = 32767;
+    begin();
+    config.reach_min = INT16_MIN + 1; // just two bands
+    is_refused();
+}
+
+void test_init_band_and_patience_have_their_ranges(void)
+{
+    config.band = 0;
+    is_refused();
+    config.band = 32768;
+    is_refused();
+    config.band = 65535;
+    is_refused();
+    config.patience = 0;
+    is_refused();
+    config.patience = 1;
+    is_refused();
+    config.patience = 32768;
+    is_refused();
+    config.patience = 65535;
+    is_refused();
+    config.band = 1;
+    config.patience = 2;
+    begin();
+    config.band = 32767;
+    config.patience = 32767;
+    begin();
+}
+
+void test_step_longest_patience(void)
+{
+    config.patience = 32767;
+    config.noisy = true;
+    begin();
+    for (uint16_t at = 0; at < 32766u; at++) {
+        (void)step(50, 160);
+    }
+    flags_are(0);
+    steps(1, 50, 160, RISING);
+    for (uint16_t at = 0; at < 32766u; at++) {
+        (void)step(50, 160);
+    }
+    flags_are(RISING);
+    (void)step(50, 160); // the first reading was a new one
+    (void)step(50, 160);
+    flags_are(RISING | FROZEN);
+    begin();
+    for (uint16_t at = 0; at < 32766u; at++) {
+        (void)step(98, 0);
+    }
+    flags_are(0);
+    steps(1, 98, 0, FALLING);
+}
+
+void test_step_widest_differences_do_not_wrap(void)
+{
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    begin();
+    setpoint = INT16_MAX;
+    steps(4, INT16_MIN, INT16_MAX, 0);
+    steps(1, INT16_MIN, INT16_MAX, RISING);
+    steps(1, INT16_MAX - 5, INT16_MAX, RISING); // 65530 nearer
+    setpoint = INT16_MIN;
+    steps(4, INT16_MAX, INT16_MIN, RISING);
+    steps(1, INT16_MAX, INT16_MIN, RISING | FALLING);
+    begin();
+    setpoint = 0;
+    steps(4, 0, INT16_MIN, 0);
+    steps(5, 0, INT16_MIN, SETTLED);
+    steps(1, 0, INT16_MAX, SETTLED); // 65535 away: on its way to frozen
+    steps(3, 0, INT16_MAX, SETTLED);
+    steps(1, 0, INT16_MAX, SETTLED | FROZEN);
+}
+
+static void take_row(const int32_t row[])
+{
+    const unsigned options = (unsigned)row[OPTIONS];
+
+    config.output_min = (int16_t)row[OUTPUT_MIN];
+    config.output_max = (int16_t)row[OUTPUT_MAX];
+    config.measurement_min = (int16_t)row[MEASUREMENT_MIN];
+    config.measurement_max = (int16_t)row[MEASUREMENT_MAX];
+    config.reach_min = (int16_t)row[REACH_MIN];
+    config.reach_max = (int16_t)row[REACH_MAX];
+    config.band = (uint16_t)row[BAND];
+    config.patience = (uint16_t)row[PATIENCE];
+    config.reverse = (options & 0x80u) != 0u;
+    config.noisy = (options & 0x40u) != 0u;
+    if ((options & 0x3Fu) != 0u) { // it stands for what is refused
+        config.patience = 0;
+    }
+    setpoint = (int16_t)row[SETPOINT];
+}
+
+void test_step_recorded_rows_match_the_definition(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    vectors_open("guard");
+    while (vectors_next(row)) {
+        bool accepted = true;
+
+        take_row(row);
+        if (row[EVENT] == EVENT_INIT) {
+            accepted = init();
+        } else if (row[EVENT] == EVENT_RESET) {
+            reset();
+        } else if (row[EVENT] == EVENT_ACKNOWLEDGE) {
+            acknowledge();
+        }
+        TEST_ASSERT_EQUAL_INT32(row[ACCEPTED], accepted);
+        flags_are((unsigned)row[FLAGS_BEFORE]);
+        for (int32_t at = 0; at < row[REPEAT]; at++) {
+            (void)step((int16_t)row[MEASUREMENT], (int16_t)row[OUTPUT]);
+        }
+        flags_are((unsigned)row[FLAGS]);
+        rows++;
+    }
+    TEST_ASSERT_EQUAL_UINT(ROWS, rows);
+}
+
+void test_step_random_calls_match_the_definition(void)
+{
+    struct numbers_guard now = {0, 0, 0};
+    unsigned seen = 0;
+
+    numbers_seed(43);
+    for (uint32_t i = 0; i < TEST_RANDOM_STEPS; i++) {
+        if (i == 0 || numbers_one_in(500)) {
+            numbers_guard_config(&config);
+            (void)init();
+        } else if (numbers_one_in(1000)) {
+            reset();
+        } else if (numbers_one_in(100)) {
+            acknowledge();
+        }
+        numbers_guard_move(&now, &config);
+        setpoint = now.setpoint;
+        seen |= step(now.measurement, now.output);
+    }
+    TEST_ASSERT_EQUAL_HEX8(0xFF, seen); // each flag was
+}
+
+static void init_good(void)
+{
+    (void)fixpid_guard_init(&guard, &config);
+}
+
+static void init_bad(void)
+{
+    struct fixpid_guard_config bad = config;
+
+    bad.band = 0;
+    (void)fixpid_guard_init(&guard, &bad);
+}
+
+void test_init_whatever_the_memory_held_sets_every_member(void)
+{
+    TEST_ASSERT_EQUAL_UINT(0, poison_left(&guard, sizeof guard, init_good));
+    TEST_ASSERT_EQUAL_UINT(0, poison_left(&guard, sizeof guard, init_bad));
+    TEST_ASSERT_EQUAL_UINT(32, sizeof guard);
+}
+
+void test_step_all_zero_object_is_refused(void)
+{
+    static FIXPID_DATA struct fixpid_guard zero;
+
+    TEST_ASSERT_EQUAL_HEX8(REFUSED, fixpid_guard_flags(&zero));
+    TEST_ASSERT_EQUAL_HEX8(REFUSED, fixpid_guard_step(&zero, 1, 2, 3));
+    fixpid_guard_reset(&zero);
+    fixpid_guard_acknowledge(&zero);
+    TEST_ASSERT_EQUAL_HEX8(REFUSED, fixpid_guard_step(&zero, 1, 2, 3));
+}
+
+// Nothing undefined comes of any bytes, which the sanitizers see, and the next
+// reset makes them good.
+void test_step_of_any_bytes_a_reset_makes_good(void)
+{
+    numbers_seed(21);
+    for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
+        const int16_t any = numbers_int16();
+
+        numbers_fill(&guard, sizeof guard);
+        (void)fixpid_guard_step(&guard, any, numbers_int16(), numbers_int16());
+        (void)fixpid_guard_step(&guard, any, numbers_int16(), numbers_int16());
+        fixpid_guard_acknowledge(&guard);
+        fixpid_guard_reset(&guard);
+        TEST_ASSERT_EQUAL_HEX8(guard.patience == 0u ? REFUSED : 0,
+                               fixpid_guard_flags(&guard));
+    }
+}
+
+void test_guard_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_guard guards[INSTANCES];
+    struct reference_guard references[INSTANCES];
+    struct numbers_guard now[INSTANCES] = {{0, 0, 0}};
+
+    for (unsigned i = 0; i < INSTANCES; i++) {
+        config.patience = (uint16_t)(3 + i);
+        config.noisy = i == 3;
+        TEST_ASSERT_TRUE(fixpid_guard_init(&guards[i], &config));
+        TEST_ASSERT_TRUE(reference_guard_init(&references[i], &config));
+    }
+    for (unsigned n = 0; n < 5000; n++) {
+        const uint32_t i = numbers_below(INSTANCES);
+
+        numbers_guard_move(&now[i], &config);
+        TEST_ASSERT_EQUAL_HEX8(
+            reference_guard_step(&references[i], now[i].setpoint,
+                                 now[i].measurement, now[i].output),
+            fixpid_guard_step(&guards[i], now[i].setpoint, now[i].measurement,
+                              now[i].output));
+    }
+}
