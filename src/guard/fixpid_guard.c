@@ -10,6 +10,7 @@
 #define STRIKES 4u
 #define SWINGS 12u
 #define NEGATIVE 0x8000u
+#define MINUS_1 0xFFFFu
 
 // The bits of `state`. A zone is where the reading is. An end of the output has
 // the name of the zone that it pushes the reading out of.
@@ -152,7 +153,7 @@ static void watch_range(FIXPID_DATA struct fixpid_guard *self, int16_t reading)
         }
         alarm = FIXPID_GUARD_SENSOR_HIGH;
     }
-    SELF.strikes++;
+    SELF.strikes = (uint8_t)(SELF.strikes + 1u);
     if (SELF.strikes == STRIKES) {
         SELF.strikes = 0;
         SELF.flags |= alarm;
@@ -183,7 +184,7 @@ static void watch_equal(FIXPID_DATA struct fixpid_guard *self, int16_t output)
             return;
         }
     }
-    run++;
+    run = (uint16_t)(run + 1u);
     if (run == SELF.patience) {
         SELF.hold = output;
     }
@@ -270,7 +271,7 @@ static void watch_swing(FIXPID_DATA struct fixpid_guard *self, int16_t setpoint,
         SELF.anchor = setpoint;
         SELF.swings = 0;
     } else if ((last ^ now) == LAST) { // from one side to the other
-        SELF.swings++;
+        SELF.swings = (uint8_t)(SELF.swings + 1u);
         if (SELF.swings == SWINGS) {
             SELF.swings = 0;
             SELF.flags |= FIXPID_GUARD_OSCILLATING;
@@ -324,7 +325,7 @@ static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
         // That is no progress yet.
     }
     if (end == zone) {
-        SELF.count++;
+        SELF.count = (uint16_t)(SELF.count + 1u);
         if (SELF.count == SELF.patience) {
             raise_alarm(self, end);
         }
@@ -345,7 +346,7 @@ static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
         SELF.state = state;
         count = 0;
     }
-    count--;
+    count = (uint16_t)(count + MINUS_1);
     SELF.count = count;
     if ((uint16_t)(count + SELF.patience) == 0u) {
         raise_alarm(self, end);
@@ -354,7 +355,7 @@ static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 
 static void watch_rest(FIXPID_DATA struct fixpid_guard *self)
 {
-    SELF.count++;
+    SELF.count = (uint16_t)(SELF.count + 1u);
     if (SELF.count == SELF.patience) {
         SELF.count = 0;
         SELF.swings = 0;

@@ -297,6 +297,7 @@ void prove_init(void)
         claim(sound(&c));
         claim(fixpid_guard_flags(&c) == 0u);
     } else {
+        claim(fixpid_guard_step(&c, 0, 0, 0) == FIXPID_GUARD_REFUSED);
         claim(fixpid_guard_flags(&c) == FIXPID_GUARD_REFUSED);
         c.patience = config.patience;
         claim(!legal_guard(&c));
