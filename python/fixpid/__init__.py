@@ -15,6 +15,7 @@ FIXPID_: fixpid.PID_AT_MAX. Structures come back as dictionaries, and are given 
 keywords. What each of them means is in the header.
 """
 import enum
+import math
 import operator
 
 import numpy
@@ -256,6 +257,29 @@ def pid_gains(kp, ki=0.0, kd=0.0, rate=1.0, filter=0):
     _accept(kd == 0 or 0.5 <= kd_q8 < lib.FIXPID_PID_KD_MAX + 0.5, "kd")
     return {"kp_q8": int(kp_q8 + 0.5), "ki_q24": int(ki_q24 + 0.5), "kd_q8": int(kd_q8 + 0.5),
             "derivative_filter": filter}
+
+
+def guard_config(model, output_min, output_max, **config):
+    """What Guard takes for a plant, by the rule of fixpid_guard.h.
+
+    `model` is a dictionary as Autotune.model gives it, and `config` is all other fields:
+    measurement_min, measurement_max, reach_min, reach_max, reverse, and band, patience or
+    noisy in place of the rule's. ValueError where the rule has no answer: the plant is too
+    slow for a patience of 16 bits, or there is no such guard.
+    """
+    noise = model["noise_q4"] / 16
+    slope = model["slope_q24"] / 2**24
+    _accept(slope > 0 and output_min < output_max, "the model's slope, or the output's range,")
+    gain = 0 if model["gain_q8"] == lib.FIXPID_AUTOTUNE_INTEGRATING else model["gain_q8"] / 256
+    band = config.get("band", math.ceil(max(8 * noise + 4, 2 * gain)))
+    way = 20 * band / (slope * (output_max - output_min))
+    patience = config.get("patience", max(math.ceil(2 * model["dead_q4"] / 16 + way), 4))
+    chosen = {"band": band, "patience": patience, "noisy": noise >= 1 and patience >= 16,
+              "output_min": output_min, "output_max": output_max, **config}
+    _accept(band <= 32767 and patience <= 32767, "the band or the patience")
+    _accept(lib.fixpid_guard_init(_new("guard", {}), _new("guard_config", chosen)),
+            "the guard's configuration")
+    return chosen
 
 
 def gains_from_milli(kp, ki, kd, rate_milli, filter=0):

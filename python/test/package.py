@@ -92,6 +92,43 @@ def what_is_refused_is_named():
         raise AssertionError("not refused")
 
 
+# 255 counts of output raise 10 bits by 700, with a lag of 1200 steps, a delay of 60 and a
+# noise of half a count.
+HEATER = {"gain_q8": round(700 / 255 * 256), "lag_q4": 1200 * 16, "dead_q4": 60 * 16,
+          "slope_q24": round(700 / 255 / 1200 * 2**24), "noise_q4": 8}
+
+
+def guard_is_chosen_by_its_rule():
+    config = fixpid.guard_config(HEATER, 0, 255, measurement_min=1, measurement_max=1022)
+    assert config == {"band": 8, "patience": 395, "noisy": False, "output_min": 0,
+                      "output_max": 255, "measurement_min": 1, "measurement_max": 1022}, config
+    assert fixpid.Guard(**config).flags() == 0
+    steep = {**HEATER, "gain_q8": 9 * 256}
+    assert fixpid.guard_config(steep, 0, 255)["band"] == 18  # 2 K
+    integrating = {**steep, "gain_q8": fixpid.AUTOTUNE_INTEGRATING}
+    assert fixpid.guard_config(integrating, 0, 255)["band"] == 8
+    noisy = {**HEATER, "noise_q4": 17}  # ceil(8 * 17 / 16 + 4), and 120 + 445.7
+    assert fixpid.guard_config(noisy, 0, 255) == {
+        "band": 13, "patience": 566, "noisy": True, "output_min": 0, "output_max": 255}
+    quick = {**noisy, "dead_q4": 16, "slope_q24": 2**24}
+    assert fixpid.guard_config(quick, 0, 255)["patience"] == 4
+    assert not fixpid.guard_config(quick, 0, 255)["noisy"]  # of 16 steps and more
+    assert fixpid.guard_config(noisy, 0, 255, patience=5, noisy=True)["patience"] == 5
+    assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 0}, 0, 255)
+    assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 10}, 0, 255)
+    assert refuses(ValueError, fixpid.guard_config, HEATER, 255, 255)
+    assert refuses(ValueError, fixpid.guard_config, HEATER, 0, 255, reach_min=1, reach_max=9)
+
+
+def guard_sees_a_heater_that_does_not_heat():
+    guard = fixpid.Guard(**fixpid.guard_config(HEATER, 0, 255))
+    flags = guard.steps(500, numpy.full(395, 100), 255)
+    assert flags.dtype == numpy.uint8
+    assert flags[:-1].max() == 0 and flags[-1] == fixpid.GUARD_NOT_RISING
+    guard.acknowledge()
+    assert guard.flags() == 0
+
+
 def records_come_back():
     record = fixpid.record_pack(**CONFIG)
     config = fixpid.record_unpack(record)
@@ -210,7 +247,9 @@ def code_of_the_page_runs():
 
 
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
-         what_does_not_fit_is_refused, what_is_refused_is_named, records_come_back, autotune_finds_gains,
+         what_does_not_fit_is_refused, what_is_refused_is_named,
+         guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
+         records_come_back, autotune_finds_gains,
          autotune_says_what_to_do, experiments_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 failed = 0

@@ -136,6 +136,25 @@ def tpo_row(tpo, at, _):
     yield at["on"], int(tpo.step(at["duty"]))
 
 
+GUARD = ("output_min", "output_max", "measurement_min", "measurement_max", "reach_min",
+         "reach_max", "band")
+
+
+def guard_row(guard, at, _):
+    """As of fixpid_pid, an option that there is not stands for what is refused."""
+    options = at["options"]
+    config = {name: at[name] for name in GUARD}
+    config.update(patience=0 if options & 0x3F else at["patience"],
+                  reverse=bool(options & 0x80), noisy=bool(options & 0x40))
+    init = accepted(guard.init, **config) if at["event"] == 1 else 1
+    (lambda: None, lambda: None, guard.reset, guard.acknowledge)[at["event"]]()
+    yield at["accepted"], init
+    yield at["flags_before"], guard.flags()
+    for _ in range(at["repeat"]):
+        flags = guard.step(at["setpoint"], at["measurement"], at["output"])
+    yield at["flags"], flags
+
+
 def gains_row(_, at, __):
     try:
         gains = fixpid.gains_from_milli(at["kp_milli"], at["ki_milli"], at["kd_milli"],
@@ -228,6 +247,7 @@ FILES = (
     ("track", 1000, lambda: fixpid.Pid(output_max=1), track_row),
     ("slew", 1000, fixpid.Slew, slew_row),
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
+    ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
     ("gains", 1000, lambda: None, gains_row),
     ("autotune", 317, lambda: fixpid.Autotune(output_max=1, measurement_max=1, timeout_steps=2,
                                               cycles=1), autotune_row),

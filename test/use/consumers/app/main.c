@@ -8,6 +8,7 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_gains.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
 #include "fixpid_slew.h"
@@ -63,6 +64,21 @@ static bool small_ones_work(void)
            fixpid_tpo_step(&tpo, 200) &&
            fixpid_gains_from_milli(&gains, &typed, 10000, 0) &&
            gains.kp_q8 == 512;
+}
+
+static bool guard_works(void)
+{
+    const struct fixpid_guard_config config = {
+        .output_max = 255, .band = 8, .patience = 2, .noisy = true};
+    struct fixpid_guard guard;
+
+    if (!fixpid_guard_init(&guard, &config) ||
+        fixpid_guard_step(&guard, 500, 20, 255) != 0 ||
+        fixpid_guard_step(&guard, 500, 21, 255) != FIXPID_GUARD_NOT_RISING) {
+        return false;
+    }
+    fixpid_guard_acknowledge(&guard);
+    return fixpid_guard_flags(&guard) == 0;
 }
 
 static bool autotune_works(void)
@@ -140,7 +156,7 @@ int main(void)
            FIXPID_AN964_TERM_LIMIT, FIXPID_AN964_OUTPUT_LIMIT,
            FIXPID_AN964_8BIT_SUM_LIMIT, FIXPID_AN964_8BIT_TERM_LIMIT);
     if (!an937_works() || !pid_works() || !autotune_works() ||
-        !small_ones_work() || !an964_limits_agree() ||
+        !small_ones_work() || !guard_works() || !an964_limits_agree() ||
         !an964_8bit_limits_agree()) {
         printf("the library is not the one of the header\n");
         return 1;

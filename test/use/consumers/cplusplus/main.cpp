@@ -8,6 +8,7 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_gains.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
 #include "fixpid_slew.h"
@@ -51,6 +52,9 @@ int main()
     fixpid_pid_gains gains_typed;
     fixpid_slew slew;
     fixpid_tpo tpo;
+    const fixpid_guard_config watched = {0, 255, 0,   1023,  0,
+                                         0, 8,   395, false, true};
+    fixpid_guard guard;
 
     fixpid_pid_config kept;
     fixpid_record record;
@@ -80,6 +84,9 @@ int main()
             FIXPID_AUTOTUNE_NOT_DONE) {
         return 1;
     }
+    if (!fixpid_guard_init(&guard, &watched)) {
+        return 1;
+    }
     fixpid_an937_tick(&an937);
     fixpid_pid_track(&pid, 0, 2); // before the first step: nothing
     return fixpid_an937_step(&an937, 240) == 2880 &&
@@ -89,7 +96,8 @@ int main()
                    fixpid_pid_output(&pid) == 100 &&
                    fixpid_autotune_step(&autotune, 500, 20) == 9 &&
                    fixpid_slew_step(&slew, 100) == 3 &&
-                   fixpid_tpo_step(&tpo, 200)
+                   fixpid_tpo_step(&tpo, 200) &&
+                   fixpid_guard_step(&guard, 500, 20, 255) == 0
                ? 0
                : 1;
 }
