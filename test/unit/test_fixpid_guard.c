@@ -358,6 +358,31 @@ void test_step_setpoint_beyond_reach_counts_as_its_end(void)
     steps(1, 22, 0, SETTLED | FALLING);
 }
 
+void test_step_setpoint_one_beyond_reach_counts_as_its_end(void)
+{
+    config.reach_min = 20;
+    config.reach_max = 120;
+    begin();
+    setpoint = 121;
+    steps(4, 118, 160, 0);
+    steps(8, 118, 160, SETTLED);
+    begin();
+    setpoint = 19;
+    steps(4, 22, 0, 0);
+    steps(8, 22, 0, SETTLED);
+}
+
+// What was counted at rest does not run over.
+void test_step_at_an_end_after_a_long_rest(void)
+{
+    begin();
+    for (uint16_t at = 0; at < 33000u; at++) {
+        (void)step((at % 2u == 0u) ? 98 : 102, 80);
+    }
+    inside(4, 160, SETTLED);
+    inside(1, 160, SETTLED | RISING);
+}
+
 static void swing(unsigned times, unsigned flags)
 {
     for (unsigned at = 0; at < times; at++) {

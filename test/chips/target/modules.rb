@@ -23,7 +23,7 @@ class CalledModule
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
 
   # Where the calls of a module, each of its functions among them, need more than 32 KB.
-  CHIPS = { 'autotune' => 'pic18f26k22' }.freeze
+  CHIPS = %w[autotune gains guard].to_h { |name| [name, 'pic18f26k22'] }.freeze
 
   # The autotuner has no definition in C: test/model/autotune compares it.
   def initialize(name)
