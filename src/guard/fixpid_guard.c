@@ -300,8 +300,11 @@ static void enter(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
 static void raise_alarm(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 {
     SELF.count = 0;
-    SELF.flags |=
-        (end == BELOW) ? FIXPID_GUARD_NOT_RISING : FIXPID_GUARD_NOT_FALLING;
+    if (end == BELOW) {
+        SELF.flags |= FIXPID_GUARD_NOT_RISING;
+    } else {
+        SELF.flags |= FIXPID_GUARD_NOT_FALLING;
+    }
 }
 
 static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
