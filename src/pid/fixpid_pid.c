@@ -6,15 +6,6 @@
 #include "fixpid_pid_accept.h"
 #include "fixpid_pid_private.h"
 
-// The object's `options` has three bits for what the configuration has three
-// bools for and, in the five that are free, the derivative filter and the scale
-// of ki: one byte instead of five, and a step asks with one comparison whether
-// the PID is plain, which has none of the three. WEIGHTED is set if the
-// setpoint weight is below 1. With proportional_on_measurement the weight is 0.
-// Each is its feature's bit, moved, and 0 without the feature.
-#define REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) << 4)              // 0x40
-#define ON_ERROR ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) << 2) // 0x20
-#define WEIGHTED ((FEATURES & FIXPID_PID_HAS_WEIGHT) << 2)              // 0x08
 #define SPECIAL (REVERSE | ON_ERROR | WEIGHTED)
 
 // What a configuration must not have without the feature: a bool, or a weight

@@ -38,6 +38,16 @@
 #define HAS_COARSE_KI ((FEATURES & FIXPID_PID_HAS_COARSE_KI) != 0u)
 #define HAS_TRACK ((FEATURES & FIXPID_PID_HAS_TRACK) != 0u)
 
+// The object's `options` has three bits for what the configuration has three
+// bools for and, in the five that are free, the derivative filter and the scale
+// of ki: one byte instead of five, and a step asks with one comparison whether
+// the PID is plain, which has none of the three. WEIGHTED is set if the
+// setpoint weight is below 1. With proportional_on_measurement the weight is 0.
+// Each is its feature's bit, moved, and 0 without the feature.
+#define REVERSE ((FEATURES & FIXPID_PID_HAS_REVERSE) << 4)              // 0x40
+#define ON_ERROR ((FEATURES & FIXPID_PID_HAS_DERIVATIVE_ON_ERROR) << 2) // 0x20
+#define WEIGHTED ((FEATURES & FIXPID_PID_HAS_WEIGHT) << 2)              // 0x08
+
 // Bits of `status` under which `integral` holds the output to return instead of
 // an integral.
 #define HELD (HAS_MANUAL ? (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL) : 0u)

@@ -193,10 +193,11 @@ void reference_pid_seed(struct reference_pid *self, int64_t output)
     self->seeded = !self->manual;
 }
 
-// D, from what rises against the error.
-static void differentiate(struct reference_pid *self, int64_t input)
+// D, from the fall of what rises against the error, and what that is now.
+static void differentiate(struct reference_pid *self, int64_t change,
+                          int64_t input)
 {
-    const int64_t fall = self->seen ? int16_of(self->previous - input) : 0;
+    const int64_t fall = self->seen ? int16_of(change) : 0;
     const int64_t leak =
         reference_floor_divide(self->derivative, INT64_C(1) << self->filter);
 
@@ -207,20 +208,12 @@ static void differentiate(struct reference_pid *self, int64_t input)
                         -DERIVATIVE_LIMIT, DERIVATIVE_LIMIT);
 }
 
-int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
-                           int64_t measurement)
+// P's and D's error and fall are known: the rest of a step.
+static int64_t finish(struct reference_pid *self, int64_t error)
 {
-    const int64_t sign = self->reverse ? -1 : 1;
-    const int64_t weighted =
-        self->weight == 256
-            ? setpoint
-            : reference_floor_divide(self->weight * setpoint + 128, 256);
-    const int64_t error = int16_of(sign * (setpoint - measurement));
     int64_t others, integral, output;
     bool deeper;
 
-    self->proportional_error = int16_of(sign * (weighted - measurement));
-    differentiate(self, self->on_error ? -error : sign * measurement);
     others = self->kp * self->proportional_error + self->derivative +
              256 * self->feedforward;
     self->at_max = false;
@@ -251,6 +244,45 @@ int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
     self->seeded = false;
     self->output = reference_clamp(output, self->output_min, self->output_max);
     return self->output;
+}
+
+int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
+                           int64_t measurement)
+{
+    const int64_t sign = self->reverse ? -1 : 1;
+    const int64_t weighted =
+        self->weight == 256
+            ? setpoint
+            : reference_floor_divide(self->weight * setpoint + 128, 256);
+    const int64_t error = int16_of(sign * (setpoint - measurement));
+    const int64_t input = self->on_error ? -error : sign * measurement;
+
+    self->proportional_error = int16_of(sign * (weighted - measurement));
+    differentiate(self, self->previous - input, input);
+    return finish(self, error);
+}
+
+// value modulo 2^16, as a number of two's complement
+static int64_t wrapped(int64_t value)
+{
+    return value - 65536 * reference_floor_divide(value + 32768, 65536);
+}
+
+int64_t reference_pid_step_error(struct reference_pid *self, int64_t error,
+                                 int64_t rise)
+{
+    const int64_t sign = self->reverse ? -1 : 1;
+    const int64_t counts = int16_of(sign * error);
+
+    self->proportional_error = counts;
+    if (self->on_error) {
+        differentiate(self, self->previous + counts, -counts);
+    } else {
+        // sign * previous is the measurement
+        differentiate(self, -sign * rise,
+                      sign * wrapped(sign * self->previous + rise));
+    }
+    return finish(self, counts);
 }
 
 void reference_pid_track(struct reference_pid *self, int64_t applied,

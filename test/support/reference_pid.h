@@ -43,6 +43,8 @@ void reference_pid_set_auto(struct reference_pid *self);
 void reference_pid_seed(struct reference_pid *self, int64_t output);
 int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
                            int64_t measurement);
+int64_t reference_pid_step_error(struct reference_pid *self, int64_t error,
+                                 int64_t rise);
 void reference_pid_track(struct reference_pid *self, int64_t applied,
                          int64_t shift);
 

@@ -6,6 +6,7 @@
 //   replay an964 FILE
 //   replay pid FILE
 //   replay track FILE
+//   replay step_error FILE
 //   replay slew FILE
 //   replay tpo FILE
 //   replay guard FILE
@@ -201,6 +202,24 @@ enum {
     TRACK_D,
     TRACK_STATUS,
     TRACK_COLUMNS
+};
+
+// Columns of step_error.csv from by_error on; those before are the same as in
+// track.csv.
+enum {
+    BY_ERROR = TRACK_SETPOINT,
+    BY_ERROR_FIRST,
+    BY_ERROR_SECOND,
+    BY_ERROR_OUTPUT,
+    BY_ERROR_TRACKED,
+    BY_ERROR_APPLIED,
+    BY_ERROR_SHIFT,
+    BY_ERROR_LAST_OUTPUT,
+    BY_ERROR_P,
+    BY_ERROR_I,
+    BY_ERROR_D,
+    BY_ERROR_STATUS,
+    BY_ERROR_COLUMNS
 };
 
 static const char *path;
@@ -593,8 +612,40 @@ static bool track_row_is_same(const int32_t at[], bool fresh)
     equal &= same("flags", at[TRACK_STATUS], fixpid_pid_flags(&pid));
     return equal;
 }
+
+static int16_t either_step(struct fixpid_pid *pid, const int32_t at[])
+{
+    const int32_t first = at[BY_ERROR_FIRST];
+    const int32_t second = at[BY_ERROR_SECOND];
+
+    return at[BY_ERROR] != 0
+               ? fixpid_pid_step_error(pid, first, second)
+               : fixpid_pid_step(pid, (int16_t)first, (int16_t)second);
+}
+
+static bool step_error_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_pid pid;
+    bool equal = true;
+
+    (void)fresh; // is an event of its own
+    equal &= same("accepted", at[TRACK_ACCEPTED], track_event(&pid, at));
+    equal &= same("output", at[BY_ERROR_OUTPUT], either_step(&pid, at));
+    if (at[BY_ERROR_TRACKED] != 0) {
+        fixpid_pid_track(&pid, (int16_t)at[BY_ERROR_APPLIED],
+                         (uint8_t)at[BY_ERROR_SHIFT]);
+    }
+    equal &=
+        same("last_output", at[BY_ERROR_LAST_OUTPUT], fixpid_pid_output(&pid));
+    equal &= same("p_q8", at[BY_ERROR_P], fixpid_pid_proportional(&pid));
+    equal &= same("i_q16", at[BY_ERROR_I], fixpid_pid_integral(&pid));
+    equal &= same("d_q8", at[BY_ERROR_D], fixpid_pid_derivative(&pid));
+    equal &= same("flags", at[BY_ERROR_STATUS], fixpid_pid_flags(&pid));
+    return equal;
+}
 #else
 #define TRACK_IS_BUILT false
+#define step_error_row_is_same pid_row_is_same
 #define track_row_is_same pid_row_is_same
 #endif
 
@@ -627,7 +678,7 @@ static int replay(const char *name, int rows, int columns,
 // Whether the rows need a feature that fixpid_pid is built without.
 static bool lacks_feature(const char *name)
 {
-    if (strcmp(name, "track") == 0) {
+    if (strcmp(name, "track") == 0 || strcmp(name, "step_error") == 0) {
         return !TRACK_IS_BUILT;
     }
     return !PID_IS_WHOLE &&
@@ -661,6 +712,10 @@ int main(int argc, char *argv[])
     if (argc == 3 && strcmp(argv[1], "track") == 0) {
         return replay("track", 1000, TRACK_COLUMNS, track_row_is_same);
     }
+    if (argc == 3 && strcmp(argv[1], "step_error") == 0) {
+        return replay("step_error", 500, BY_ERROR_COLUMNS,
+                      step_error_row_is_same);
+    }
     if (argc == 3 && strcmp(argv[1], "slew") == 0) {
         return replay("slew", 1000, SLEW_COLUMNS, slew_row_is_same);
     }
@@ -673,7 +728,8 @@ int main(int argc, char *argv[])
     if (argc == 3 && strcmp(argv[1], "gains") == 0) {
         return replay("gains", 1000, GAINS_COLUMNS, gains_row_is_same);
     }
-    fprintf(stderr,
-            "usage: replay an937|an964|pid|track|slew|tpo|guard|gains FILE\n");
+    fprintf(stderr, "usage: replay an937|an964|pid|track|step_error|slew|tpo|"
+                    "guard|gains FILE
+");
     return EXIT_WRONG_FILE;
 }

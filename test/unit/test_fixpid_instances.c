@@ -19,6 +19,7 @@ TEST_SOURCE_FILE("src/an964/fixpid_an964_more.c")
 TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit.c")
 TEST_SOURCE_FILE("src/an964_8bit/fixpid_an964_8bit_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_error.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
@@ -133,6 +134,9 @@ void test_pid_several_instances_keep_their_own_state(void)
         TEST_ASSERT_EQUAL_INT16(
             reference_pid_step(&references[i], setpoint, measurement),
             fixpid_pid_step(&controllers[i], setpoint, measurement));
+        TEST_ASSERT_EQUAL_INT16(
+            reference_pid_step_error(&references[i], measurement, n),
+            fixpid_pid_step_error(&controllers[i], measurement, (int32_t)n));
         if (numbers_below(2) == 0) {
             const int16_t applied = numbers_int16();
 

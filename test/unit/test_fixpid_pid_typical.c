@@ -13,6 +13,7 @@
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_error.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 
@@ -186,6 +187,28 @@ void test_typical_steps_with_either_kind_of_ki_are_the_definitions(void)
     numbers_seed(12);
     steps_are_the_references(20001);
     steps_are_the_references(8388479);
+}
+
+void test_typical_steps_by_the_error_are_the_definitions(void)
+{
+    struct reference_pid reference;
+
+    init_accepts();
+    TEST_ASSERT_TRUE(reference_pid_init(&reference, &config));
+    numbers_seed(13);
+    for (uint32_t step = 0; step < TEST_RANDOM_STEPS; step++) {
+        const int32_t error = (int32_t)numbers_int16() * 2;
+        const int32_t rise = (int32_t)numbers_int16() * 2;
+
+        TEST_ASSERT_EQUAL_INT16(
+            reference_pid_step_error(&reference, error, rise),
+            fixpid_pid_step_error(&pid_controller, error, rise));
+        TEST_ASSERT_EQUAL_INT16(
+            reference_pid_step(&reference, 0, (int16_t)error),
+            fixpid_pid_step(&pid_controller, 0, (int16_t)error));
+        TEST_ASSERT_EQUAL_INT32(reference.derivative,
+                                fixpid_pid_derivative(&pid_controller));
+    }
 }
 
 void test_typical_set_limits_drops_windup_and_keeps_the_rest(void)

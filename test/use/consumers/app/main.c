@@ -48,7 +48,9 @@ static bool pid_works(void)
         return false;
     }
     fixpid_pid_track(&pid, 91, 0);
-    return fixpid_pid_output(&pid) == 91 && fixpid_pid_step(&pid, 60, 10) == 92;
+    return fixpid_pid_output(&pid) == 91 &&
+           fixpid_pid_step(&pid, 60, 10) == 92 &&
+           fixpid_pid_step_error(&pid, 50, 0) == 93;
 }
 
 static bool small_ones_work(void)

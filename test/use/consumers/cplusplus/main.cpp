@@ -94,6 +94,7 @@ int main()
                    fixpid_an964_8bit_step(&an964_8bit, 100) == 100 &&
                    fixpid_pid_step(&pid, 100, 50) == 100 &&
                    fixpid_pid_output(&pid) == 100 &&
+                   fixpid_pid_step_error(&pid, 50, 0) == 100 &&
                    fixpid_autotune_step(&autotune, 500, 20) == 9 &&
                    fixpid_slew_step(&slew, 100) == 3 &&
                    fixpid_tpo_step(&tpo, 200) &&
