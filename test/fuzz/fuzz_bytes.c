@@ -116,6 +116,11 @@ static void pid_call(void)
     case 7:
         spoil(&pid, sizeof pid);
         break;
+    case 8:
+        within(pid.output_min, pid.output_max,
+               fixpid_pid_step_error(&pid, (int32_t)value * 2,
+                                     (int32_t)value * 65536));
+        break;
     default:
         break;
     }

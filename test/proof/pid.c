@@ -25,6 +25,7 @@ static struct fixpid_pid_config any_config(void)
 
 #include "pid/fixpid_pid.c"
 #include "pid/fixpid_pid_check.c"
+#include "pid/fixpid_pid_error.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -757,6 +758,108 @@ void prove_track(void)
     claim(sound(&c));
 }
 
+// What the step is given in the place of setpoint and measurement, and what the
+// object holds then.
+static struct given {
+    struct fixpid_pid object;
+    int16_t setpoint;
+    int16_t measurement;
+} given;
+
+int16_t fixpid_pid_step_contract(struct fixpid_pid *self, int16_t setpoint,
+                                 int16_t measurement)
+{
+    given.object = *self;
+    given.setpoint = setpoint;
+    given.measurement = measurement;
+    self->status &= (uint8_t)~FIXPID_PID_FIRST;
+    self->previous = (int16_t)input_of(self, setpoint, measurement);
+    return nondet_int16();
+}
+
+static number wrap16(number x)
+{
+    return x - (floor_by(x + 32768, 16) * COUNT);
+}
+
+// What the derivative saw before, as a measurement.
+static number seen_by(const struct fixpid_pid *x)
+{
+    if ((x->status & FIXPID_PID_FIRST) != 0u) {
+        return 0;
+    }
+    return ((x->options & REVERSE) != 0u) ? (-1 - x->previous) : x->previous;
+}
+
+// The derivative's input in the step, and where it falls from.
+static number fall_of(const struct fixpid_pid *x, number input)
+{
+    return ((x->status & FIXPID_PID_FIRST) != 0u) ? 0
+                                                  : sat16(x->previous - input);
+}
+
+// Any differences: the step sees the error, without a weight, and the fall. By
+// contract: fixpid_pid_step.
+void prove_step_error(void)
+{
+    const int32_t error = nondet_int32();
+    const int32_t rise = nondet_int32();
+    struct fixpid_pid was;
+    number e;
+    number input;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    (void)fixpid_pid_step_error(&c, error, rise);
+    e = error_of(&was, error, 0);
+    input = input_of(&given.object, given.setpoint, given.measurement);
+    claim(error_of(&given.object, given.setpoint, given.measurement) == e);
+    claim((given.object.options & (REVERSE | WEIGHTED)) == 0u);
+    claim((given.object.options | REVERSE | WEIGHTED) ==
+          (was.options | REVERSE | WEIGHTED));
+    claim(sound_previous(&given.object));
+    if ((was.options & ON_ERROR) != 0u) {
+        claim(fall_of(&given.object, input) == fall_of(&was, -1 - e));
+        was.previous = (int16_t)(-1 - e);
+    } else {
+        const number sees = wrap16(seen_by(&was) + rise);
+
+        claim(((was.status & FIXPID_PID_FIRST) != 0u) ||
+              (fall_of(&given.object, input) == error_of(&was, 0, rise)));
+        was.previous =
+            (int16_t)(((was.options & REVERSE) != 0u) ? (-1 - sees) : sees);
+    }
+    was.status &= (uint8_t)~FIXPID_PID_FIRST;
+    claim(same(&c, &was));
+    given.object.options = was.options;
+    given.object.previous = was.previous;
+    given.object.status = was.status;
+    claim(same(&given.object, &was));
+}
+
+// Exact differences: the step sees what it would see of r and y, and afterwards
+// `previous` is as after step(r, y). By contract: fixpid_pid_step.
+void prove_step_exact(void)
+{
+    const int16_t r = nondet_int16();
+    const int16_t y = nondet_int16();
+    struct fixpid_pid was;
+    number input;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    (void)fixpid_pid_step_error(&c, (int32_t)r - y,
+                                (int32_t)((number)y - seen_by(&was)));
+    input = input_of(&given.object, given.setpoint, given.measurement);
+    claim(error_of(&given.object, given.setpoint, given.measurement) ==
+          error_of(&was, r, y));
+    claim(fall_of(&given.object, input) == fall_of(&was, input_of(&was, r, y)));
+    claim(c.previous == input_of(&was, r, y));
+    claim(c.options == was.options);
+}
+
 // By contract: mul16.
 void prove_read(void)
 {
@@ -798,6 +901,12 @@ void prove_total(void)
 {
     c = nondet_pid();
     claim_output(fixpid_pid_step(&c, nondet_int16(), nondet_int16()));
+}
+
+void prove_total_error(void)
+{
+    c = nondet_pid();
+    claim_output(fixpid_pid_step_error(&c, nondet_int32(), nondet_int32()));
 }
 
 void prove_total_rest(void)

@@ -62,7 +62,11 @@ module Modules
                 program: %w[test/chips/modules/steps_pid.c] },
               { object: 'pid', calls: 5000,
                 functions: { 'fixpid_pid_set_limits' => 'set_limits', 'fixpid_pid_set_integral_limits' => 'set_integral_limits' },
-                program: %w[test/chips/modules/steps_pid.c] }]
+                program: %w[test/chips/modules/steps_pid.c] },
+              # A turn for each place of the derivative filter, and the test that ends it.
+              { object: 'pid_errors', part: 'step_error', calls: 5000, functions: { 'fixpid_pid_step_error' => 'step_error' },
+                program: %w[test/support/numbers_control.c test/support/numbers_pid.c],
+                flags: %w[-DCALLS_WITHOUT_ROWS], turns: %w[fixpid_pid_step differentiate].to_h { |name| [name, 8] } }]
     },
     'autotune' => {
       title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',
@@ -89,6 +93,17 @@ module Modules
     'an964_8bit' => {
       title: 'AN964 8-bit', what: 'The arithmetic of AN964 in assembly',
       fuzz: [20_000, 512], narrow: true
+    }
+  }.freeze
+
+  # What has recorded rows and a calls_x.c beside those of its module: who links only the
+  # module's other calls does not link this.
+  PARTS = {
+    'step_error' => {
+      of: 'pid',
+      rows: %w[kp_q8:uint16_t ki_q24:uint32_t kd_q8:uint16_t filter:uint8_t output_min:int16_t output_max:int16_t
+               integral_min:int16_t integral_max:int16_t weight_q8:uint16_t options:uint8_t event:uint8_t value:int16_t
+               value2:int16_t by_error:uint8_t first:int32_t second:int32_t tracked:uint8_t applied:int16_t shift:uint8_t]
     }
   }.freeze
 
@@ -130,10 +145,15 @@ module Modules
     Dir.glob("src/#{name}/*.c", base: root).sort_by { |path| [path.match?(/_pic1[48]\.c\z/) ? 1 : 0, path] }
   end
 
+  # The entry of a module or part.
+  def entry(name)
+    ALL[name] || PARTS.fetch(name)
+  end
+
   # Those that calls_x.c calls on simulated chips, against the host: all but
-  # controllers, which have a driver for that.
+  # controllers, which have a driver for that. And the parts.
   def called
-    ALL.keys.select { |name| File.exist?("test/chips/modules/calls_#{name}.c") && !ALL[name][:narrow] }
+    ALL.keys.select { |name| File.exist?("test/chips/modules/calls_#{name}.c") && !ALL[name][:narrow] } + PARTS.keys
   end
 
   # Those whose controller can be the program's only one, by its name.

@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: MIT
 # Prints the rows of a module's recorded file as tables in C, one for each column
 # that its entry of tools/lib/modules.rb names. Columns that many rows share, its `shared`,
-# are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv
+# are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv or PART.csv
 require_relative '../../../tools/lib/modules'
+
+# C has no literal for these.
+LEAST = { -32_768 => '(-32767 - 1)', -2_147_483_648 => '(-2147483647 - 1)' }.freeze
 
 # A table in C of a column, whose name has its type behind it.
 def table(column, values, size)
   name, type = column.split(':')
   suffix = type == 'uint32_t' ? 'u' : ''
-  lines = values.map { |value| "#{value == -32_768 ? '(-32767 - 1)' : value}#{suffix}" }.each_slice(10)
+  lines = values.map { |value| "#{LEAST.fetch(value, value)}#{suffix}" }.each_slice(10)
   puts "static const IN_FLASH #{type} rows_#{name}[#{size}] = {", lines.map { |line| "#{line.join(', ')}," }, '};'
 end
 
 path = ARGV.fetch(0)
-entry = Modules::ALL.fetch(File.basename(path, '.csv'))
+entry = Modules.entry(File.basename(path, '.csv'))
 head, *rows = File.readlines(path, chomp: true).map { |line| line.split(',') }
 values = lambda do |column|
   at = head.index(column[/\w+/]) or abort "#{path} has no column #{column[/\w+/]}"

@@ -11,24 +11,28 @@ class CalledModule
   FOLDER = 'test/chips/modules'
   FLAGS = %W[-I#{WORK} -I#{FOLDER} #{FOLDER}/main.c test/support/numbers.c].freeze
   MORE_NUMBERS = %w[test/support/numbers_control.c test/support/numbers_pid.c].freeze
-  DEFINITIONS = %w[-DCALLS_DEFINED -Isrc test/support/reference.c test/support/reference_control.c].freeze
+  DEFINITIONS = %w[-DCALLS_DEFINED -Isrc test/support/reference.c test/support/reference_control.c
+                   test/support/reference_pid.c].freeze
   HOST = Machine::ALL.fetch('host')
   AVR = Machine.new('atmega1284p', %w[avr-gcc -mmcu=atmega1284p -std=gnu99], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program] }
   OTHERS = { 'avr' => AVR, 'cortex_m0' => Machine::ALL.fetch('cortex-m0'), 'cortex_m3' => Machine::ALL.fetch('cortex-m3') }.freeze
 
   # What is metered, if not `step`.
-  FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result] }.freeze
+  FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result],
+                'step_error' => %w[step_error] }.freeze
 
   # Whether a machine has the same of the autotuner's record, too.
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
 
-  # Where the calls of a module, each of its functions among them, need more than 32 KB.
-  CHIPS = %w[autotune gains guard].to_h { |name| [name, 'pic18f26k22'] }.freeze
+  # Where the calls of a module with its rows, each of its functions among them, need more
+  # than 32 KB.
+  CHIPS = %w[autotune gains guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
 
   # The autotuner has no definition in C: test/model/autotune compares it.
   def initialize(name)
     @name = name
-    @functions = FUNCTIONS.fetch(name, %w[step]).map { |verb| "fixpid_#{name}_#{verb}" }
+    @module = Modules::PARTS.dig(name, :of) || name
+    @functions = FUNCTIONS.fetch(name, %w[step]).map { |verb| "fixpid_#{@module}_#{verb}" }
   end
 
   # name => what is done
@@ -45,7 +49,7 @@ class CalledModule
   end
 
   def sources(folder = 'src')
-    Modules.sources(@name, File.dirname(folder)).map { |file| Pathname("#{folder}/../#{file}").cleanpath.to_s }
+    Modules.sources(@module, File.dirname(folder)).map { |file| Pathname("#{folder}/../#{file}").cleanpath.to_s }
   end
 
   # What makes the calls, with its recorded rows.
@@ -53,7 +57,7 @@ class CalledModule
     recorded = "test/support/vectors/#{@name}.csv"
     maker = "#{FOLDER}/rows.rb"
     rows = "#{WORK}/rows_#{@name}.h"
-    if Modules::ALL[@name].key?(:rows)
+    if Modules.entry(@name)[:rows]
       BUILT.make(rows, [Inputs.digest([maker, 'tools/lib/modules.rb', recorded])]) { written(rows, said('ruby', maker, recorded)) }
     end
     [*FLAGS, *MORE_CALLS[@name], "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS if compared?)]

@@ -3,6 +3,7 @@
 
 #include "pid/fixpid_pid.c"
 #include "pid/fixpid_pid_check.c"
+#include "pid/fixpid_pid_error.c"
 #include "pid/fixpid_pid_more.c"
 #include "pid/fixpid_pid_track.c"
 
@@ -40,7 +41,7 @@ static void set_any(struct fixpid_pid *c)
 
 static void call_any(struct fixpid_pid *c)
 {
-    switch (ANY_OF(8)) {
+    switch (ANY_OF(9)) {
     case 1:
         fixpid_pid_reset(c);
         break;
@@ -61,6 +62,9 @@ static void call_any(struct fixpid_pid *c)
         break;
     case 7:
         (void)fixpid_pid_step(c, ANY_INT16, ANY_INT16);
+        break;
+    case 8:
+        (void)fixpid_pid_step_error(c, ANY_INT32, ANY_INT32);
         break;
     default:
         (void)fixpid_pid_proportional(c);

@@ -85,7 +85,7 @@ def runs_of(file)
   when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/common/fixpid_signed.h')] # a shift of the second
   when 'fixpid_shift_add' then [run_of('test_fixpid_bits')]
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
-    pid_runs(Dir['src/pid/fixpid_pid{,_more,_track}.c'])
+    pid_runs(Dir['src/pid/fixpid_pid{,_error,_more,_track}.c'])
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/autotune/*.c'].sort)
   when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
   when 'fixpid_bytes' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c], []), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]

@@ -9,17 +9,22 @@ require_relative 'meters'
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
 # On a PIC, `by_name` is measured in object mode, for its one object.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name,
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name, :part,
                           keyword_init: true) do
-  # Of the library, without the check and the record, which only a program that calls them
-  # links.
+  # The name of calls_x.c and of its recorded rows: the module's, or that of a part.
+  def caller
+    part || id
+  end
+
+  # Of the library, without the check, the record and the step by the error, which only a
+  # program that calls them links.
   def files
-    Modules.sources(id, Host.root).grep_v(/_check\.c\z|_autotune_record\.c\z/)
+    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_error\.c\z/)
   end
 
   # Of its recorded rows.
   def columns
-    Modules::ALL[id][:rows]
+    Modules.entry(caller)[:rows]
   end
 
   # Whether it is measured on such a chip.
@@ -93,8 +98,8 @@ class ModuleMeter
   def figures
     FileUtils.mkdir_p(@rows)
     if @called.columns
-      File.write("#{@rows}/rows_#{@called.id}.h",
-                 Host.output('ruby', 'test/chips/modules/rows.rb', "test/support/vectors/#{@called.id}.csv"))
+      File.write("#{@rows}/rows_#{@called.caller}.h",
+                 Host.output('ruby', 'test/chips/modules/rows.rb', "test/support/vectors/#{@called.caller}.csv"))
     end
     build
     text = run
@@ -130,7 +135,7 @@ class ModuleMeter
   end
 
   def program
-    ['test/chips/modules/main.c', "test/chips/modules/calls_#{@called.id}.c", 'test/support/numbers.c', *@called.callers]
+    ['test/chips/modules/main.c', "test/chips/modules/calls_#{@called.caller}.c", 'test/support/numbers.c', *@called.callers]
   end
 
   def flags
