@@ -99,6 +99,16 @@ def track_row(pid, at, _):
     yield at["status"], pid.flags()
 
 
+def step_error_row(pid, at, _):
+    yield at["accepted"], pid_event(pid, at["event"], at["value"], at["value2"], at)
+    yield at["output"], (pid.step_error if at["by_error"] else pid.step)(at["first"], at["second"])
+    if at["tracked"]:
+        pid.track(at["applied"], at["shift"])
+    yield at["last_output"], pid.output()
+    yield [at[name] for name in ("p_q8", "i_q16", "d_q8")], terms(pid)
+    yield at["status"], pid.flags()
+
+
 def an937_row(pid, at, fresh):
     if fresh:
         pid.init(kp_q4=at["kp"], ki_q4=at["ki"], kd_q4=at["kd"], accumulated_error_limit=4000,
@@ -245,6 +255,7 @@ FILES = (
     ("an964_firmware", 2000, fixpid.An964, an964_row),
     ("pid_definition", 2000, lambda: fixpid.Pid(output_max=1), pid_row),
     ("track", 1000, lambda: fixpid.Pid(output_max=1), track_row),
+    ("step_error", 500, lambda: fixpid.Pid(output_max=1), step_error_row),
     ("slew", 1000, fixpid.Slew, slew_row),
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
     ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
