@@ -729,7 +729,6 @@ int main(int argc, char *argv[])
         return replay("gains", 1000, GAINS_COLUMNS, gains_row_is_same);
     }
     fprintf(stderr, "usage: replay an937|an964|pid|track|step_error|slew|tpo|"
-                    "guard|gains FILE
-");
+                    "guard|gains FILE\n");
     return EXIT_WRONG_FILE;
 }
