@@ -24,12 +24,15 @@ static int16_t counts_of(int32_t x, uint16_t mirror)
 int16_t fixpid_pid_step_error(FIXPID_DATA struct fixpid_pid *self,
                               int32_t error, int32_t rise)
 {
-    const uint8_t options = SELF.options;
-    const uint16_t mirror = ((options & REVERSE) != 0u) ? 0xFFFFu : 0u;
-    uint16_t seen = (uint16_t)SELF.previous ^ mirror;
+    uint8_t options;
+    uint16_t mirror;
+    uint16_t seen;
     int16_t output;
 
     FIXPID_ASSERT(VALID(self));
+    options = SELF.options;
+    mirror = ((options & REVERSE) != 0u) ? 0xFFFFu : 0u;
+    seen = (uint16_t)SELF.previous ^ mirror;
     if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
         seen = 0; // and `previous` says that there is none
     } else if ((options & ON_ERROR) == 0u) {
