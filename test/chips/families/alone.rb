@@ -75,8 +75,8 @@ module Alone
     def run(flags, sources, folder)
       compile(flags, ["#{FOLDER}/chip_avr.c", *sources], "#{folder}/alone.elf")
       table = Host.output('avr-nm', "#{folder}/alone.elf")
-      addresses = %w[over alone_bytes].map { |symbol| table[/^(\h+) \w #{symbol}$/, 1] }
-      Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, '-Itest/tools/cost/avr', *INCLUDES, "#{FOLDER}/avr.c", '-lsimavr',
+      addresses = %w[over program_bytes].map { |symbol| table[/^(\h+) \w #{symbol}$/, 1] }
+      Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, '-Itest/tools/cost/avr', *flags.grep(/\A-[DI]/), "#{FOLDER}/avr.c", '-lsimavr',
                   '-o', "#{folder}/runner")
       Host.output("#{folder}/runner", "#{folder}/alone.elf", name, *addresses, "#{folder}/results")[/^stack (\d+)/, 1].to_i
     end

@@ -7,6 +7,7 @@ require_relative '../../../tools/lib/faults/faults'
 require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
 require_relative 'alone'
+require_relative 'beside'
 require_relative 'metered'
 require_relative 'msp430'
 require_relative 'ucsim'
@@ -272,6 +273,7 @@ long = ARGV.delete('--long') || update
 FileUtils.rm_rf('build/families') unless ARGV.first.to_s.match?(/\A-(-list|-help|h)\z/)
 families = Families.new(long ? STEPS_LONG : STEPS)
 Alone::Tests.new('build/families', -> { families.broken }, update).add(families.tests)
+Beside::Tests.new('build/families').add(families.tests)
 families.tests.add('document', needs: families.tests.names.grep(/\Aexact /)) do
   document = Document.new(families.results, long)
   update ? document.update : document.check

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Five experiments on plants in 32-bit arithmetic, which end in different ways.
-#include "alone.h"
+#include "program.h"
 
 #define LINE 8 // most steps of dead time
 #define FULL_SCALE 1023
@@ -18,7 +18,7 @@ struct plant {
     bool reverse;
 };
 
-static const struct plant plants[ALONE_EXPERIMENTS] = {
+static const struct plant plants[PROGRAM_PARTS] = {
     {400, FULL_SCALE + 1, 400, 3, 4, 0, false, false},
     {500, FULL_SCALE + 1, 400, 4, 4, 1, true, false},
     {300, FULL_SCALE + 1, 400, 2, 5, 3, false, true},
@@ -27,7 +27,7 @@ static const struct plant plants[ALONE_EXPERIMENTS] = {
 };
 
 FIXPID_DATA struct fixpid_autotune tuner;
-uint8_t alone_bytes[ALONE_SIZE];
+uint8_t program_bytes[PROGRAM_SIZE];
 
 static int32_t lag_q12;   // output counts x 4096, below 2^21
 static int32_t value_q12; // counts of the measurement x 4096, below 2^23
@@ -128,7 +128,7 @@ static void run(const struct plant *plant)
 static void keep32(uint8_t at, uint32_t value)
 {
     for (uint8_t i = 0; i < 4u; i++) {
-        alone_bytes[at + i] = (uint8_t)(value & 255u);
+        program_bytes[at + i] = (uint8_t)(value & 255u);
         value >>= 8;
     }
 }
@@ -139,11 +139,11 @@ static void keep(void)
     keep32(0, outputs);
     keep32(4, told);
     (void)fixpid_autotune_pack(
-        &tuner, (struct fixpid_autotune_record *)(void *)&alone_bytes[8]);
-    alone_bytes[ALONE_SIZE - 1u] = fixpid_autotune_status(&tuner);
+        &tuner, (struct fixpid_autotune_record *)(void *)&program_bytes[8]);
+    program_bytes[PROGRAM_SIZE - 1u] = fixpid_autotune_status(&tuner);
 }
 
-void alone_do(uint8_t number)
+void program_do(uint8_t number)
 {
     start(&plants[number]);
     run(&plants[number]);

@@ -10,7 +10,7 @@
 // the most bytes of the stack.
 #include "chip.h"
 
-#include "alone.h"
+#include "program.h"
 
 #define CYCLES_MAX UINT64_C(4000000000) // far more than any experiment takes
 
@@ -31,7 +31,7 @@ int main(int argc, char *argv[])
     }
     load(argv[1], argv[2]);
     over = address(argv[3]);
-    for (int number = 0; number < ALONE_EXPERIMENTS; number++) {
+    for (int number = 0; number < PROGRAM_PARTS; number++) {
         while (chip->data[over] != 1u) {
             run_one();
             if (stack_pointer() > top) {
@@ -44,7 +44,7 @@ int main(int argc, char *argv[])
                 die("no end");
             }
         }
-        (void)fwrite(&chip->data[address(argv[4])], 1, ALONE_SIZE, results);
+        (void)fwrite(&chip->data[address(argv[4])], 1, PROGRAM_SIZE, results);
         chip->data[over] = 0;
     }
     (void)printf("stack %u\n", top - least);

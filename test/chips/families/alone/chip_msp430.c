@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Leaves what the experiments left from 0x4000 on, where the debugger saves it,
 // and waits: see ../msp430/main.c.
-#include "alone.h"
+#include "program.h"
 
 #define RESULTS ((uint8_t *)0x4000)
 #define WDTCTL (*(volatile uint16_t *)0x120)
@@ -25,10 +25,10 @@ __attribute__((noreturn, used)) void begin(void)
     for (uint8_t *byte = bss_begin; byte != bss_end; byte++) {
         *byte = 0;
     }
-    for (uint8_t number = 0; number < ALONE_EXPERIMENTS; number++) {
-        alone_do(number);
-        for (uint8_t at = 0; at < ALONE_SIZE; at++) {
-            *to++ = alone_bytes[at];
+    for (uint8_t number = 0; number < PROGRAM_PARTS; number++) {
+        program_do(number);
+        for (uint8_t at = 0; at < PROGRAM_SIZE; at++) {
+            *to++ = program_bytes[at];
         }
     }
     wait();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes what the experiments left to the simulator's file, through its
 // interface: see ../ucsim_main.c.
-#include "alone.h"
+#include "program.h"
 
 #define INTERFACE (*(volatile uint8_t *)0x57FF)
 #define WRITE 'w'
@@ -18,10 +18,10 @@ void main(void)
     uint8_t number;
     uint8_t at;
 
-    for (number = 0; number < ALONE_EXPERIMENTS; number++) {
-        alone_do(number);
-        for (at = 0; at < ALONE_SIZE; at++) {
-            write(alone_bytes[at]);
+    for (number = 0; number < PROGRAM_PARTS; number++) {
+        program_do(number);
+        for (at = 0; at < PROGRAM_SIZE; at++) {
+            write(program_bytes[at]);
         }
     }
     INTERFACE = STOP;

@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "alone.h"
+#include "program.h"
 
 // How the five end: what comes out of it must be something.
-static const uint8_t ends[ALONE_EXPERIMENTS] = {
+static const uint8_t ends[PROGRAM_PARTS] = {
     FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_DONE,
     FIXPID_AUTOTUNE_NO_OSCILLATION, FIXPID_AUTOTUNE_SATURATED};
 
@@ -32,7 +32,7 @@ static bool has_gains(const uint8_t *bytes)
 
 int main(int count, char **arguments)
 {
-    uint8_t of_chip[ALONE_SIZE];
+    uint8_t of_chip[PROGRAM_SIZE];
     unsigned different = 0;
     unsigned gains = 0;
     FILE *results = (count == 2) ? fopen(arguments[1], "rb") : NULL;
@@ -41,21 +41,22 @@ int main(int count, char **arguments)
         (void)fprintf(stderr, "usage: host RESULTS\n");
         return 2;
     }
-    for (uint8_t i = 0; i < ALONE_EXPERIMENTS; i++) {
+    for (uint8_t i = 0; i < PROGRAM_PARTS; i++) {
         (void)memset(of_chip, 0, sizeof(of_chip));
         (void)fread(of_chip, 1, sizeof(of_chip), results);
-        alone_do(i);
-        if (alone_bytes[ALONE_SIZE - 1u] != ends[i]) {
-            (void)fprintf(stderr, "experiment %u ends with %u, not %u\n",
-                          (unsigned)i, (unsigned)alone_bytes[ALONE_SIZE - 1u],
-                          (unsigned)ends[i]);
+        program_do(i);
+        if (program_bytes[PROGRAM_SIZE - 1u] != ends[i]) {
+            (void)fprintf(
+                stderr, "experiment %u ends with %u, not %u\n", (unsigned)i,
+                (unsigned)program_bytes[PROGRAM_SIZE - 1u], (unsigned)ends[i]);
             return 2;
         }
-        different += (memcmp(of_chip, alone_bytes, ALONE_SIZE) != 0) ? 1u : 0u;
+        different +=
+            (memcmp(of_chip, program_bytes, PROGRAM_SIZE) != 0) ? 1u : 0u;
         gains += has_gains(of_chip) ? 1u : 0u;
     }
     (void)fclose(results);
-    (void)printf("experiments %d different %u gains %u\n", ALONE_EXPERIMENTS,
+    (void)printf("experiments %d different %u gains %u\n", PROGRAM_PARTS,
                  different, gains);
     return 0;
 }

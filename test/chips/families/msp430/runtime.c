@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 uint32_t __mspabi_divul(uint32_t dividend, uint32_t divisor);
+uint32_t __mspabi_remul(uint32_t dividend, uint32_t divisor);
 int32_t __mspabi_divli(int32_t dividend, int32_t divisor);
 void *memset(void *to, int value, unsigned size);
 void *memcpy(void *to, const void *from, unsigned size);
@@ -58,6 +59,11 @@ uint32_t __mspabi_divul(uint32_t dividend, uint32_t divisor)
         }
     }
     return quotient;
+}
+
+uint32_t __mspabi_remul(uint32_t dividend, uint32_t divisor)
+{
+    return dividend - __mspabi_divul(dividend, divisor) * divisor;
 }
 
 int32_t __mspabi_divli(int32_t dividend, int32_t divisor)
