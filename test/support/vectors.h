@@ -12,6 +12,18 @@
 // The first row comes next. `name` is the file's, without folder and ending.
 void vectors_open(const char *name);
 
+// The same of a file that is known here, as VECTORS_OPEN(pid): a program for a
+// chip keeps the tables of no others.
+#ifdef __AVR__
+#define VECTORS_OPEN(name)                                                     \
+    do {                                                                       \
+        void vectors_open_##name(void);                                        \
+        vectors_open_##name();                                                 \
+    } while (0)
+#else
+#define VECTORS_OPEN(name) vectors_open(#name)
+#endif
+
 // The next row's columns; false after the last one. A file that is missing or
 // a row that is not all numbers fails the test.
 bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX]);

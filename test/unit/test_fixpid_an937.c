@@ -98,7 +98,7 @@ void test_step_recorded_rows_match_the_firmware(void)
     int32_t run = -1;
     unsigned rows = 0;
 
-    vectors_open("an937_firmware");
+    VECTORS_OPEN(an937_firmware);
     while (vectors_next(row)) {
         const uint8_t kp = (uint8_t)row[KP];
         const uint8_t ki = (uint8_t)row[KI];

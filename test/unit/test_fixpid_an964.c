@@ -69,7 +69,7 @@ void test_step_recorded_rows_match_the_firmware(void)
     int32_t run = -1;
     unsigned rows = 0;
 
-    vectors_open("an964_firmware");
+    VECTORS_OPEN(an964_firmware);
     while (vectors_next(row)) {
         if (row[RUN] != run) {
             run = row[RUN];

@@ -260,7 +260,7 @@ void test_from_and_to_milli_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("gains");
+    VECTORS_OPEN(gains);
     while (vectors_next(row)) {
         const uint32_t rate_milli = (uint32_t)row[RATE_MILLI];
         const uint8_t filter = (uint8_t)row[FILTER];

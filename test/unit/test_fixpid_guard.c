@@ -706,7 +706,7 @@ void test_step_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("guard");
+    VECTORS_OPEN(guard);
     while (vectors_next(row)) {
         bool accepted = true;
 

@@ -254,7 +254,7 @@ void test_step_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("pid_definition");
+    VECTORS_OPEN(pid_definition);
     while (vectors_next(row)) {
         configure(row);
         vectors_pid_set_options(&config,
@@ -366,7 +366,7 @@ void test_track_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("track");
+    VECTORS_OPEN(track);
     while (vectors_next(row)) {
         configure(row);
         TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
@@ -417,7 +417,7 @@ void test_step_error_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("step_error");
+    VECTORS_OPEN(step_error);
     while (vectors_next(row)) {
         configure(row);
         TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
@@ -2151,7 +2151,7 @@ void test_step_error_step_after_other_rises_sees_one_jump(void)
     step_error(0, 100);
     step_error(0, 100);
     step(0, 30);
-    TEST_ASSERT_EQUAL_INT32(256 * (200 - 30),
+    TEST_ASSERT_EQUAL_INT32(INT32_C(256) * (200 - 30),
                             fixpid_pid_derivative(&pid_controller));
     step(0, 30);
     TEST_ASSERT_EQUAL_INT32(0, fixpid_pid_derivative(&pid_controller));

@@ -250,7 +250,7 @@ void test_step_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("slew");
+    VECTORS_OPEN(slew);
     while (vectors_next(row)) {
         make_event(row);
         TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[TARGET]));

@@ -304,7 +304,7 @@ void test_step_recorded_rows_match_the_definition(void)
     int32_t row[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
-    vectors_open("tpo");
+    VECTORS_OPEN(tpo);
     while (vectors_next(row)) {
         config.full = (int16_t)row[FULL];
         config.window = (uint16_t)row[WINDOW];

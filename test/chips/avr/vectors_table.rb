@@ -52,10 +52,12 @@ files.each do |name, (_, columns)|
   puts '}'
 end
 puts 'static void (*get)(int32_t *columns);'
-puts 'void vectors_open(const char *name)', '{', 'row = 0;', 'memset(run, 0, sizeof run);'
 files.each do |name, (count, _)|
-  puts "if (strcmp(name, \"#{name}\") == 0) { get = #{name}; rows = #{count}; }"
+  puts "void vectors_open_#{name}(void);", "void vectors_open_#{name}(void)", '{'
+  puts 'row = 0;', 'memset(run, 0, sizeof run);', "get = #{name};", "rows = #{count};", '}'
 end
+puts 'void vectors_open(const char *name)', '{'
+files.each_key { |name| puts "if (strcmp(name, \"#{name}\") == 0) { vectors_open_#{name}(); }" }
 puts '}'
 puts 'bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX])', '{'
 puts 'if (row == rows) { return false; }', 'get(columns);', 'row++;', 'return true;', '}'
