@@ -5,7 +5,7 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others recipes chip
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others recipes guard chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
   # Document, its parts between markers, and what makes each of them.
@@ -17,7 +17,9 @@ module Docs
                              'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override, 'behind_tpo' => :behind_tpo,
                            'retune' => :retune },
-    'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits }
+    'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits,
+                          'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
+                          'guard_half' => :guard_half }
   }.freeze
 
   # Made by tools/demo --long only, of these loops.

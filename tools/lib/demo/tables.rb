@@ -97,6 +97,32 @@ module Tables
       end)
     end
 
+    # What fixpid_guard sees of 800 plants, and how many get far beyond their setpoint.
+    def guard_sees
+      far = GUARD_CLASSES.keys.map { |title| "#{title}: far over, without and with" }
+      table('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, GUARD_FAULTS.map do |fault, title|
+        row = Report.numbers['guard'][fault]
+        [title, row['seen'], row['times'].map { |time| format('%.1f', time) }.join(', '),
+         *row['far'].map { |without, with| without.zero? ? 'none' : "#{without}, #{with}" }]
+      end)
+    end
+
+    def guard_half
+      "#{Report.numbers['guard']['half_patience']}\n"
+    end
+
+    # How hot the boiler of the quick start gets.
+    def guard_boiler
+      heads = BOILERS.flat_map { |title, _| ["#{title}: without", 'with the guard', 'alarm after'] }
+      table('from 60 s on', *heads, BOILER_FAULTS.map do |fault, title|
+        cells = BOILERS.keys.flat_map do |boiler|
+          row = Report.numbers['guard'][boiler][fault]
+          [format('%.1f C', row['without']), format('%.1f C', row['with']), format('%.1f s', row['alarm'])]
+        end
+        [title, *cells]
+      end)
+    end
+
     # What must hold of them.
     def fault_limits
       table('loop', 'drive', 'back in control within', 'or off', 'nothing works: off',

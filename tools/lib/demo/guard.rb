@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# fixpid_guard beside loops that are whole and must raise no alarm, and beside those that
+# break for good. Whoever gets a false alarm takes the guard out, and whoever gets none
+# when the oven burns need not have built it in.
+GUARD_SEED = 1
+GUARD_PLANTS = 800
+GUARD_STEPS = 20_000
+
+# Those which burn things or leave the loop without control: each is seen on every plant.
+GUARD_ALWAYS = %w[open short fallen stuck_low stuck_high drive_on drive_off sign].freeze
+GUARD_FAULTS = { 'open' => 'sensor open: reads full scale', 'short' => 'sensor shorted: reads 0',
+                 'fallen' => 'sensor fallen off', 'stuck_low' => 'sensor stuck 10 % of its range below the setpoint',
+                 'stuck_high' => 'sensor stuck 3 % above', 'drive_on' => 'drive always on', 'drive_off' => 'no drive',
+                 'sign' => 'sign turned round', 'stuck_2' => 'sensor stuck 2 counts below',
+                 'stuck_at' => 'sensor stuck at the setpoint', 'stuck_noisy' => 'sensor stuck 0.5 % below, with noise',
+                 'drift' => 'sensor drifts slowly to 30 % below', 'half' => 'drive at half' }.freeze
+
+# A plant is far over beyond a fifth of the sensor's range above its setpoint.
+GUARD_FAR = 20.0
+GUARD_INTEGRATORS = %w[integrator position].freeze
+GUARD_CLASSES = {
+  'L up to T / 4' => ->(row) { !GUARD_INTEGRATORS.include?(row['kind']) && row['dead'].to_f <= 0.25 },
+  'L longer' => ->(row) { !GUARD_INTEGRATORS.include?(row['kind']) && row['dead'].to_f > 0.25 },
+  'integrating' => ->(row) { GUARD_INTEGRATORS.include?(row['kind']) }
+}.freeze
+
+# The boiler of the quick start, and the same read more often by a sensor with noise:
+# the program's arguments, and the hottest that each fault may get it to with the guard,
+# a degree above what was measured when the limit was set.
+BOILERS = { 'quick start' => %w[1 0], 'ten steps a second, noise 0.1 C' => %w[10 1] }.freeze
+BOILER_FAULTS = { 'stuck_3' => 'sensor stuck 0.3 C low', 'stuck_100' => 'sensor stuck 10 C low',
+                  'fallen' => 'sensor fallen off', 'shorted' => 'sensor shorted: reads 0',
+                  'open' => 'sensor open: reads 200 C', 'shut' => 'relay shut for good', 'sign' => 'sign turned round',
+                  'burnt' => 'heater burnt out' }.freeze
+BOILER_HOTTEST = { 'quick start' => [88, 86, 86, 82, 61, 87, 91, 61],
+                   'ten steps a second, noise 0.1 C' => [62, 83, 79, 64, 62, 82, 82, 62] }.freeze
+BOILER_BROKEN_S = 60.0
+BOILER_SECONDS = 419.0
+BOILER_HARMLESS = %w[open burnt].freeze # it cools down by itself
+
+def guard
+  check_whole
+  check_broken
+  boilers = BOILERS.to_h { |title, words| [title, Trace.new(Host.print('boiler', "guard-boiler-#{words[0]}.csv", *words), BOILER_SECONDS)] }
+  boilers.each { |title, boiler| check_boiler(title, boiler) }
+  draw_boiler(boilers.values.first)
+end
+
+def guarded_rows(name, *arguments)
+  Loops.read(Host.print('guarded', "guard-#{name}.txt", *arguments.map(&:to_s)), GUARD_PLANTS)
+end
+
+def check_whole
+  rows = guarded_rows('healthy', 'healthy', GUARD_SEED, GUARD_PLANTS, GUARD_STEPS, 1.0, 1.0)
+  Report.exactly('plants with a false alarm', alarmed(rows), 0)
+  Report.at_least('plants that settled', rows.count { |row| row['settled'].to_i == 1 }, 790)
+  wrong = guarded_rows('wrong', 'healthy', GUARD_SEED, GUARD_PLANTS, GUARD_STEPS, 1.0, 1.4)
+  Report.exactly('with a model wrong by up to 1.4', alarmed(wrong), 0)
+  hasty = guarded_rows('hasty', 'healthy', GUARD_SEED, GUARD_PLANTS, GUARD_STEPS, 0.5, 1.0)
+  Report.unchanged('false alarms with half of the patience', alarmed(hasty))
+  Report.number('half_patience', alarmed(hasty))
+end
+
+def alarmed(rows)
+  rows.count { |row| row['alarms'].to_i != 0 }
+end
+
+def check_broken
+  rows = guarded_rows('faults', 'faults', GUARD_SEED, GUARD_PLANTS)
+  GUARD_FAULTS.each do |fault, title|
+    seen = rows.select { |row| row[fault].to_i >= 0 }
+    if GUARD_ALWAYS.include?(fault)
+      Report.exactly("#{title}: seen", seen.size, GUARD_PLANTS)
+    else
+      Report.unchanged("#{title}: seen", seen.size)
+    end
+    times = seen.map { |row| row[fault].to_i / row['scale'].to_f }.sort
+    Report.number(fault, { 'seen' => seen.size, 'times' => [0.5, 0.95].map { |part| times[((times.size - 1) * part).floor] },
+                           'far' => GUARD_CLASSES.values.map { |of| far_over(rows.select(&of), fault) } })
+  end
+end
+
+# How many are far over, if nobody acts and if the alarm cuts the supply.
+def far_over(rows, fault)
+  %w[without with].map { |way| rows.count { |row| row["#{fault}_#{way}"].to_f > GUARD_FAR } }
+end
+
+# Seconds from the fault to the alarm; nil: none.
+def boiler_alarm(boiler, fault)
+  first = boiler.values("#{fault}_alarms").index(&:positive?)
+  first && boiler.times[first] - BOILER_BROKEN_S
+end
+
+def check_boiler(title, boiler)
+  rows = BOILER_FAULTS.keys.zip(BOILER_HOTTEST.fetch(title)).to_h do |fault, limit|
+    [fault, check_boiler_fault("boiler, #{title}, #{BOILER_FAULTS[fault]}", boiler, fault, limit)]
+  end
+  Report.number(title, rows)
+end
+
+def check_boiler_fault(what, boiler, fault, limit)
+  alarm = boiler_alarm(boiler, fault)
+  without, with = %w[without with].map { |way| boiler.peak("#{fault}_#{way}", BOILER_BROKEN_S) }
+  Report.exactly("#{what}: alarms before", boiler.values("#{fault}_alarms", 0.0, BOILER_BROKEN_S).max, 0.0)
+  Report.at_least("#{what}: alarm after", alarm, 0.0, 's')
+  Report.at_most("#{what}: hottest with the guard", with, limit, 'C')
+  Report.at_least("#{what}: hottest without", without, 120.0, 'C') unless BOILER_HARMLESS.include?(fault)
+  { 'without' => without, 'with' => with, 'alarm' => alarm }
+end
+
+def draw_boiler(boiler)
+  plot = Plot.new('guard', 'The boiler of the quick start, set to 60 °C, which breaks at 60 s', height: 1050, columns: [1.0, 1.0],
+                                                                                                rows: [1.0] * 4, gap_y: 0.062,
+                                                                                                margins: { top: 0.92, bottom: 0.06 })
+  BOILER_FAULTS.keys.each_with_index { |fault, i| boiler_panel(plot, boiler, fault, i) }
+  plot.draw
+end
+
+def boiler_panel(plot, boiler, fault, place)
+  row, column = place.divmod(2)
+  peaks = %w[without with].map { |way| format('%.1f °C', boiler.peak("#{fault}_#{way}", BOILER_BROKEN_S)) }
+  alarm = boiler_alarm(boiler, fault)
+  plot.panel(row, column,
+             ["60 linecolor '#{Plot::GREY}' dashtype 2 notitle", Plot.curve(boiler, "#{fault}_without", nil, Plot::RED),
+              Plot.curve(boiler, "#{fault}_with", nil, Plot::BLUE)],
+             ["set title '#{BOILER_FAULTS[fault]}' font ',11' offset 0,-0.6", 'set xrange [0:400]',
+              'set yrange [0:140]', 'set ytics 40', "set ylabel 'boiler, °C'", "set xlabel 'time, s' offset 0,0.6",
+              "set label 'without the guard: #{peaks[0]}' at 395, 131 right textcolor '#{Plot::RED}'",
+              "set label 'with it: #{peaks[1]}, alarm after #{alarm ? format('%.0f s', alarm) : 'never'}' " \
+              "at 395, 10 right textcolor '#{Plot::BLUE}'"])
+end
