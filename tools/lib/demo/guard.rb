@@ -112,7 +112,7 @@ end
 
 def draw_boiler(boiler)
   plot = Plot.new('guard', 'The boiler of the quick start, set to 60 °C, which breaks at 60 s', height: 1050, columns: [1.0, 1.0],
-                                                                                                rows: [1.0] * 4, gap_y: 0.062,
+                                                                                                rows: [1.0] * 4, gap_x: 0.09, gap_y: 0.07,
                                                                                                 margins: { top: 0.92, bottom: 0.06 })
   BOILER_FAULTS.keys.each_with_index { |fault, i| boiler_panel(plot, boiler, fault, i) }
   plot.draw
