@@ -183,9 +183,9 @@ if ARGV == ['--quick']
 end
 # Two examples are built with their system's headers by test/use/packages;
 # SDCC compiles the support files, the co-simulation those of chips, and the
-# comparisons, faults and recipes of tools/demo are programs for a PC, as is what the
+# comparisons, guarded loops, faults and recipes of tools/demo are programs for a PC, as is what the
 # tuner page computes with.
-programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/faults/|/tuner/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/guard/|/faults/|/tuner/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
 avr, others = programs.partition { |file| file.start_with?('port/avr/') }
 avr.each { |file| avr_warnings(file) }
 (library + others).each { |file| warnings(file) }
