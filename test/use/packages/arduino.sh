@@ -30,41 +30,65 @@ build_sketch() {
     fi
 }
 
-# same_output NAME LINES: what the sketch prints on the simulated Uno is what it
-# prints on this machine; LINES of it in loop().
-same_output() {
-    sketch "$1" uno
+# on_host NAME LINES [OPTION]...: what the sketch prints on this machine, LINES of it in
+# loop(), is host.txt.
+on_host() {
     {
         echo '#include <Arduino.h>'
         cat "libraries/fixpid/examples/arduino/$1/$1.ino"
     } >host.cpp
-    find libraries/fixpid/src -name '*.c' -exec \
+    [ -e fixpid_pid.o ] || find libraries/fixpid/src -name '*.c' -exec \
         gcc -O1 -Ilibraries/fixpid/src -c {} +
     g++ -std=gnu++11 -Wall -Wextra "-I$here/arduino" -Ilibraries/fixpid/src \
-        host.cpp "$here/arduino/host.cc" ./*.o -o host
-    ./host "$2" >host.txt
+        host.cpp "$here/arduino/host.cc" ./*.o -o host &&
+        ./host "$2" >host.txt
+}
+
+# judged NAME LINES OVERSHOOT STEPS: what the sketch prints on the simulated Uno is what
+# it prints on this machine; the loop is as good as judge.rb is told; and the judge
+# refuses the faults of test/faults.txt. Those run on this machine alone.
+judged() {
+    sketch "$1" uno
+    on_host "$1" "$2"
     gcc -O2 "$here/arduino/uno.c" -lsimavr -o uno
     ./uno "built/$1.ino.elf" "$(grep -c '' host.txt)" >uno.txt
     cat uno.txt
     cmp host.txt uno.txt
+    ruby "$here/arduino/judge.rb" uno.txt "$3" "$4"
+    ino=libraries/fixpid/examples/arduino/$1/$1.ino
+    cp "$ino" sound.ino
+    mkdir -p "examples/arduino/$1"
+    for number in 1 2; do
+        cp sound.ino "examples/arduino/$1/$1.ino"
+        ruby "$root/tools/lib/faults/seed.rb" "arduino $1" . "$number"
+        cp "examples/arduino/$1/$1.ino" "$ino"
+        on_host "$1" "$2"
+        refused '^overshoot' ruby "$here/arduino/judge.rb" host.txt "$3" "$4"
+        cat output
+    done
+    # A rate whose period is not whole milliseconds does not compile.
+    sed 's/^\(const int RATE = \)[0-9]*;/\17;/' sound.ino >"$ino"
+    refused 'RATE must divide 1000 ms' on_host "$1" "$2"
+    cp sound.ino "$ino"
+}
+
+arduino_simulated() {
+    judged 01.SimulatedHeater 320 5 70
 }
 
 arduino_heater() {
-    same_output Heater 60
-    # It holds its setpoint.
-    tail -n 1 uno.txt | grep -qE '^600 (599|600|601) '
+    judged 02.Heater 60 2 40
 }
 
 arduino_autotune() {
-    same_output Autotune 0
-    grep -q '^status 2 after ' uno.txt # FIXPID_AUTOTUNE_DONE
+    judged 03.Autotune 0 5 120
+    grep -q '^status 2 after ' uno.txt # FIXPID__DONE
     grep -q '^step .*: phase 6, 100 %' uno.txt
-    same '400' "$(tail -n 2 uno.txt | sed -n '1s/ .*//p')"
 }
 
 # Nobody can define a macro in the IDE: the assembly must be there without one.
 arduino_assembly() {
-    sketch Heater uno 'compiler.c.extra_flags=-fno-lto -save-temps=obj'
+    sketch 02.Heater uno 'compiler.c.extra_flags=-fno-lto -save-temps=obj'
     for noun in pid an937 an964 an964_8bit; do
         found=$(grep -A 1 '#APP' "built/libraries/fixpid/$noun/fixpid_$noun.c.s" |
             grep -c '/fixpid_[a-z0-9_]*avr.h"') || true
@@ -77,7 +101,7 @@ arduino_assembly() {
 arduino_boards() {
     for board in leonardo mega:cpu=atmega2560; do
         rm -rf libraries built
-        sketch Heater "$board"
+        sketch 02.Heater "$board"
     done
 }
 
@@ -85,22 +109,22 @@ arduino_boards() {
 # beside the library, for each sketch that includes it, or in the library's src/,
 # for all sketches.
 arduino_config() {
-    heater=libraries/fixpid/examples/arduino/Heater/Heater.ino
+    heater=libraries/fixpid/examples/arduino/02.Heater/02.Heater.ino
     mkdir -p libraries/fixpid_config
     echo '#define FIXPID_PID_FEATURES 0x01' >libraries/fixpid_config/fixpid_config.h
-    sketch Heater uno compiler.c.extra_flags=-fno-lto
+    sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
     step_is fixpid_pid_step
     sed -i '1i #include <fixpid_config.h>' "$heater"
-    build_sketch Heater uno compiler.c.extra_flags=-fno-lto
+    build_sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
     step_is fixpid_pid_step_0x01
     sed -i 1d "$heater"
     mv libraries/fixpid_config/fixpid_config.h libraries/fixpid/src
-    build_sketch Heater uno compiler.c.extra_flags=-fno-lto
+    build_sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
     step_is fixpid_pid_step_0x01
 }
 
 # step_is NAME: what the library's step is called, and the sketch calls.
 step_is() {
     avr-nm built/libraries/fixpid/pid/fixpid_pid.c.o | grep " T $1$"
-    avr-nm built/Heater.ino.elf | grep -i " t $1$"
+    avr-nm built/02.Heater.ino.elf | grep -i " t $1$"
 }

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Finds the gains of a controller by an experiment on the plant, and then controls
 // with them. Nothing has to be wired: the plant is simulated. For a real one,
-// measure and drive in `plant`, once in a sample period.
+// measure and drive in `plant`.
 #include <fixpid_autotune.h>
 #include <fixpid_pid.h>
 
+// Steps per second, of the experiment and of the controller: the gains that the
+// one finds are right for the other only if both take steps at the same rate.
+const int RATE = 100;
+const unsigned long PERIOD_MS = 1000 / RATE;
+static_assert(PERIOD_MS * RATE == 1000, "RATE must divide 1000 ms");
+
 const int16_t SETPOINT = 400;
+const int16_t HIGHER = 500;
 
 static fixpid_autotune tuner;
 static fixpid_pid controller;
+
+static void wait_for_step()
+{
+    static unsigned long last_ms = millis();
+
+    while (millis() - last_ms < PERIOD_MS) {
+    }
+    last_ms += PERIOD_MS;
+}
 
 // A first-order lag behind a dead time of 8 steps: the measurement that follows
 // one step with this drive.
@@ -55,6 +71,7 @@ static int16_t tune()
         if (steps % 100 == 0) {
             print_progress(steps);
         }
+        wait_for_step();
         drive = fixpid_autotune_step(&tuner, SETPOINT, plant(drive));
         steps++;
     }
@@ -94,14 +111,18 @@ void setup()
     if (fixpid_autotune_model(&tuner, &found)) {
         fixpid_pid_seed(&controller, found.holding); // no bump at the change
     }
-    for (int step = 0; step <= 400; step++) {
+    // It holds the setpoint, and goes to another one.
+    for (int step = 0; step < 500; step++) {
+        const int16_t setpoint = (step < 100) ? SETPOINT : HIGHER;
+        wait_for_step();
         const int16_t measurement = plant(drive);
-        drive = fixpid_pid_step(&controller, SETPOINT, measurement);
-        if (step % 40 == 0) {
-            Serial.print(measurement);
-            Serial.print(' ');
-            Serial.println(drive);
-        }
+        drive = fixpid_pid_step(&controller, setpoint, measurement);
+        Serial.print(F("setpoint:"));
+        Serial.print(setpoint);
+        Serial.print(F(",measurement:"));
+        Serial.print(measurement);
+        Serial.print(F(",output:"));
+        Serial.println(drive);
     }
     Serial.println(F("done"));
 }

@@ -3,11 +3,14 @@
 // The serial plotter shows setpoint, measurement and output.
 #include <fixpid_pid.h>
 
-const unsigned long PERIOD_MS = 100; // 10 steps per second
-const int16_t SETPOINT = 600;        // in counts of A0
+const int RATE = 10; // steps per second: of loop() and of the gains
+const unsigned long PERIOD_MS = 1000 / RATE;
+static_assert(PERIOD_MS * RATE == 1000, "RATE must divide 1000 ms");
+
+const int16_t SETPOINT = 600; // in counts of A0
 
 // kp, ki per second, kd in seconds, steps per second, derivative filter
-static const fixpid_pid_gains gains = FIXPID_PID_GAINS(2.5, 1.6, 0.5, 10, 2);
+static const fixpid_pid_gains gains = FIXPID_PID_GAINS(2.5, 1.6, 0.5, RATE, 2);
 static fixpid_pid heater;
 static unsigned long last_ms;
 
@@ -36,9 +39,10 @@ void loop()
     const int16_t output = fixpid_pid_step(&heater, SETPOINT, measurement);
     analogWrite(9, output);
 
+    Serial.print(F("setpoint:"));
     Serial.print(SETPOINT);
-    Serial.print(' ');
+    Serial.print(F(",measurement:"));
     Serial.print(measurement);
-    Serial.print(' ');
+    Serial.print(F(",output:"));
     Serial.println(output);
 }
