@@ -66,6 +66,13 @@ static void converting(struct avr_irq_t *irq, uint32_t value, void *param)
     (void)param;
     avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0),
                   (uint32_t)(((counts * SUPPLY_MV) + 1022) / 1023));
+#ifdef KEY
+    if (room_steps == KEY) {
+        avr_raise_irq(
+            avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT),
+            'a');
+    }
+#endif
 }
 
 int main(int argc, char **argv)
