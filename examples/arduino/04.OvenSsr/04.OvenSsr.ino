@@ -94,6 +94,7 @@ static void start_tuning()
     experiment.cycles = 2;
     (void)fixpid_autotune_init(&tuner, &experiment);
     start_guard(1, 32767, false); // until there is a model: the sensor alone
+    controller = fixpid_pid();
     tuning = true;
     Serial.println(F("tuning"));
 }
@@ -134,6 +135,7 @@ static int16_t step(int16_t reading)
     }
     if ((flags & FIXPID_GUARD_ALARMS) != 0) {
         off = true;
+        tuning = false;
         Serial.print(F("ALARM 0x"));
         Serial.print(flags & FIXPID_GUARD_ALARMS, HEX);
         Serial.println(F(": off. Look, then send a"));
