@@ -130,7 +130,7 @@ def check_failed_experiments(rows)
   end
 end
 
-TUNE_COLORS = { 'PI' => Plot::GREEN, 'PID' => Plot::BLUE }.freeze
+TUNE_COLORS = { 'PI' => Plot::SECOND, 'PID' => Plot::MEASUREMENT }.freeze
 
 def draw_autotune(runs)
   plot = Plot.new('autotune', 'An oven that finds its own gains, by a relay ' \
@@ -144,9 +144,9 @@ end
 
 def autotune_marks(over, top, named)
   area = "set object 1 rectangle from 0, graph 0 to #{over}, graph #{top} " \
-         "behind fillcolor '#E8E8E8' fillstyle solid noborder"
+         "behind fillcolor '#{Plot::AREA}' fillstyle solid noborder"
   door = "set object 2 rectangle from #{TUNE_DOOR_S}, graph 0 to " \
-         "#{TUNE_DOOR_END_S}, graph #{top} behind fillcolor '#E8E8E8' " \
+         "#{TUNE_DOOR_END_S}, graph #{top} behind fillcolor '#{Plot::AREA}' " \
          'fillstyle solid noborder'
   labels = [['relay experiment', over / 2.0],
             ['its gains', (over + HOTTER_AT_S) / 2.0],
@@ -158,8 +158,7 @@ end
 
 def autotune_temperature(plot, runs)
   over = taken_over_s(runs['PI'])
-  curves = [Plot.curve(runs['PI'], 'setpoint_c', 'setpoint', Plot::BLACK,
-                       style: 'dashtype 2', width: 1.2)]
+  curves = [Plot.setpoint(runs['PI'], 'setpoint_c')]
   curves += runs.map do |rule, run|
     Plot.curve(run, 'temperature_c', rule, TUNE_COLORS[rule])
   end

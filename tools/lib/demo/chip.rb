@@ -305,36 +305,44 @@ def chip_table
   end
 end
 
-# Of panels: the examples in two columns, and one for each other chip.
-ROWS = 4
+# Of panels at most. Whatever their number is, no place is empty: the panels of a shorter
+# row are wider.
+COLUMNS = 4
 
 def draw_chips
+  rows = in_rows(CHIPS)
   plot = Plot.new('chip', 'Simulated chip minus host: the same sources, the ' \
                           'same scenario (grey: where and how far they may differ)',
-                  width: 1800, height: 1000, columns: [1.0] * 4,
-                  rows: [1.0] * ROWS, gap_x: 0.05, gap_y: 0.085,
-                  margins: { top: 0.91, right: 0.985 })
-  own, others = CHIPS.partition { |one| one.name == one.example }
-  own.each_with_index { |one, i| difference_panel(plot, i / 2, i % 2, one) }
-  others.each_with_index { |one, i| difference_panel(plot, i % ROWS, 2 + i / ROWS, one) }
+                  width: 1800, height: 1000, rows: [1.0] * rows.size, gap_x: 0.05, gap_y: 0.085,
+                  margins: { left: 0.05, top: 0.91, right: 0.985 })
+  rows.each_with_index do |ones, row|
+    ones.each_with_index { |one, i| difference_panel(plot, [row, i, ones.size], one, row == rows.size - 1) }
+  end
   plot.draw
 end
 
-def difference_panel(plot, row, column, one)
+# The longer rows are the lower ones.
+def in_rows(ones)
+  size = (ones.size.to_f / COLUMNS).ceil
+  few, more = ones.size.divmod(size)
+  left = ones.dup
+  Array.new(size) { |row| left.shift(few + (row >= size - more ? 1 : 0)) }
+end
+
+def difference_panel(plot, place, one, last)
   parts = AGREEMENTS.fetch(one.name)
   path = "#{Host.folder}/chip-#{one.name}_difference.csv"
   rows = parts.flat_map { |part| part.differences(one) }
   Report.replace(path, "time_s,difference\n" +
                        rows.map { |pair| "#{pair.join(',')}\n" }.join)
   top = 1.25 * parts.map(&:most).max
-  plot.panel(row, column,
-             [Plot.curve(Trace.new(path), 'difference', nil, Plot::BLUE,
-                         width: 1.2)],
-             [*allowed(parts), "set title \"{/:Bold #{one.title}}\"",
+  plot.panel_of(*place,
+                [Plot.curve(Trace.new(path), 'difference', nil, Plot::MEASUREMENT, width: 1.2)],
+                [*allowed(parts), "set title \"{/:Bold #{one.title}}\"",
               "set xrange [#{parts.first.from}:#{parts.last.to}]",
               "set yrange [#{-top}:#{top}]",
               "set ylabel '#{AXES.fetch(parts.first.column)}'",
-              *(row == ROWS - 1 ? ["set xlabel 'time, s'"] : [])])
+              *(last ? ["set xlabel 'time, s'"] : [])])
 end
 
 AXES = { 'angle_degrees' => 'angle, degrees', 'speed_rad_s' => 'speed, rad/s',
@@ -343,7 +351,7 @@ AXES = { 'angle_degrees' => 'angle, degrees', 'speed_rad_s' => 'speed, rad/s',
 def allowed(parts)
   parts.each_with_index.map do |part, i|
     "set object #{i + 1} rectangle from #{part.from}, #{-part.most} to " \
-      "#{part.to}, #{part.most} behind fillcolor '#EEEEEE' fillstyle solid " \
+      "#{part.to}, #{part.most} behind fillcolor '#{Plot::AREA}' fillstyle solid " \
       'noborder'
   end
 end

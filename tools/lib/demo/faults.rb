@@ -239,10 +239,10 @@ end
 
 # ---- The picture: a point for each run ----
 
-FAULT_ENDS = { 'back' => ['back in control', Plot::BLUE, :back_s],
-               'fallen' => ['fallen, drive off', Plot::PURPLE, :off_s],
-               'off' => ['off', Plot::GREEN, :off_s],
-               'out' => ['out of control until the next reset', Plot::RED, :back_s] }.freeze
+FAULT_ENDS = { 'back' => ['back in control', Plot::MEASUREMENT, :back_s],
+               'fallen' => ['fallen, drive off', Plot::OUTPUT, :off_s],
+               'off' => ['off', Plot::SECOND, :off_s],
+               'out' => ['out of control until the next reset', Plot::WITHOUT, :back_s] }.freeze
 SHORTEST_S = 1e-3 # what is shorter is drawn here, as the axis is a logarithm's
 
 def draw_faults(all)
@@ -278,7 +278,7 @@ end
 def fault_axes(all)
   kinds = all.kinds.reverse
   tics = kinds.each_with_index.map { |kind, i| "\"#{FAULT_KINDS[kind]}\" #{i}" }
-  limits = [['back', all.rules.back, Plot::BLUE], ['off', all.rules.fallen, Plot::PURPLE]]
+  limits = [['back', all.rules.back, Plot::MEASUREMENT], ['off', all.rules.fallen, Plot::OUTPUT]]
   lines = limits.select { |_, at, _| at }.flat_map do |what, at, color|
     ["set arrow from #{at}, graph 0 to #{at}, graph 1 nohead dashtype 2 linecolor '#{color}'",
      "set label '#{what}' at #{at}, graph 0.985 right offset -0.5,0 textcolor '#{color}'"]

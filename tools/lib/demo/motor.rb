@@ -102,11 +102,10 @@ def motor_panels(plot, column, run, without, from, to, title)
 end
 
 def speed_panel(plot, column, run, without, settings)
-  curves = [Plot.curve(run, 'speed_rad_s', 'speed', Plot::BLUE),
-            Plot.curve(run, 'setpoint_rad_s', 'setpoint', Plot::BLACK,
-                       style: 'dashtype 2', width: 1.2)]
+  curves = [Plot.curve(run, 'speed_rad_s', 'speed', Plot::MEASUREMENT),
+            Plot.setpoint(run, 'setpoint_rad_s')]
   if column.zero?
-    curves << Plot.curve(without, 'speed_rad_s', 'without', Plot::RED)
+    curves << Plot.curve(without, 'speed_rad_s', 'without', Plot::WITHOUT)
   end
   range = ['set yrange [0:600]', 'set yrange [350:372]'][column]
   plot.panel(0, column, curves,
@@ -122,10 +121,10 @@ end
 
 def motor_drive_panel(plot, column, run, without, x_range)
   curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
-                       Plot::PURPLE, width: 1.2)]
+                       Plot::OUTPUT, width: 1.2)]
   if column.zero?
     curves << Plot.curve(without, "(column('drive_counts')/10.23)",
-                         'without', Plot::RED, width: 1.2)
+                         'without', Plot::WITHOUT, width: 1.2)
   end
   plot.panel(2, column, curves,
              [*x_range, "set xlabel 'time, s'", 'set yrange [-115:155]',

@@ -237,12 +237,12 @@ DASHED = 'linewidth 1.2 dashtype 2'
 
 # fixpid is drawn over the other and named before it.
 def scene_panel(plot, row, column, scene, run)
-  curves = [step_curve(run, "without#{scene.column}", Plot::RED),
-            step_curve(run, "fixpid#{scene.column}", Plot::BLUE),
-            Plot.entry('fixpid', Plot::BLUE), Plot.entry('without', Plot::RED)]
+  curves = [step_curve(run, "without#{scene.column}", Plot::WITHOUT),
+            step_curve(run, "fixpid#{scene.column}", Plot::MEASUREMENT),
+            Plot.entry('fixpid', Plot::MEASUREMENT), Plot.entry('without', Plot::WITHOUT)]
   if scene.column.empty?
-    curves.unshift(step_curve(run, 'setpoint', Plot::BLACK, DASHED),
-                   Plot.entry('setpoint', Plot::BLACK, DASHED))
+    curves.unshift(step_curve(run, 'setpoint', Plot::SETPOINT, DASHED),
+                   Plot.entry('setpoint', Plot::SETPOINT, DASHED))
   end
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{scene.title}}\\n#{scene.what}\"",

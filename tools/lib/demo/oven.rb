@@ -94,10 +94,10 @@ def draw_oven(p_only, pi, pid, wire)
     .each do |column, (title, run)|
       settled = format('within 2 %% after %.1f s', oven_settling(run))
       temperature_panel(plot, column, title,
-                        [Plot.curve(run, 'temperature_c', settled, Plot::BLUE)])
+                        [Plot.curve(run, 'temperature_c', settled, Plot::MEASUREMENT)])
     end
   temperature_panel(plot, 3, 'PID: the sensor\'\'s wire breaks',
-                    [Plot.curve(wire, 'temperature_c', 'temperature', Plot::BLUE)])
+                    [Plot.curve(wire, 'temperature_c', 'temperature', Plot::MEASUREMENT)])
   [p_only[64], pi, pid, wire].each_with_index do |run, column|
     oven_terms_panel(plot, column, run)
     oven_drive_panel(plot, column, run)
@@ -119,16 +119,13 @@ def shared_y(column, text)
 end
 
 def p_only_curves(p_only)
-  colors = [Plot::GREEN, Plot::PURPLE, Plot::BLUE, Plot::RED]
-  p_only.zip(colors).map do |(kp, run), color|
+  p_only.zip(Plot::FAMILY).map do |(kp, run), color|
     Plot.curve(run, 'temperature_c', "kp #{kp}", color)
   end
 end
 
 def temperature_panel(plot, column, title, curves)
-  setpoint = "#{OVEN_SET_C} title 'setpoint' linecolor '#{Plot::BLACK}' " \
-             'dashtype 2'
-  plot.panel(0, column, [*curves, setpoint],
+  plot.panel(0, column, [*curves, Plot.setpoint(nil, OVEN_SET_C)],
              [*oven_time(column), "set title '#{title}'", "set format x ''",
               'set yrange [0:100]', 'set key bottom right maxrows 2',
               *shared_y(column, 'temperature, °C')])
@@ -143,7 +140,7 @@ end
 
 def oven_drive_panel(plot, column, run)
   curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
-                       Plot::PURPLE, width: 1.2)]
+                       Plot::OUTPUT, width: 1.2)]
   plot.panel(2, column, curves,
              [*oven_time(column), "set xlabel 'time, s'", 'set yrange [0:110]',
               'set ytics 25', *shared_y(column, 'drive, %')])

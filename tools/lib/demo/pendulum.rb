@@ -80,11 +80,11 @@ def y_label(column, text)
 end
 
 def angle_panel(plot, column, run, every, x_range)
-  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::BLUE,
+  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::MEASUREMENT,
                        every: every),
-            "0 title 'setpoint' linecolor '#{Plot::BLACK}' dashtype 2",
-            "1 title 'limit' linecolor '#{Plot::GREY}' dashtype 3",
-            "-1 notitle linecolor '#{Plot::GREY}' dashtype 3"]
+            Plot.setpoint(nil, '0'),
+            "1 title 'limit' linecolor '#{Plot::LIMIT}' dashtype 3",
+            "-1 notitle linecolor '#{Plot::LIMIT}' dashtype 3"]
   labels = [["set title 'release at 8 degrees, shove at 5 s'"],
             ["set title 'supply falls by 25 % from 10 to 30 s, KP follows'"]][column]
   range = ['set yrange [-6:9]', 'set yrange [-2:2]'][column]
@@ -101,9 +101,9 @@ end
 
 def drive_panel(plot, row, column, run, every, x_range, full)
   curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", 'drive',
-                       Plot::PURPLE, every: every, width: 1.2)]
+                       Plot::OUTPUT, every: every, width: 1.2)]
   if run.values('time_s').last > 30.0 && column == 1
-    curves << Plot.curve(run, 'supply_percent', 'supply', Plot::BLACK,
+    curves << Plot.curve(run, 'supply_percent', 'supply', Plot::DISTURBANCE,
                          every: every)
   end
   plot.panel(row, column, curves,
@@ -115,9 +115,9 @@ BASE_AXIS = [["set ytics 0.5", "set yrange [-1.6:0.6]"],
              ["set ytics 25", "set yrange [-120:40]"]].freeze
 
 def base_panel(plot, column, run, without, every, x_range)
-  curves = [Plot.curve(without, 'base_m', nil, Plot::RED, every: every),
-            Plot.curve(run, 'base_m', 'base', Plot::BLUE, every: every),
-            Plot.entry('without the drift offset', Plot::RED)]
+  curves = [Plot.curve(without, 'base_m', nil, Plot::WITHOUT, every: every),
+            Plot.curve(run, 'base_m', 'base', Plot::MEASUREMENT, every: every),
+            Plot.entry('without the drift offset', Plot::WITHOUT)]
   plot.panel(3, column, curves,
              [*x_range, "set xlabel 'time, s'", *BASE_AXIS[column],
               'set key bottom left vertical',

@@ -3,12 +3,20 @@
 
 # Pictures of several panels, drawn by gnuplot as PNG and SVG.
 class Plot
-  BLUE = '#0072B2'
-  RED = '#D55E00'
-  GREEN = '#009E73'
-  PURPLE = '#CC79A7'
-  GREY = '#888888'
-  BLACK = '#222222'
+  # A colour has one meaning in all pictures. Where runs are compared, what is shown has
+  # the first, in each of its panels, and what it is compared with the second.
+  MEASUREMENT = '#0072B2'
+  WITHOUT = '#D55E00' # the same without what is shown, or somebody else's
+  SETPOINT = '#222222' # dashed
+  OUTPUT = '#CC79A7'
+  SECOND = '#5E3C99' # another measurement, or another run
+  LIMIT = '#888888'
+  DISTURBANCE = '#888888' # a line; a stretch of time is AREA
+  AREA = '#E8E8E8'
+  TERMS = { 'proportional' => ['P', '#56B4E9'], 'integral' => ['I', '#E69F00'], 'derivative' => ['D', '#009E73'] }.freeze
+  # One measurement at several settings.
+  FAMILY = %w[#9ECAE1 #6BAED6 #0072B2 #08306B].freeze
+  TEXT = SETPOINT
 
   FONT = 'DejaVu Sans,Arial,sans-serif'
   MARGINS = { left: 0.085, right: 0.975, top: 0.90, bottom: 0.075 }.freeze
@@ -22,7 +30,9 @@ class Plot
     @name = name
     @title = title
     @size = [width, height]
-    @x = spans(columns, margin(margins, :left), margin(margins, :right), gap_x)
+    @gap_x = gap_x
+    @sides = [margin(margins, :left), margin(margins, :right)]
+    @x = spans(columns, *@sides, gap_x)
     @y = spans(rows.reverse, margin(margins, :bottom), margin(margins, :top),
                gap_y).reverse
     @panels = []
@@ -31,6 +41,11 @@ class Plot
   # `curves` are gnuplot's plot elements, `settings` its commands.
   def panel(row, column, curves, settings)
     panel_at(@x[column], @y[row], curves, settings)
+  end
+
+  # In a row that `size` panels fill.
+  def panel_of(row, index, size, curves, settings)
+    panel_at(spans([1.0] * size, *@sides, @gap_x)[index], @y[row], curves, settings)
   end
 
   # From x[0] to x[1] and from y[0] to y[1], shares of the whole from below left.
@@ -43,12 +58,17 @@ class Plot
   # Three terms over time, in their colors. D is drawn first, because its noise
   # would hide the others; the key has the usual order.
   def self.terms(trace, scale: 1.0, **options)
-    terms = [['proportional', 'P', BLUE], ['integral', 'I', RED],
-             ['derivative', 'D', GREEN]]
-    terms.reverse.map do |name, _, color|
+    TERMS.to_a.reverse.map do |name, (_, color)|
       curve(trace, "(column('#{name}')*#{scale})", nil, color, width: 1.2,
                                                                **options)
-    end + terms.map { |_, title, color| entry(title, color) }
+    end + TERMS.values.map { |title, color| entry(title, color) }
+  end
+
+  # A column that is the setpoint, or a number.
+  def self.setpoint(trace, column = 'setpoint', title = 'setpoint')
+    return curve(trace, column, title, SETPOINT, style: 'dashtype 2', width: 1.2) if trace
+
+    "#{column} title '#{title}' linecolor '#{SETPOINT}' linewidth 1.2 dashtype 2"
   end
 
   # A line of the key alone.

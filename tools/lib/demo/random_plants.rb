@@ -143,7 +143,7 @@ PEER_TITLES = { 'Arduino PID AutoTune' => ['Arduino PID', 'AutoTune, PI'], 'Quic
                 'sTune' => %w[sTune Ziegler-Nichols] }.freeze
 MS_DRAWN = 10.0 # what is beyond is drawn there
 MS_EDGE = 26.0  # of the panel: room for a number
-NO_GAINS = { 'the experiment failed' => Plot::GREY, 'refused after it' => Plot::PURPLE }.freeze
+NO_GAINS = { 'the experiment failed' => Plot::LIMIT, 'refused after it' => Plot::OUTPUT }.freeze
 
 def draw_random_plants(ours, peers)
   safe = ours.of(Study::OURS, 'PI safe')
@@ -152,9 +152,9 @@ def draw_random_plants(ours, peers)
                   width: 960, height: 860, columns: [0.72, 1.0, 1.0, 1.0, 1.0], gap_x: 0.012,
                   margins: { left: 0.262, right: 0.99, top: 0.845, bottom: 0.14 })
   refusal_panel(plot, safe)
-  sensitivity_panel(plot, 1, safe, ['fixpid\\\\_autotune', 'PI safe'], Plot::BLUE)
+  sensitivity_panel(plot, 1, safe, ['fixpid\\\\_autotune', 'PI safe'], Plot::MEASUREMENT)
   PEER_RULES.each_with_index do |(peer, rule), i|
-    sensitivity_panel(plot, i + 2, peers.of(peer, rule), PEER_TITLES.fetch(peer), Plot::RED)
+    sensitivity_panel(plot, i + 2, peers.of(peer, rule), PEER_TITLES.fetch(peer), Plot::WITHOUT)
   end
   plot.draw
 end
@@ -171,7 +171,7 @@ def study_bar(path, from, to, width, color)
 end
 
 def study_dots(path, column, style)
-  "'#{path}' using #{column}:1 with points #{style} linecolor '#{Plot::BLACK}' notitle"
+  "'#{path}' using #{column}:1 with points #{style} linecolor '#{Plot::TEXT}' notitle"
 end
 
 def study_numbers(path, place, text, style)
@@ -204,12 +204,12 @@ def study_legend
   right = { 'the loops with these gains, Ms:' => 'the largest factor by which a loop makes a disturbance greater',
             'bar: 5 to 95 % of the loops' => 'square: the middle one; circle: the worst stable one, or beyond 10',
             'number: unstable loops, %' => 'green: a good margin; red: close to oscillation' }
-  left = [*NO_GAINS, ['L: dead time, T: lag', Plot::BLACK]]
+  left = [*NO_GAINS, ['L: dead time, T: lag', Plot::TEXT]]
   left.each_with_index.map { |(title, color), i| legend(title, 0.012, i, color) } +
     right.each_with_index.flat_map { |texts, i| texts.zip([0.262, 0.51]).map { |text, x| legend(text, x, i) } }
 end
 
-def legend(title, x, line, color = Plot::BLACK)
+def legend(title, x, line, color = Plot::TEXT)
   "set label '#{title}' at screen #{x}, screen #{(0.066 - 0.022 * line).round(3)} textcolor '#{color}'"
 end
 
@@ -219,7 +219,7 @@ def sensitivity_panel(plot, column, all, title, color)
   curves = [study_bar(path, 2, '($4-$2)', 6, color.sub('#', '#90')),
             study_dots(path, 3, 'pointtype 5 pointsize 0.7'), study_dots(path, 5, 'pointtype 6 pointsize 0.6'),
             study_numbers(path, MS_EDGE * 0.93, "$6 > 0 ? sprintf('%.0f %%', $6) : ''",
-                          "right textcolor '#{Plot::RED}'")]
+                          "right textcolor '#{Plot::WITHOUT}'")]
   lasts = format('%.1f', all.lasts(0.5)).sub(/\A(\d\d)\.\d\z/, '\1')
   gains = (100.0 * all.gains / all.count).round
   heading = "set title \"{/:Bold #{title[0]}}\\n#{title[1]}\\ngains for #{gains} %\\nlasts #{lasts} (L + T)\""

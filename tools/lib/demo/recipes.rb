@@ -9,21 +9,32 @@
 # about. Without the recipe it must be so much worse that a reader sees it in the
 # picture, or the recipe is not worth its lines.
 def recipes
-  check_cascade(cascade = recipe('cascade', 5999))
-  check_override(override = recipe('override', 3999))
-  check_ramp(ramp = recipe('ramp', 599.9))
-  check_ssr(ssr = recipe('ssr', 1799.9))
-  check_tune_ssr(tune_ssr = recipe('tune_ssr', 1499))
-  check_behind_tpo(Loops.read(Host.print('behind_tpo', 'recipes-behind_tpo.txt', *BEHIND_TPO.map(&:to_s)), 2 * BEHIND_TPO[1]))
-  check_retune(retune = recipe('retune', 4999))
-  check_dead_band(dead_band = recipe('dead_band', 3999))
-  check_scheduling(recipe('scheduling', 2999))
-  check_sample_time(recipe('sample_time', 1199.9))
   check_menu(Loops.read(Host.recipe('menu', 'recipes-menu.txt'), 5))
-  check_interrupt(recipe('interrupt', 999))
-  check_converter(recipe('converter', 1999))
-  check_sensor_break(sensor = recipe('sensor_break', 599.9))
-  draw_recipes(cascade, override, ramp, ssr, dead_band, sensor, tune_ssr, retune)
+  check_behind_tpo(Loops.read(Host.print('behind_tpo', 'recipes-behind_tpo.txt', *BEHIND_TPO.map(&:to_s)), 2 * BEHIND_TPO[1]))
+  draw_recipes(RECIPE_RUNS.to_h do |name, last|
+    run = recipe(name, last)
+    send("check_#{name}", run)
+    [name, run]
+  end)
+end
+
+# Recipes that record a run, and its last time.
+RECIPE_RUNS = {
+  'cascade' => 5999, 'two_rates' => 5.999, 'override' => 3999, 'ramp' => 599.9, 'ramp_soak' => 1199,
+  'ssr' => 1799.9, 'tune_ssr' => 1499, 'retune' => 4999, 'heat_cool' => 99_990, 'least_output' => 19_999,
+  'angle' => 1.999, 'guard' => 1999.9, 'dead_band' => 3999, 'sensor_break' => 599.9,
+  'scheduling' => 2999, 'sample_time' => 1199.9, 'interrupt' => 999, 'freertos' => 999, 'zephyr' => 999,
+  'converter' => 1999
+}.freeze
+
+# What a step of the setpoint, or what comes after another event, must do: within 2 % of
+# `target` after `within` and beyond it by `over` percent of it at most.
+def check_step(what, run, column, target, from, to, within, over, unit = 'steps')
+  values = run.values(column, from, to)
+  rises = values.first < target
+  beyond = rises ? values.max - target : target - values.min
+  Report.at_most("#{what}: #{target} within 2 % after", run.settling(column, target, 0.02 * target.abs, from, to), within, unit)
+  Report.at_most("#{what}: beyond #{target}", 100.0 * beyond / target.abs, over, '%')
 end
 
 # Its run, to `last` at least.
@@ -65,6 +76,7 @@ def check_override(run)
 end
 
 def check_ramp(run)
+  Report.at_most('ramp: 600 within 2 % after the ramp', run.settling('with', 600.0, 12.0, 300.0), 15.0, 's')
   Report.at_most('ramp: peak of 600', run.values('with').max, 604.0)
   Report.at_least('and without ramp and tracking', run.values('without').max, 690.0)
   Report.at_most('ramp: fastest rise in a second',
@@ -72,6 +84,7 @@ def check_ramp(run)
 end
 
 def check_ssr(run)
+  check_step('SSR', run, 'value', 960.0, 0.0, 900.0, 300.0, 1.0, 's')
   on = run.values('on')
   settled = 900.0
   Report.at_most('SSR: mean of the temperature off its setpoint',
@@ -159,6 +172,8 @@ def moves(run, column)
 end
 
 def check_dead_band(run)
+  check_step('dead band', run, 'with', 600.0, 0.0, 2000.0, 300.0, 2.0)
+  check_step('dead band', run, 'with', 400.0, 2000.0, 4000.0, 300.0, 2.0)
   Report.at_most('dead band: moves of the valve in 1000 steps', moves(run, 'valve'), 300)
   Report.at_least('and without', moves(run, 'valve_without'), 700)
   Report.at_most('dead band: offset', (run.mean('with', 1500.0, 2000.0) - 600.0).abs, 5.0, 'counts')
@@ -167,15 +182,17 @@ end
 def check_scheduling(run)
   Report.at_most('scheduling: largest step of the output but at new setpoints',
                  largest_change(run, 'output', 1010, 1990), 60.0, 'counts')
-  Report.at_most('scheduling: 800 within 2 % after', run.settling('value', 800.0, 16.0, 1000, 2000), 250.0, 'steps')
+  check_step('scheduling', run, 'value', 400.0, 0.0, 1000.0, 250.0, 5.0)
+  # The price of no bump far from the setpoint: what P gave, the integral has to lose.
+  check_step('scheduling', run, 'value', 800.0, 1000.0, 2000.0, 250.0, 18.0)
+  check_step('scheduling, back', run, 'value', 400.0, 2000.0, 3000.0, 250.0, 5.0)
 end
 
 def check_sample_time(run)
   Report.at_most('sample time: the output changes at once by',
                  largest_change(run, 'output', 599.0, 601.0 - 0.95), 1.0, 'counts')
-  { 300.0 => 400.0, 600.0 => 600.0, 900.0 => 400.0 }.each do |from, target|
-    Report.at_most("sample time: #{target.to_i} at #{from.to_i} s within 2 % after",
-                   run.settling('value', target, 8.0, from, from + 300.0), 120.0, 's')
+  { 0.0 => 600.0, 300.0 => 400.0, 600.0 => 600.0, 900.0 => 400.0 }.each do |from, target|
+    check_step("sample time, from #{from.to_i} s", run, 'value', target, from, from + 300.0, 120.0, 20.0, 's')
   end
 end
 
@@ -189,66 +206,258 @@ def check_menu(rows)
   end
 end
 
-def check_interrupt(run)
-  Report.at_most('interrupt: 600 within 2 % after', run.settling('value', 600.0, 12.0, 0.0, 500.0), 250.0, 'steps')
-  Report.at_most('interrupt: 700 within 2 % after', run.settling('value', 700.0, 14.0, 500.0), 250.0, 'steps')
+def check_interrupt(run, what = 'interrupt')
+  check_step(what, run, 'value', 600.0, 0.0, 500.0, 250.0, 5.0)
+  check_step(what, run, 'value', 700.0, 500.0, 1000.0, 250.0, 5.0)
+end
+
+def check_freertos(run)
+  check_interrupt(run, 'FreeRTOS')
+end
+
+def check_zephyr(run)
+  check_interrupt(run, 'Zephyr')
 end
 
 def check_converter(run)
-  Report.at_most('converter: 45000 within 2 % after', run.settling('value', 45_000.0, 900.0, 0.0, 1000.0), 400.0, 'steps')
-  Report.at_most('converter: 20000 within 2 % after', run.settling('value', 20_000.0, 400.0, 1000.0), 400.0, 'steps')
+  check_step('converter', run, 'value', 45_000.0, 0.0, 1000.0, 400.0, 5.0)
+  check_step('converter', run, 'value', 20_000.0, 1000.0, 2000.0, 400.0, 5.0)
 end
 
 def check_sensor_break(run)
+  Report.at_most('sensor break: 600 within 2 % after', run.settling('value', 600.0, 12.0, 260.0), 170.0, 's')
   Report.exactly('sensor break: drive while it is broken', run.values('output', 200.0, 260.0).max, 0.0)
   Report.exactly('sensor break: drive in the second after', run.values('output', 260.0, 260.9).max, 0.0)
   Report.at_most('sensor break: largest step of the drive after', largest_change(run, 'output', 260.0, 599.0), 10.0, 'counts')
   Report.at_most('sensor break: overshoot after', run.values('value', 260.0).max - 600.0, 30.0, 'counts')
 end
 
-def recipe_panel(plot, row, column, title, curves, *settings)
-  plot.panel(row, column, curves, ["set title '#{title}' font ',11' offset 0,-0.6", 'set key bottom right', *settings])
+# The supply is weak from 2 s to 3.5 s.
+def check_two_rates(run)
+  peaks = %w[with without].to_h { |which| [which, run.values(which, 3.5).max] }
+  settled = %w[with without].to_h { |which| [which, run.settling(which, 500.0, 10.0, 3.5)] }
+  limited, last = run.values('limited'), run.values('last')
+  numbers = { 'limited' => limited.count(&:positive?), 'last' => last.count(&:positive?) }
+  peaks.each { |which, peak| numbers["#{which}_peak"] = peak }
+  settled.each { |which, seconds| numbers["#{which}_settled"] = 1000.0 * seconds }
+  numbers.each { |name, number| Report.number("two_rates_#{name}", number) }
+  Report.at_most('two rates: 500 within 2 % after', run.settling('with', 500.0, 10.0, 0.0, 2.0), 0.15, 's')
+  Report.at_most('two rates: peak after the weak supply', peaks['with'], 505.0, 'counts')
+  Report.at_most('two rates: within 2 % after', settled['with'], 0.1, 's')
+  Report.at_least('two rates without flags: peak', peaks['without'], 580.0, 'counts')
+  Report.at_least('two rates: steps of ten in which the last flag hides that others were set',
+                  limited.zip(last).count { |any, one| any.positive? && one.zero? }, 1)
 end
 
-def draw_recipes(cascade, override, ramp, ssr, dead_band, sensor, tune_ssr, retune)
-  plot = Plot.new('recipes', 'Recipes: what is built around a controller', height: 1200, columns: [1.0, 1.0],
-                                                                           rows: [1.0] * 4, gap_y: 0.056,
-                                                                           margins: { top: 0.925, bottom: 0.056 })
-  compare(plot, 0, 0, 'cascade: weak supply from 2000 to 3500', cascade, %w[with without], 'set xrange [1500:6000]')
-  recipe_panel(plot, 0, 1, 'override: filter clogged from 1000 to 2500',
-               [Plot.curve(override, 'pressure_without', 'pressure without track', Plot::GREY),
-                Plot.curve(override, 'pressure', 'pressure, at most 700', Plot::RED),
-                Plot.curve(override, 'flow', 'flow, 600', Plot::BLUE)], 'set yrange [0:950]')
-  compare(plot, 1, 0, 'ramp of the setpoint and a slow valve', ramp, %w[with without], 'set xrange [0:450]')
-  recipe_panel(plot, 1, 1, 'heater behind a solid-state relay',
-               [Plot.curve(ssr, 'value', 'temperature', Plot::RED), Plot.curve(ssr, 'duty', 'duty of 1000', Plot::GREY),
-                Plot.curve(ssr, "(100*column('on'))", 'relay', Plot::BLUE, width: 0.8)], 'set xrange [0:300]', 'set yrange [-20:1450]', 'set key top right')
-  draw_tuning_recipes(plot, tune_ssr, retune)
-  recipe_panel(plot, 3, 0, 'dead band: the valve',
-               [Plot.curve(dead_band, 'valve_without', 'without', Plot::GREY, width: 0.8),
-                Plot.curve(dead_band, 'valve', 'with', Plot::BLUE)], 'set xrange [1000:1990]', 'set yrange [585:615]',
-               "set xlabel 'steps'")
-  recipe_panel(plot, 3, 1, 'broken sensor from 200 to 260 s',
-               [Plot.curve(sensor, 'reading', 'reading', Plot::GREY), Plot.curve(sensor, 'value', 'temperature', Plot::RED),
-                Plot.curve(sensor, 'output', 'drive', Plot::BLUE)], "set xlabel 'time, s'", 'set yrange [-20:1450]', 'set key top right')
+# From one of the two to the other.
+def changes_of_side(run, suffix, from, to)
+  heat, cool = %w[heat cool].map { |name| run.values("#{name}#{suffix}", from, to) }
+  sides = heat.zip(cool).filter_map { |hot, cold| hot.positive? ? 1 : (cold.positive? ? -1 : nil) }
+  sides.each_cons(2).count { |a, b| a != b }
+end
+
+# Only heat from 80 000 s, only cool from 85 000, off from 90 000, both from 95 000. From 40 000
+# to 80 000 the surroundings cross the setpoint 11 times.
+def check_heat_cool(run)
+  changes = { 'with' => '', 'without' => '_without' }.transform_values { |suffix| changes_of_side(run, suffix, 40_000.0, 80_000.0) }
+  changes.each { |which, count| Report.number("heat_cool_#{which}_changes", count) }
+  far = run.values('value', 3600.0, 80_000.0).map { |v| (v - 25.0).abs }
+  Report.number('heat_cool_far', far.max)
+  Report.exactly('heat and cool: steps in which one is on within 60 of the other', run.values('fights').sum, 0.0)
+  Report.exactly('heat and cool: cooler while it only heats', run.values('cool', 80_000.0, 85_000.0).sum, 0.0)
+  Report.exactly('heat and cool: heater while it only cools', run.values('heat', 85_000.0, 90_000.0).sum, 0.0)
+  Report.exactly('heat and cool: both while it is off', run.values('heat', 90_000.0, 95_000.0).sum + run.values('cool', 90_000.0, 95_000.0).sum, 0.0)
+  Report.at_most('heat and cool: farthest from 25 degrees', far.max, 2.0, 'degrees')
+  Report.at_most('heat and cool: off again, on again: within 2 degrees after', run.settling('value', 25.0, 2.0, 95_000.0), 900.0, 's')
+  Report.at_most('heat and cool: changes of side in a calm room', changes['with'], 12)
+  Report.at_least('and without the gap', changes['without'], 50)
+end
+
+# More heat from 10 000 s.
+def check_least_output(run)
+  far = { 'with' => 'value', 'tracked' => 'tracked' }.transform_values { |column| run.values(column, 1000.0).map { |v| (v - 50.0).abs }.max }
+  calm = run.values('value', 1000.0, 10_000.0).map { |v| (v - 50.0).abs }.max
+  far.each { |which, degrees| Report.number("least_output_#{which}_far", degrees) }
+  Report.number('least_output_calm', calm)
+  Report.at_most('least output: farthest from 50 degrees at little heat', calm, 2.0, 'degrees')
+  Report.at_most('least output: farthest when more comes', far['with'], 6.0, 'degrees')
+  Report.at_most('least output: 50 degrees within 1 after', run.settling('value', 50.0, 1.0, 10_000.0), 180.0, 's')
+  Report.at_least('least output, tracked: farthest', far['tracked'], 100.0, 'degrees')
+  Report.at_most('least output: starts of the fan in an hour',
+                 run.values('output', 1000.0, 10_000.0).each_cons(2).count { |a, b| a.zero? && b.positive? } * 0.4, 150)
+end
+
+SOAKS = { 150.0 => 90.0, 220.0 => 40.0 }.freeze # degrees and seconds
+
+def check_ramp_soak(run)
+  SOAKS.each do |degrees, seconds|
+    near = %w[value value_without].map { |column| run.values(column).count { |v| (v - degrees).abs <= 8.0 } }
+    near.zip(%w[with without]) { |count, which| Report.number("ramp_soak_#{which}_#{degrees.to_i}", count) }
+    Report.at_least("ramp and soak: within 8 degrees of #{degrees.to_i} for", near[0], seconds, 's')
+  end
+  Report.at_most('ramp and soak: peak of 220', run.values('value').max, 222.0, 'degrees')
+  Report.at_most('ramp and soak: farthest from the setpoint',
+                 run.values('value').zip(run.values('setpoint')).map { |a, b| (a - b).abs }.max, 11.0, 'degrees')
+  Report.at_most('ramp and soak: at 60 degrees, within 2, after', run.settling('value', 60.0, 2.0), 1100.0, 's')
+  Report.at_most('ramp and soak without hold-back: peak of 220', run.values('value_without').max, 200.0, 'degrees')
+end
+
+def check_angle(run)
+  Report.at_most('angle: -400 within 2 % of the step after', run.settling('value', -400.0, 16.0, 1.0, 2.0), 0.7, 's')
+  Report.at_most('angle: beyond -400', 100.0 * (-400.0 - run.values('value', 1.0).min) / 800.0, 5.0, '%')
+  Report.exactly('angle: outputs that differ at one of 4096 places', run.values('others').sum, 0.0)
+  Report.at_least('angle with fixpid_pid_step: farthest', run.peak('without'), 60_000.0, 'counts')
+end
+
+# The sensor slips off at 400 s and is put back at 700 s; the relay stays on from 1200 s.
+def check_guard(run)
+  off = run.times.zip(run.values('output')).find { |time, output| time > 401.0 && output.zero? }.first - 400.0
+  cut = run.times.zip(run.values('supply')).find { |_, supply| supply.zero? }.first - 1200.0
+  { 'slipped' => [400.0, 1000.0], 'shut' => [1200.0, Float::INFINITY] }.each do |what, (from, to)|
+    { 'with' => 'value', 'without' => 'without' }.each { |which, column| Report.number("guard_#{what}_#{which}", run.values(column, from, to).max) }
+  end
+  Report.number('guard_off_s', off)
+  Report.number('guard_cut_s', cut)
+  Report.at_most('guard: heater off after the sensor slipped', off, 40.0, 's')
+  Report.exactly('guard: output until it is acknowledged', run.values('output', 400.0 + off, 700.0).max, 0.0)
+  Report.at_most('guard: hottest of a setpoint of 60', run.values('value', 400.0, 1000.0).max, 80.0, 'degrees')
+  Report.at_most('guard: acknowledged, 60 within 2 % after', run.settling('value', 60.0, 1.2, 700.0, 1200.0), 400.0, 's')
+  Report.at_most('guard: supply cut after the relay stays on', cut, 60.0, 's')
+  Report.at_most('guard: hottest then', run.values('value', 1200.0).max, 85.0, 'degrees')
+  Report.at_least('without a guard: hottest', run.values('without').max, 110.0, 'degrees')
+end
+
+# A panel: measurements on the left axis; with `output` what drives them on the right one,
+# which has the lowest quarter. `x` and `y` are ranges of what is drawn.
+def recipe_panel(plot, place, title, curves, x, y, labels, output = nil)
+  room = y[1] - y[0]
+  low = output ? y[0] - 0.5 * room : y[0] - 0.05 * room
+  plot.panel(*place, curves + (output ? [output.curve] : []),
+             ["set title '#{title}' font ',11' offset 0,-0.6", 'set key top center vertical maxrows 2',
+              "set xrange [#{x.join(':')}]", "set yrange [#{low}:#{y[1] + 0.45 * room}]",
+              "set xlabel '#{labels[0]}' offset 0,0.4", "set ylabel '#{labels[1]}' offset 0.7,0",
+              *(output ? output.axis : [])])
+end
+
+OutputAxis = Struct.new(:run, :column, :title, :low, :high, :label) do
+  def curve
+    "#{Plot.curve(run, column, title, Plot::OUTPUT, width: 1.0)} axes x1y2"
+  end
+
+  # Zero and the ends have a mark.
+  def axis
+    room = high - low
+    ["set y2range [#{low - 0.1 * room}:#{low + 4.0 * room}]", 'set border 11',
+     "set y2tics (#{[low, 0, high].uniq.join(', ')}) out scale 0.6",
+     "set y2label '#{label}' offset -1,0"]
+  end
+end
+
+STEPS_COUNTS = ['steps', 'counts'].freeze
+SECONDS_COUNTS = ['time, s', 'counts'].freeze
+SECONDS_DEGREES = ['time, s', 'temperature, °C'].freeze
+
+def draw_recipes(runs)
+  rows = (RECIPE_PANELS.size + 1) / 2
+  plot = Plot.new('recipes', 'Recipes: what is built around a controller',
+                  width: 1100, height: 280 * rows, columns: [1.0, 1.0], rows: [1.0] * rows, gap_x: 0.135, gap_y: 0.3 / rows,
+                  margins: { left: 0.07, right: 0.925, top: 1.0 - 0.28 / rows, bottom: 0.19 / rows })
+  RECIPE_PANELS.each_with_index { |name, i| send("draw_#{name}", plot, [i / 2, i % 2], runs.fetch(name)) }
   plot.draw
 end
 
-def draw_tuning_recipes(plot, tune_ssr, retune)
-  recipe_panel(plot, 2, 0, 'a heater tuned behind its solid-state relay',
-               [Plot.curve(tune_ssr, 'setpoint', 'setpoint', Plot::BLACK, style: 'dashtype 2', width: 1.0),
-                Plot.curve(tune_ssr, "(100*column('on'))", 'relay, steps of 10', Plot::BLUE, width: 0.8),
-                Plot.curve(tune_ssr, 'value', 'temperature', Plot::RED)], 'set xrange [0:1499]', 'set yrange [-20:1700]',
-               'set key top right')
-  recipe_panel(plot, 2, 1, 'retuned in operation from 1000, a load from 4000',
-               [Plot.curve(retune, 'whole', 'with the whole range', Plot::GREY),
-                Plot.curve(retune, 'narrow', 'within a fifth', Plot::BLUE),
-                Plot.curve(retune, 'old', 'old gains', Plot::RED, width: 1.0)], 'set xrange [800:5000]', 'set yrange [390:640]',
-               'set key top right')
+# An even number of them.
+RECIPE_PANELS = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retune heat_cool least_output
+                   angle guard dead_band sensor_break].freeze
+
+def with_and_without(run, with = 'with', without = 'without', titles = %w[with without])
+  [Plot.curve(run, without, titles[1], Plot::WITHOUT), Plot.curve(run, with, titles[0], Plot::MEASUREMENT)]
 end
 
-def compare(plot, row, column, title, run, columns, *settings)
-  colors = [Plot::BLUE, Plot::GREY]
-  recipe_panel(plot, row, column, title,
-               columns.each_with_index.map { |name, i| Plot.curve(run, name, name, colors[i]) }.reverse, *settings)
+def draw_cascade(plot, place, run)
+  recipe_panel(plot, place, 'cascade: weak supply from 2000 to 3500', [*with_and_without(run), Plot.setpoint(run)],
+               [1500, 6000], [250, 580], STEPS_COUNTS)
+end
+
+def draw_two_rates(plot, place, run)
+  recipe_panel(plot, place, 'cascade at two rates: weak supply from 2 to 3.5 s', [*with_and_without(run), Plot.setpoint(run)],
+               [1.5, 4.5], [430, 600], ['time, s', 'speed, counts'])
+end
+
+def draw_override(plot, place, run)
+  recipe_panel(plot, place, 'override: filter clogged from 1000 to 2500',
+               [Plot.curve(run, 'pressure_without', 'without', Plot::WITHOUT),
+                Plot.curve(run, 'pressure', 'pressure', Plot::MEASUREMENT), Plot.curve(run, 'flow', 'flow', Plot::SECOND),
+                Plot.setpoint(nil, '600', 'setpoint'),
+                "700 title 'limit' linecolor '#{Plot::LIMIT}' dashtype 3"],
+               [0, 4000], [0, 900], STEPS_COUNTS)
+end
+
+def draw_ramp(plot, place, run)
+  recipe_panel(plot, place, 'ramp of the setpoint and a slow valve', [*with_and_without(run), Plot.setpoint(run)],
+               [0, 450], [0, 720], SECONDS_COUNTS)
+end
+
+def draw_ramp_soak(plot, place, run)
+  recipe_panel(plot, place, 'ramp and soak that waits for the oven',
+               [Plot.curve(run, 'value_without', 'without waiting', Plot::WITHOUT), Plot.curve(run, 'value', 'with', Plot::MEASUREMENT),
+                Plot.setpoint(run)], [0, 1199], [20, 225], SECONDS_DEGREES)
+end
+
+def draw_ssr(plot, place, run)
+  recipe_panel(plot, place, 'heater behind a solid-state relay', [Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [0, 300], [0, 1000], SECONDS_COUNTS, OutputAxis.new(run, 'on', 'relay', 0, 1, 'relay, on is 1'))
+end
+
+def draw_tune_ssr(plot, place, run)
+  recipe_panel(plot, place, 'a heater tuned behind its solid-state relay',
+               [Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [0, 1499], [0, 1300], SECONDS_COUNTS, OutputAxis.new(run, "(10*column('on'))", 'relay', 0, 100, 'relay on, %'))
+end
+
+def draw_retune(plot, place, run)
+  recipe_panel(plot, place, 'retuned in operation from 1000, a load from 4000',
+               [Plot.curve(run, 'whole', 'with the whole range', Plot::SECOND), Plot.curve(run, 'narrow', 'within a fifth', Plot::MEASUREMENT),
+                Plot.curve(run, 'old', 'old gains', Plot::WITHOUT, width: 1.0), Plot.setpoint(nil, '500')],
+               [800, 5000], [405, 575], STEPS_COUNTS)
+end
+
+def draw_heat_cool(plot, place, run)
+  recipe_panel(plot, place, 'heat and cool with a gap, in a calm room',
+               [Plot.curve(run, 'surroundings', 'surroundings', Plot::DISTURBANCE), Plot.curve(run, 'value_without', 'no gap', Plot::WITHOUT, width: 1.0),
+                Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [50_000, 60_000], [24, 26], SECONDS_DEGREES,
+               OutputAxis.new(run, "(10*(column('heat')-column('cool')))", 'power', -100, 100, 'cool and heat, %'))
+end
+
+def draw_least_output(plot, place, run)
+  recipe_panel(plot, place, 'the least output that turns the fan: more heat from 10000 s',
+               [Plot.curve(run, 'tracked', 'with track', Plot::WITHOUT), Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [9000, 11_000], [40, 180], SECONDS_DEGREES, OutputAxis.new(run, "(column('output')/10)", 'fan', 0, 100, 'fan, %'))
+end
+
+def draw_angle(plot, place, run)
+  recipe_panel(plot, place, 'an angle across the end of its counts',
+               [Plot.curve(run, 'without', 'by fixpid_pid_step', Plot::WITHOUT), Plot.curve(run, 'value', 'angle', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [0, 2], [-600, 600], ['time, s', 'angle, counts'], OutputAxis.new(run, "(column('output')/10)", 'drive', -100, 100, 'drive, %'))
+end
+
+def draw_guard(plot, place, run)
+  recipe_panel(plot, place, 'guard: sensor off from 400 to 700 s, relay shut from 1200 s',
+               [Plot.curve(run, 'without', 'without', Plot::WITHOUT), Plot.curve(run, 'reading', 'reading', Plot::SECOND, width: 1.0),
+                Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [300, 1999], [20, 122], SECONDS_DEGREES, OutputAxis.new(run, "(column('output')/2.55)", 'output', 0, 100, 'output, %'))
+end
+
+def draw_dead_band(plot, place, run)
+  recipe_panel(plot, place, 'dead band: the valve',
+               [Plot.curve(run, 'valve_without', 'without', Plot::WITHOUT, width: 0.8), Plot.curve(run, 'with', 'measurement', Plot::MEASUREMENT, width: 3.0),
+                Plot.curve(run, 'valve', 'valve', Plot::OUTPUT), Plot.setpoint(nil, '600')],
+               [1000, 1990], [590, 606], STEPS_COUNTS)
+end
+
+def draw_sensor_break(plot, place, run)
+  recipe_panel(plot, place, 'broken sensor from 200 to 260 s',
+               [Plot.curve(run, 'reading', 'reading', Plot::SECOND), Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [0, 599], [100, 1023], SECONDS_COUNTS, OutputAxis.new(run, "(column('output')/2.55)", 'drive', 0, 100, 'drive, %'))
 end

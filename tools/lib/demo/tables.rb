@@ -165,6 +165,49 @@ module Tables
       table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
     end
 
+    def two_rates
+      numbers = Report.numbers['recipes']
+      rows = { 'without' => 'without flags', 'with' => 'flags collected' }.map do |which, title|
+        peak, settled = %w[peak settled].map { |what| numbers["two_rates_#{which}_#{what}"] }
+        [title, format('%.0f', peak), format('%.0f', settled)]
+      end
+      table('two rates', 'peak of 500 after the weak supply', 'within 2 % after, ms', rows) +
+        "\nIn #{numbers['two_rates_limited']} outer steps the inner loop was at its limit, " \
+        "in #{numbers['two_rates_last']} of them in the last of the ten, too.\n"
+    end
+
+    def heat_cool
+      numbers = Report.numbers['recipes']
+      rows = { 'without' => 'without a gap', 'with' => 'with a gap' }.map do |which, title|
+        [title, numbers["heat_cool_#{which}_changes"]]
+      end
+      table('heat and cool', 'changes between heat and cool while the room crosses the setpoint 11 times', rows)
+    end
+
+    def least_output
+      numbers = Report.numbers['recipes']
+      rows = { 'tracked' => 'told what the fan got', 'with' => 'not told' }.map do |which, title|
+        [title, format('%.1f', numbers["least_output_#{which}_far"])]
+      end
+      table('the controller is', 'farthest from 50 degrees', rows)
+    end
+
+    def ramp_soak
+      numbers = Report.numbers['recipes']
+      rows = { 'without' => 'without waiting', 'with' => 'waiting' }.map do |which, title|
+        [title, *SOAKS.keys.map { |degrees| numbers["ramp_soak_#{which}_#{degrees.to_i}"] }]
+      end
+      table('ramp and soak', *SOAKS.map { |degrees, seconds| "within 8 degrees of #{degrees.to_i}, #{seconds.to_i} s wanted" }, rows)
+    end
+
+    def guard
+      numbers = Report.numbers['recipes']
+      rows = { 'slipped' => 'the sensor slips off', 'shut' => 'the relay stays on' }.map do |what, title|
+        [title, *%w[without with].map { |which| format('%.0f', numbers["guard_#{what}_#{which}"]) }]
+      end
+      table('setpoint 60 degrees', 'hottest without a guard', 'with', rows)
+    end
+
     def behind_tpo
       numbers = Report.numbers['recipes']
       rows = { 'direct' => 'direct', 'tpo' => '`fixpid_tpo`' }.map do |way, title|

@@ -173,7 +173,7 @@ end
 
 def grey(number, stretch, top)
   "set object #{number} rectangle from #{stretch.from}, graph 0 to " \
-    "#{stretch.to}, graph #{top} behind fillcolor '#E8E8E8' fillstyle " \
+    "#{stretch.to}, graph #{top} behind fillcolor '#{Plot::AREA}' fillstyle " \
     'solid noborder'
 end
 
@@ -190,10 +190,9 @@ end
 
 def thermostat_temperature(plot, run)
   plot.panel(0, 0,
-             [Plot.curve(run, 'temperature_c', 'temperature', Plot::BLUE,
+             [Plot.curve(run, 'temperature_c', 'temperature', Plot::MEASUREMENT,
                          width: 2.2),
-              Plot.curve(run, 'setpoint_c', 'setpoint', Plot::BLACK,
-                         style: 'dashtype 2', width: 1.2)],
+              Plot.setpoint(run, 'setpoint_c')],
              [*stretches(1), *story, *key_between('vertical'), "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:110]', 'set ytics 20', *y_label(0, 'temperature, °C')])
 end
@@ -202,8 +201,8 @@ def thermostat_drive(plot, run)
   limit = "(column('selector') == 3 ? 12.5 : 100)"
   plot.panel(1, 0,
              [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
-                         Plot::PURPLE),
-              Plot.curve(run, limit, 'limit', Plot::BLACK, style: 'dashtype 3',
+                         Plot::OUTPUT),
+              Plot.curve(run, limit, 'limit', Plot::LIMIT, style: 'dashtype 3',
                                                            width: 1.2)],
              [*stretches(1), *key_between, "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:130]', 'set ytics 50', *y_label(0, 'drive, %')])

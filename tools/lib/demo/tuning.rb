@@ -96,8 +96,8 @@ end
 # Angle on the left and base on the right, each in its color and with one scale
 # for all panels.
 def stage_panel(plot, row, column, stage, run)
-  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::BLUE, every: 4),
-            "#{Plot.curve(run, 'base_m', 'base', Plot::RED, every: 4)} " \
+  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::MEASUREMENT, every: 4),
+            "#{Plot.curve(run, 'base_m', 'base', Plot::SECOND, every: 4)} " \
             'axes x1y2']
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{stage.setting}}\\n#{stage.title}\"",
@@ -108,11 +108,11 @@ def stage_panel(plot, row, column, stage, run)
 end
 
 def stage_axes(column)
-  blue, red = [Plot::BLUE, Plot::RED].map { |color| "textcolor '#{color}'" }
+  left_color, right_color = [Plot::MEASUREMENT, Plot::SECOND].map { |color| "textcolor '#{color}'" }
   left = column.zero?
   right = column == 2
-  ["set ytics 10 #{blue} #{"format ''" unless left}",
-   "set y2tics 1 out scale 0.6 #{red} #{"format ''" unless right}",
-   *(left ? ["set ylabel 'angle, degrees' #{blue}"] : []),
-   *(right ? ["set y2label 'base at, m' #{red}"] : [])]
+  ["set ytics 10 #{left_color} #{"format ''" unless left}",
+   "set y2tics 1 out scale 0.6 #{right_color} #{"format ''" unless right}",
+   *(left ? ["set ylabel 'angle, degrees' #{left_color}"] : []),
+   *(right ? ["set y2label 'base at, m' #{right_color}"] : [])]
 end

@@ -11,8 +11,8 @@ require_relative '../demo/plot'
 class Picture
   Dot = Struct.new(:title, :most, :found, :kind)
 
-  OURS = Plot::BLUE
-  NOTE = Plot::RED
+  OURS = Plot::MEASUREMENT
+  NOTE = Plot::WITHOUT
   PEER = '#555555'
   # Columns of panels: chip, build, and its title.
   COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles'],
