@@ -11,6 +11,7 @@
 //   replay tpo FILE
 //   replay guard FILE
 //   replay gains FILE
+//   replay table FILE
 //
 // Exit status: 0 no row differs, 1 some do, 2 the file or the call is wrong,
 // 77 the library was built with other limits than the recording, or without
@@ -26,6 +27,7 @@
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_slew.h"
+#include "fixpid_table.h"
 #include "fixpid_tpo.h"
 #include "vectors_pid.h"
 
@@ -156,6 +158,10 @@ enum {
     GAINS_KD_BACK,
     GAINS_COLUMNS
 };
+
+// Columns of table.csv, and its kinds of rows.
+enum { TABLE, TABLE_KIND, TABLE_X, TABLE_Y, TABLE_COLUMNS };
+enum { TABLE_POINT, TABLE_VERDICT, TABLE_LOOKUP };
 
 // What was called before the row's step of a slew, a tpo or a guard.
 enum {
@@ -462,6 +468,33 @@ static bool gains_row_is_same(const int32_t at[], bool fresh)
     return equal;
 }
 
+static bool table_row_is_same(const int32_t at[], bool fresh)
+{
+    static struct fixpid_table_point points[255];
+    static struct fixpid_table table = {points, 0};
+    const int32_t x = at[TABLE_X];
+    const int32_t y = at[TABLE_Y];
+
+    if (fresh) {
+        table.count = 0;
+    }
+    switch (at[TABLE_KIND]) {
+    case TABLE_POINT:
+        points[table.count].x = (int16_t)x;
+        points[table.count].y = (int16_t)y;
+        table.count++;
+        return true;
+    case TABLE_VERDICT:
+        return same("count", x, table.count) &&
+               same("valid", y, fixpid_table_valid(&table));
+    case TABLE_LOOKUP:
+        return same("y", y, fixpid_table_at(&table, (int16_t)x));
+    default:
+        stop("has an unknown kind");
+    }
+    return false;
+}
+
 // The rows of fixpid_pid and of what folds its gains need all of its features,
 // but for tracking.
 #if (FIXPID_PID_FEATURES | FIXPID_PID_HAS_TRACK) == FIXPID_PID_ALL
@@ -728,7 +761,10 @@ int main(int argc, char *argv[])
     if (argc == 3 && strcmp(argv[1], "gains") == 0) {
         return replay("gains", 1000, GAINS_COLUMNS, gains_row_is_same);
     }
+    if (argc == 3 && strcmp(argv[1], "table") == 0) {
+        return replay("table", 800, TABLE_COLUMNS, table_row_is_same);
+    }
     fprintf(stderr, "usage: replay an937|an964|pid|track|step_error|slew|tpo|"
-                    "guard|gains FILE\n");
+                    "guard|gains|table FILE\n");
     return EXIT_WRONG_FILE;
 }

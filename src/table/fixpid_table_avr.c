@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "fixpid_table.h"
+
+// This file is empty for other chips. The points are read as words of the lower
+// 64 KiB of flash: `__flash`, which reads them too, is no word of C++ and C99.
+#if defined(__AVR__)
+#include <avr/pgmspace.h>
+
+#define VALID fixpid_table_valid_P
+#define AT fixpid_table_at_P
+#define READ(value) ((int16_t)pgm_read_word(&(value)))
+#include "fixpid_table_text.h"
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The functions VALID and AT, over READ, which reads a member of a point. An
+// AVR has them twice, so that this file has no include guard.
+#include "fixpid_table_arith.h"
+
+bool VALID(const struct fixpid_table *self)
+{
+    uint8_t i;
+
+    FIXPID_ASSERT(self != 0);
+    if (self->count < 2u) {
+        return false;
+    }
+    for (i = 1; i < self->count; i++) {
+        if (READ(self->points[i - 1u].x) >= READ(self->points[i].x)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The search keeps points[low].x <= x < points[high].x, even if the points
+// between are not in order: the run is never 0. At most 253 points are between
+// the first and the last one, and none after eight halvings.
+int16_t AT(const struct fixpid_table *self, int16_t x)
+{
+    const struct fixpid_table_point *points;
+    uint8_t low = 0;
+    uint8_t high;
+    uint8_t turn;
+    int16_t x0;
+
+    FIXPID_ASSERT(self != 0);
+    points = self->points;
+    if (self->count == 0u) {
+        return 0;
+    }
+    high = (uint8_t)(self->count - 1u);
+    if (x <= READ(points[0].x)) {
+        return READ(points[0].y);
+    }
+    if (x >= READ(points[high].x)) {
+        return READ(points[high].y);
+    }
+    for (turn = 8; turn != 0u; turn--) {
+        const uint8_t middle = (uint8_t)(low + ((uint8_t)(high - low) >> 1));
+
+        if (middle == low) {
+            break;
+        }
+        if (x < READ(points[middle].x)) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    x0 = READ(points[low].x);
+    return between(READ(points[low].y), READ(points[high].y), less(x, x0),
+                   less(READ(points[high].x), x0));
+}
+
+#undef VALID
+#undef AT
+#undef READ
