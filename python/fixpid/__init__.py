@@ -233,6 +233,23 @@ for _name in dir(lib):
                                              {"__doc__": f"fixpid_{_noun}.h."}, noun=_noun)
 
 
+class Table:
+    """A curve from points: fixpid_table.h. `points` are pairs (x, y) of integers, whose x rise."""
+
+    def __init__(self, points):
+        self.points = tuple((operator.index(x), operator.index(y)) for x, y in points)
+        self._points = ffi.new("struct fixpid_table_point[]", self.points)
+        self.c = _new("table", {"points": self._points, "count": len(self.points)})
+        _accept(lib.fixpid_table_valid(self.c), "a table of fewer than 2 points, or whose x do not rise,")
+
+    def at(self, x):
+        """The curve at x; of an array, an array."""
+        if isinstance(x, numpy.ndarray):
+            flat = numpy.fromiter(map(self.at, _counts(x).ravel().tolist()), "int16", x.size)
+            return flat.reshape(x.shape)
+        return lib.fixpid_table_at(self.c, operator.index(x))
+
+
 def sat16(value):
     """A number of 32 bits, limited to -32768..32767: a setpoint or a measurement."""
     return lib.fixpid_sat16(operator.index(value))

@@ -42,15 +42,18 @@ def compiled(lines, body):
         return subprocess.check_output([program], text=True) if done.returncode == 0 else None
 
 
+TABLE = "fixpid_table_valid", "fixpid_table_at"  # what the class Table asks
+
+
 def every_function_has_a_method():
     nouns = {noun._noun: noun for noun in fixpid._Noun.__subclasses__()}
-    modules = "record", "gains", "sat16"
+    modules = "record", "gains", "sat16", "table"
     lost = []
     for name in (name for name in dir(fixpid.lib) if name.startswith("fixpid_")):
         verbs = [name[len(f"fixpid_{noun}_"):] for noun in nouns
                  if name.startswith(f"fixpid_{noun}_") and
                  hasattr(nouns[noun], name[len(f"fixpid_{noun}_"):])]
-        if not verbs and not (name.split("_")[1] in modules and hasattr(fixpid, name[7:])):
+        if not verbs and not (name.split("_")[1] in modules and (hasattr(fixpid, name[7:]) or name in TABLE)):
             lost.append(name)
     assert len(dir(fixpid.lib)) > 100 and not lost, lost
 
@@ -127,6 +130,20 @@ def guard_sees_a_heater_that_does_not_heat():
     assert flags[:-1].max() == 0 and flags[-1] == fixpid.GUARD_NOT_RISING
     guard.acknowledge()
     assert guard.flags() == 0
+
+
+def table_has_the_lines_of_its_points():
+    table = fixpid.Table([(0, 0), (2, -1), (3, 50)])
+    assert [table.at(x) for x in (-9, 0, 1, 2, 3, 9)] == [0, 0, 0, -1, 50, 50]
+    assert table.at(numpy.array([[1, 2], [3, 4]])).tolist() == [[0, -1], [50, 50]]
+    assert table.points == ((0, 0), (2, -1), (3, 50))
+    assert refuses(ValueError, fixpid.Table, [])
+    assert refuses(ValueError, fixpid.Table, [(0, 0)])
+    assert refuses(ValueError, fixpid.Table, [(0, 0), (0, 1)])
+    assert refuses(OverflowError, fixpid.Table, [(0, 0), (40000, 1)])
+    assert refuses(OverflowError, fixpid.Table, [(x, x) for x in range(256)])
+    assert refuses(OverflowError, table.at, 32768)
+    assert refuses(TypeError, table.at, 0.5)
 
 
 def records_come_back():
@@ -249,6 +266,7 @@ def code_of_the_page_runs():
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
+         table_has_the_lines_of_its_points,
          records_come_back, autotune_finds_gains,
          autotune_says_what_to_do, experiments_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)

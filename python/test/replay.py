@@ -165,6 +165,18 @@ def guard_row(guard, at, _):
     yield at["flags"], flags
 
 
+def table_row(points, at, fresh):
+    """A table's points come first, then its verdict, then what it gives."""
+    if fresh:
+        points.clear()
+    if at["kind"] == 0:
+        points.append((at["x"], at["y"]))
+    elif at["kind"] == 1:
+        yield [at["x"], at["y"]], [len(points), accepted(fixpid.Table, points)]
+    elif len(points) > 1:  # the class refuses the others, to which C gives answers
+        yield at["y"], fixpid.Table(points).at(at["x"])
+
+
 def gains_row(_, at, __):
     try:
         gains = fixpid.gains_from_milli(at["kp_milli"], at["ki_milli"], at["kd_milli"],
@@ -260,6 +272,7 @@ FILES = (
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
     ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
     ("gains", 1000, lambda: None, gains_row),
+    ("table", 800, list, table_row),
     ("autotune", 317, lambda: fixpid.Autotune(output_max=1, measurement_max=1, timeout_steps=2,
                                               cycles=1), autotune_row),
     ("autotune_records", 41, lambda: None, autotune_record_row),

@@ -2,7 +2,6 @@
 // The arithmetic of fixpid_table.
 #ifndef FIXPID_TABLE_ARITH_H
 #define FIXPID_TABLE_ARITH_H
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "../common/fixpid_bits.h"
@@ -11,12 +10,11 @@
 #include "fixpid_table_narrow.h"
 #else
 
-// floor((rise * part + half) / run). pre: part < run, half < run; post:
-// 0..rise. The sum is at most 65535 * 65534 + 32767 < 2^32.
-FIXPID_INLINE uint16_t share(uint16_t rise, uint16_t part, uint16_t run,
-                             uint16_t half)
+// floor(rise * part / run + 1/2). pre: part <= run, 1 <= run; post: 0..rise.
+// The sum is at most 65535 * 65535 + 32767 < 2^32.
+FIXPID_INLINE uint16_t share(uint16_t rise, uint16_t part, uint16_t run)
 {
-    return (uint16_t)((((uint32_t)rise * part) + half) / run);
+    return (uint16_t)((((uint32_t)rise * part) + (uint16_t)(run >> 1)) / run);
 }
 
 #endif
@@ -27,23 +25,22 @@ FIXPID_INLINE uint16_t less(int16_t high, int16_t low)
     return (uint16_t)((uint16_t)high - (uint16_t)low);
 }
 
-// The height at `part` of the `run` from y0 to y1, rounded half up: on a
-// falling line, a half makes the share smaller. pre: part < run; post: between
-// y0 and y1
+// The height at `part` of the `run` from y0 to y1, rounded half up. A line that
+// falls is one that rises from its other end. pre: part < run; post: between y0
+// and y1
 FIXPID_INLINE int16_t between(int16_t y0, int16_t y1, uint16_t part,
                               uint16_t run)
 {
-    uint16_t rise;
-    uint16_t moved;
+    int16_t low = y0;
+    int16_t high = y1;
+    uint16_t at = part;
 
     if (y1 < y0) {
-        rise = less(y0, y1);
-        moved = share(rise, part, run, (uint16_t)((uint16_t)(run - 1u) >> 1));
-        return (int16_t)(uint16_t)((uint16_t)y0 - moved);
+        low = y1;
+        high = y0;
+        at = (uint16_t)(run - part);
     }
-    rise = less(y1, y0);
-    moved = share(rise, part, run, (uint16_t)(run >> 1));
-    return (int16_t)(uint16_t)((uint16_t)y0 + moved);
+    return (int16_t)(uint16_t)((uint16_t)low + share(less(high, low), at, run));
 }
 
 #endif

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Random arguments of fixpid_slew, fixpid_tpo, fixpid_guard and fixpid_gains:
-// legal ones, their ends often, and a few that are not.
+// Random arguments of fixpid_slew, fixpid_tpo, fixpid_guard, fixpid_gains and
+// fixpid_table: legal ones, their ends often, and a few that are not.
 #ifndef NUMBERS_CONTROL_H
 #define NUMBERS_CONTROL_H
 #include "fixpid_gains.h"
 #include "fixpid_guard.h"
+#include "fixpid_table.h"
 #include "fixpid_tpo.h"
 
 // True once in `count` times.
@@ -38,5 +39,12 @@ void numbers_guard_move(struct numbers_guard *now,
 void numbers_gains_milli(struct fixpid_gains_milli *milli);
 uint32_t numbers_gains_rate(void);
 uint8_t numbers_gains_filter(void);
+
+// `most` points or fewer, nearly always in order. pre: most <= 255
+uint8_t numbers_table_points(struct fixpid_table_point points[], uint8_t most);
+
+// Where that table is looked up: at its points, near them, and elsewhere.
+int16_t numbers_table_x(const struct fixpid_table_point points[],
+                        uint8_t count);
 
 #endif

@@ -348,3 +348,44 @@ bool reference_gains_to_milli(struct fixpid_gains_milli *milli,
     milli->kd = (uint32_t)kd;
     return true;
 }
+
+bool reference_table_valid(const struct fixpid_table *self)
+{
+    for (int i = 1; i < self->count; i++) {
+        if (self->points[i].x <= self->points[i - 1].x) {
+            return false;
+        }
+    }
+    return self->count >= 2;
+}
+
+static int64_t floor_of(int64_t dividend, int64_t divisor)
+{
+    const int64_t quotient = dividend / divisor;
+
+    return quotient * divisor > dividend ? quotient - 1 : quotient;
+}
+
+int64_t reference_table_at(const struct fixpid_table *self, int64_t x)
+{
+    const struct fixpid_table_point *const p = self->points;
+    int i = 0;
+
+    while (i < self->count && p[i].x <= x) {
+        i++;
+    }
+    if (self->count == 0) {
+        return 0;
+    }
+    if (i == 0 || i == self->count) {
+        return p[i == 0 ? 0 : i - 1].y;
+    }
+    // floor(a / b + 1/2) = floor((2 a + b) / (2 b))
+    {
+        const int64_t run = (int64_t)p[i].x - p[i - 1].x;
+        const int64_t rise = (int64_t)p[i].y - p[i - 1].y;
+
+        return p[i - 1].y +
+               floor_of(2 * rise * (x - p[i - 1].x) + run, 2 * run);
+    }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The definitions of fixpid_slew, fixpid_tpo, fixpid_guard and fixpid_gains in
-// 64-bit arithmetic. Recorded rows, random calls and chips compare with them.
+// The definitions of fixpid_slew, fixpid_tpo, fixpid_guard, fixpid_gains and
+// fixpid_table in 64-bit arithmetic. Recorded rows, random calls and chips
+// compare with them.
 #ifndef REFERENCE_CONTROL_H
 #define REFERENCE_CONTROL_H
 #include <stdbool.h>
@@ -8,6 +9,7 @@
 
 #include "fixpid_gains.h"
 #include "fixpid_guard.h"
+#include "fixpid_table.h"
 #include "fixpid_tpo.h"
 
 struct reference_slew {
@@ -59,5 +61,9 @@ bool reference_gains_from_milli(struct fixpid_pid_gains *gains,
 bool reference_gains_to_milli(struct fixpid_gains_milli *milli,
                               const struct fixpid_pid_gains *gains,
                               int64_t rate_milli);
+
+bool reference_table_valid(const struct fixpid_table *self);
+// pre: it is valid, or has one point or none
+int64_t reference_table_at(const struct fixpid_table *self, int64_t x);
 
 #endif

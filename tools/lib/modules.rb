@@ -46,6 +46,14 @@ module Modules
       calls: [{ calls: 2000, functions: { 'fixpid_gains_from_milli' => 'from_milli', 'fixpid_gains_to_milli' => 'to_milli' },
                 turns: { 'scaled' => 33, 'fixpid_gains_from_milli' => 8, 'fixpid_gains_to_milli' => 8 } }]
     },
+    'table' => {
+      title: 'Table', what: 'A curve from points, with straight lines between them',
+      fuzz: [20_000, 512],
+      rows: %w[kind:uint8_t x:int16_t y:int16_t],
+      # Its search, product and division count a constant down.
+      calls: [{ calls: 5000, functions: { 'fixpid_table_at' => 'at' }, without: /_avr\.o\z/ },
+              { calls: 5000, functions: { 'fixpid_table_at_P' => 'at, in flash' }, without: /_fixpid_table\.o\z/, kinds: %i[avr] }]
+    },
     'record' => {
       title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',
       fuzz: [20_000, 256],

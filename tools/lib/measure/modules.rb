@@ -8,8 +8,9 @@ require_relative 'meters'
 # program of test/chips/modules makes all recorded and many random calls of them.
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
+# Objects that match `without` are left out where their flash is counted.
 # On a PIC, `by_name` is measured in object mode, for its one object.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name, :part,
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name, :part, :without,
                           keyword_init: true) do
   # The name of calls_x.c and of its recorded rows: the module's, or that of a part.
   def caller
@@ -222,7 +223,7 @@ class ModuleAvrMeter < ModuleMeter
   end
 
   def flash
-    @objects.sum { |object| Host.output("#{tools}-size", object).lines.last.split.first.to_i }
+    @objects.reject { |object| @called.without&.match?(object) }.sum { |object| Host.output("#{tools}-size", object).lines.last.split.first.to_i }
   end
 
   def instance
