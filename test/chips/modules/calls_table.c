@@ -4,6 +4,7 @@
 #include "numbers.h"
 #include "numbers_control.h"
 #include "rows_table.h"
+#include "table_in_flash.h"
 
 #ifdef CALLS_DEFINED
 #include "reference_control.h"
@@ -15,13 +16,6 @@ enum { POINT, VERDICT, LOOKUP };
 
 static struct fixpid_table_point points[POINTS];
 static struct fixpid_table table = {points, 0};
-
-#ifdef __AVR__
-#include <avr/pgmspace.h>
-#else
-#define PROGMEM
-#define fixpid_table_at_P fixpid_table_at
-#endif
 
 // Points in flash, where an AVR reads them in another way: its runs and rises
 // go up to the longest.

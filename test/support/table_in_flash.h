@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The functions for points in PROGMEM. Where there is one kind of memory, they
+// are those for any points.
+#ifndef TABLE_IN_FLASH_H
+#define TABLE_IN_FLASH_H
+
+#ifdef __AVR__
+#include <avr/pgmspace.h>
+#else
+#define PROGMEM
+#define fixpid_table_at_P fixpid_table_at
+#define fixpid_table_valid_P fixpid_table_valid
+#endif
+
+#endif
