@@ -6,8 +6,10 @@
 #if defined(__AVR__)
 #include <avr/pgmspace.h>
 
-#define VALID fixpid_table_valid_P
-#define AT fixpid_table_at_P
+#define fixpid_table_valid fixpid_table_valid_P
+#define fixpid_table_at fixpid_table_at_P
 #define READ(value) ((int16_t)pgm_read_word(&(value)))
 #include "fixpid_table_text.h"
+#undef fixpid_table_valid
+#undef fixpid_table_at
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The functions VALID and AT, over READ, which reads a member of a point. An
-// AVR has them twice, so that this file has no include guard.
+// Both functions, over READ, which reads a member of a point. An AVR has them
+// twice, so that this file has no include guard.
 #include "fixpid_table_arith.h"
 
-bool VALID(const struct fixpid_table *self)
+bool fixpid_table_valid(const struct fixpid_table *self)
 {
     uint8_t i;
 
@@ -22,7 +22,7 @@ bool VALID(const struct fixpid_table *self)
 // The search keeps points[low].x <= x < points[high].x, even if the points
 // between are not in order: the run is never 0. At most 253 points are between
 // the first and the last one, and none after eight halvings.
-int16_t AT(const struct fixpid_table *self, int16_t x)
+int16_t fixpid_table_at(const struct fixpid_table *self, int16_t x)
 {
     const struct fixpid_table_point *points;
     uint8_t low = 0;
@@ -59,6 +59,4 @@ int16_t AT(const struct fixpid_table *self, int16_t x)
                    less(READ(points[high].x), x0));
 }
 
-#undef VALID
-#undef AT
 #undef READ

@@ -65,7 +65,7 @@ void test_at_is_each_recorded_row(void)
     int32_t last = 0;
     unsigned rows = 0;
 
-    vectors_open("table");
+    VECTORS_OPEN(table);
     while (vectors_next(row)) {
         rows++;
         if (row[TABLE] != last) {
