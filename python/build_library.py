@@ -14,9 +14,10 @@ from cffi import FFI
 
 INCLUDE = os.path.join("..", "include")
 SOURCE = os.path.join("..", "src")
+TUNER = os.path.join("..", "sim", "tuner")  # the search for a table's points
 NUMBER = re.compile(r"(?:UINT32_C\()?(?:0x[0-9A-F]+|\d+)[uUlL]*\)?|UINT32_MAX")
 
-HEADERS = sorted(glob.glob(os.path.join(INCLUDE, "*.h")))
+HEADERS = sorted(glob.glob(os.path.join(INCLUDE, "*.h"))) + [os.path.join(TUNER, "fit.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in HEADERS)
 
 
@@ -25,7 +26,8 @@ def preprocessed(*options):
     with tempfile.TemporaryDirectory() as empty:
         for name in ("limits", "stdbool", "stddef", "stdint"):
             open(os.path.join(empty, name + ".h"), "w").close()
-        command = [os.environ.get("CC", "cc"), "-E", "-P", "-nostdinc", "-I", INCLUDE, "-I", empty]
+        command = [os.environ.get("CC", "cc"), "-E", "-P", "-nostdinc", "-I", INCLUDE, "-I", TUNER,
+                   "-I", empty]
         return subprocess.run(command + list(options) + ["-x", "c", "-"], input=TEXT, check=True,
                               stdout=subprocess.PIPE, universal_newlines=True).stdout
 
@@ -44,5 +46,5 @@ def beside(name):
 
 ffi = FFI()
 ffi.cdef(declarations())
-ffi.set_source("fixpid._library", TEXT, sources=beside("*/*.c"), depends=beside("**/*.h") + HEADERS,
-               include_dirs=[INCLUDE], extra_compile_args=["-std=c99"])
+ffi.set_source("fixpid._library", TEXT, sources=beside("*/*.c") + [os.path.join(TUNER, "fit.c")],
+               depends=beside("**/*.h") + HEADERS, include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])

@@ -17,6 +17,7 @@ keywords. What each of them means is in the header.
 import enum
 import math
 import operator
+import textwrap
 
 import numpy
 
@@ -236,18 +237,51 @@ for _name in dir(lib):
 class Table:
     """A curve from points: fixpid_table.h. `points` are pairs (x, y) of integers, whose x rise."""
 
+    error = None  # where `table` has found the points: the worst one, in counts
+
     def __init__(self, points):
         self.points = tuple((operator.index(x), operator.index(y)) for x, y in points)
         self._points = ffi.new("struct fixpid_table_point[]", self.points)
-        self.c = _new("table", {"points": self._points, "count": len(self.points)})
-        _accept(lib.fixpid_table_valid(self.c), "a table of fewer than 2 points, or whose x do not rise,")
+        self._table = _new("table", {"points": self._points, "count": len(self.points)})
+        _accept(lib.fixpid_table_valid(self._table), "a table of fewer than 2 points, or whose x do not rise,")
 
     def at(self, x):
         """The curve at x; of an array, an array."""
         if isinstance(x, numpy.ndarray):
             flat = numpy.fromiter(map(self.at, _counts(x).ravel().tolist()), "int16", x.size)
             return flat.reshape(x.shape)
-        return lib.fixpid_table_at(self.c, operator.index(x))
+        return lib.fixpid_table_at(self._table, operator.index(x))
+
+    def c(self, name):
+        """The table in C: the array, and what fixpid_table_at takes."""
+        points = textwrap.wrap(", ".join(f"{{{x},_{y}}}" for x, y in self.points), 76)
+        error = "" if self.error is None else f", within {self.error:.4g} counts"
+        return "\n".join([
+            f"// {len(self.points)} points for {self.points[0][0]} to {self.points[-1][0]}{error}.",
+            f"// On an AVR write PROGMEM after {name}_points[], and call fixpid_table_at_P.",
+            f"static const struct fixpid_table_point {name}_points[] = {{",
+            *(f"    {line.replace('_', ' ')}" for line in points), "};",
+            f"static const struct fixpid_table {name} = FIXPID_TABLE({name}_points);", ""])
+
+
+def table(function, first, last, points=None, error=None):
+    """The Table that follows a function best: 16 points, so many, or as few as an error allows.
+
+    `function(x)` is the value in counts, as a float, for all whole x from first to last. The
+    result's `error` is the largest distance from it over all of them. The points need not lie on
+    the function. ValueError where no table of 255 points does it, or a value is not of 16 bits.
+    """
+    first, last = operator.index(first), operator.index(last)
+    _accept(-32768 <= first < last <= 32767, "first or last")
+    _accept(points is None or error is None, "points together with an error")
+    fit = ffi.new("struct fit *", {"first": first, "last": last})
+    fit.f[0:last - first + 1] = [float(function(x)) for x in range(first, last + 1)]
+    _accept(lib.fit_within(fit, error) if error is not None
+            else lib.fit_least(fit, 16 if points is None else operator.index(points)),
+            "a table of 2 to 255 points for this function and this error")
+    found = Table((point.x, point.y) for point in fit.points[0:fit.count])
+    found.error = fit.error
+    return found
 
 
 def sat16(value):

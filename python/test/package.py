@@ -6,6 +6,7 @@
 
 Prints `ok NAME` or `FAILED NAME` and why.
 """
+import math
 import os
 import random
 import re
@@ -21,10 +22,10 @@ INCLUDE, README = sys.argv[1:]
 CONFIG = {"gains": fixpid.pid_gains(kp=2, ki=0.5, kd=1.5, rate=10, filter=2), "output_max": 255}
 
 
-def refuses(error, call, *arguments, **fields):
+def refuses(what, call, *arguments, **fields):
     try:
         call(*arguments, **fields)
-    except error:
+    except what:
         return True
     return False
 
@@ -144,6 +145,106 @@ def table_has_the_lines_of_its_points():
     assert refuses(OverflowError, fixpid.Table, [(x, x) for x in range(256)])
     assert refuses(OverflowError, table.at, 32768)
     assert refuses(TypeError, table.at, 0.5)
+
+
+def ntc(bits, scale):
+    """10k, B 3950, below 10k to the supply: 0..150 degrees over the counts of a converter."""
+    def celsius(count):
+        ratio = (count + 0.5) / 2**bits
+        return 1 / (1 / 298.15 + math.log(ratio / (1 - ratio)) / 3950) - 273.15
+    inside = [count for count in range(2**bits) if 0 <= celsius(count) <= 150]
+    return lambda count: celsius(count) * scale, inside[0], inside[-1]
+
+
+# Type K in mV, NIST Monograph 175: above 0 with an exponential.
+K_ABOVE = (-0.176004136860E-01, 0.389212049750E-01, 0.185587700320E-04, -0.994575928740E-07,
+           0.318409457190E-09, -0.560728448890E-12, 0.560750590590E-15, -0.320207200030E-18,
+           0.971511471520E-22, -0.121047212750E-25)
+K_BELOW = (0, 0.394501280250E-01, 0.236223735980E-04, -0.328589067840E-06, -0.499048287770E-08,
+           -0.675090591730E-10, -0.574103274280E-12, -0.310888728940E-14, -0.104516093650E-16,
+           -0.198892668780E-19, -0.163226974860E-22)
+
+
+def type_k_mv(celsius):
+    value = 0
+    for factor in reversed(K_ABOVE if celsius >= 0 else K_BELOW):
+        value = value * celsius + factor
+    bump = 0.1185976 * math.exp(-0.1183432E-3 * (celsius - 126.9686) ** 2)
+    return value + (bump if celsius >= 0 else 0)
+
+
+def type_k(low, high):
+    """Tenths of degrees over counts of 2 uV, by Newton from one count to the next."""
+    first, last = math.ceil(type_k_mv(low) * 500), math.floor(type_k_mv(high) * 500)
+    tenths, celsius = {}, float(low)
+    for count in range(first, last + 1):
+        step = 1
+        while abs(step) > 1e-6:
+            slope = (type_k_mv(celsius + 1e-3) - type_k_mv(celsius - 1e-3)) / 2e-3
+            step = (count / 500 - type_k_mv(celsius)) / slope
+            celsius += step
+        tenths[count] = celsius * 10
+    return tenths.__getitem__, first, last
+
+
+# What is reached with 8, 16 and 24 points at most, in counts.
+SENSORS = ((ntc(10, 100), (57.15, 14.65, 6.28)), (ntc(10, 10), (6.01, 1.84, 1.09)),
+           (ntc(12, 100), (56.24, 14.28, 6.56)), (ntc(12, 10), (6.02, 1.821, 1.08)),
+           (type_k(0, 1372), (5.84, 1.75, 1.09)), (type_k(-200, 1372), (16.3, 4.11, 2.01)))
+
+
+def value(points, x):
+    """The definition, in Python's own integers."""
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if x <= x1:
+            return y0 + (2 * (y1 - y0) * (x - x0) + x1 - x0) // (2 * (x1 - x0))
+    raise AssertionError(x)
+
+
+def tables_follow_sensors():
+    assert [round(type_k_mv(celsius), 4) for celsius in (100, 1000)] == [4.0962, 41.2756]
+    for (function, first, last), most in SENSORS:
+        for points, error in zip((8, 16, 24), most):
+            found = fixpid.table(function, first, last, points=points)
+            worst = max(abs(value(found.points, x) - function(x)) for x in range(first, last + 1))
+            assert found.error == worst <= error, (first, last, points, found.error, worst)
+            assert len(found.points) <= points and found.points[0][0] == first
+            assert found.points[-1][0] == last and found.at(last) == found.points[-1][1]
+    for function, first, last in SENSORS[0][0], SENSORS[2][0]:
+        found = fixpid.table(function, first, last, error=10)  # 0.1 degrees
+        assert found.error <= 10 and len(found.points) <= 20, (found.error, len(found.points))
+
+
+def tables_of_few_points():
+    line = fixpid.table(lambda x: 3 * x - 7, -100, 100)
+    assert line.points[0] == (-100, -307) and line.points[-1] == (100, 293) and line.error == 0
+    assert len(fixpid.table(lambda x: 3 * x - 7, -100, 100, error=0).points) == 2
+    jump = fixpid.table(lambda x: 500 if x > 3 else -500, -32768, 32767, error=0)
+    assert jump.points == ((-32768, -500), (3, -500), (4, 500), (32767, 500)), jump.points
+    whole = fixpid.table(lambda x: x, -32768, 32767, points=2)
+    assert whole.points == ((-32768, -32768), (32767, 32767)) and whole.error == 0
+    assert len(fixpid.table(lambda x: x * x, 0, 100).points) == 16  # if nothing else is said
+    ends = fixpid.table(lambda x: 32767.4, 0, 1, points=2)
+    assert ends.points == ((0, 32767), (1, 32767)) and abs(ends.error - 0.4) < 1e-9
+    for wrong in ({"points": 1}, {"points": 256}, {"error": -1}, {"error": math.nan},
+                  {"points": 2, "error": 2}):
+        assert refuses(ValueError, fixpid.table, float, 0, 9, **wrong), wrong
+    for function in (lambda x: 40000, lambda x: math.nan, lambda x: -32769):
+        assert refuses(ValueError, fixpid.table, function, 0, 9)
+    assert refuses(ValueError, fixpid.table, float, 5, 5)
+    assert refuses(ValueError, fixpid.table, float, 0, 32768)
+    assert refuses(ValueError, fixpid.table, lambda x: 0.5, 0, 9, error=0.4)
+    assert refuses(ValueError, fixpid.table, lambda x: 900 * (x % 2), 0, 400, error=1)
+
+
+def tables_in_c():
+    found = fixpid.table(*SENSORS[0][0])
+    text, last = found.c("ntc"), SENSORS[0][0][2]
+    assert max(map(len, text.splitlines())) <= 80, text
+    body = [f"for (int x = 0; x <= {last}; x++) {{",
+            'printf("%d\\n", fixpid_table_at(&ntc, (int16_t)x)); }']
+    printed = compiled([f'#include "{INCLUDE}/../src/table/fixpid_table.c"', text], body)
+    assert printed.split() == [str(found.at(x)) for x in range(last + 1)]
 
 
 def records_come_back():
@@ -266,7 +367,7 @@ def code_of_the_page_runs():
 TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
-         table_has_the_lines_of_its_points,
+         table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
          records_come_back, autotune_finds_gains,
          autotune_says_what_to_do, experiments_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
