@@ -83,6 +83,16 @@ export function recorded(state, bytes) {
     return wasm.tuner_unpack() === 1 ? { results: results(), rules: rules(state) } : null;
 }
 
+// The table that follows the values of a function at first, first + 1, .. best, with so
+// many points at most: { points: pairs of x and y, error }, or null where it is refused.
+export function fitTable(values, first, most) {
+    new Float64Array(wasm.memory.buffer, wasm.tuner_fit_values(), values.length).set(values);
+    const count = wasm.tuner_fit(first, first + values.length - 1, most);
+    const found = new Int16Array(wasm.memory.buffer, wasm.tuner_fit_points(), 2 * count);
+    const points = Array.from({ length: count }, (_, i) => [found[2 * i], found[2 * i + 1]]);
+    return count > 0 ? { points, error: wasm.tuner_fit_error() } : null;
+}
+
 // Milliseconds of a run without what copies it: the shortest of some.
 export function timeRuns(state, often) {
     put(sceneOf(state));

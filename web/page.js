@@ -10,12 +10,14 @@ import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
 import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
+import { guardOf, guardRule, guardText } from './guard.js';
 import { headerOf } from './header.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
 import { createPlots, color } from './plot.js';
 import { readRecord, recordText } from './record.js';
+import { tableOf, tableText } from './sensor.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, presetState, stateOfFragment } from './state.js';
 
 let plots = null;
@@ -178,11 +180,24 @@ function showStage(s) {
     setText(find('#stage'), seen ? stageText(s, tuned.found, Math.round((cursor ?? shown) * s.RATE)) : '');
 }
 
+// Beside gains: the guard for the same loop, where the experiment has a model.
+function showGuard(place, results, loop) {
+    const top = 2 ** currentState().SENSOR_BITS - 1;
+    const config = results?.HAS_MODEL === 1 ? guardOf(results, { top, ...loop }) : null;
+    place.hidden = config === null;
+    const reach = config?.reach_max > 0 ? 'reach is four fifths of the way that the model gives the output’s ends'
+        : 'reach is left to the readings: set it where the output’s ends surely bring the plant';
+    setText(place.querySelector('p'), config === null ? '' : 'The guard beside this loop, by the rule of fixpid_guard.h from the same model. ' +
+        `A reading outside measurement_min to measurement_max is a broken sensor’s, and ${reach}.`);
+    setText(place.querySelector('pre'), config === null ? '' : guardText(config));
+}
+
 function showTuning(s) {
     find('#tuning').hidden = mode !== 'tune';
     if (mode !== 'tune') {
         find('#found').textContent = '';
         find('#rules').replaceChildren();
+        showGuard(find('#guard'), null);
         return null;
     }
     const found = tunedFor(s);
@@ -192,6 +207,8 @@ function showTuning(s) {
     setText(find('#found'), experimentText(s.RATE, lasted, found) + (has ? ringingText(s) : ''));
     find('#rules').hidden = !has;
     find('#copy-record').disabled = found.record === null;
+    showGuard(find('#guard'), found.results, { outputMin: s.OUTPUT_MIN, outputMax: s.OUTPUT_MAX, reverse: (s.OPTIONS & OPTION.REVERSE) !== 0,
+        rest: found.series.MEASUREMENT[0], setpoint: found.series.SETPOINT[0] });
     fillRules(find('#rules'), has ? rows : [], (row) => row.rule === s.rule && row.robustness === s.ROBUSTNESS, useRule);
     return found;
 }
@@ -210,6 +227,9 @@ function showRecord(s) {
     find('#record-found').classList.toggle('refused', found === null && wrong !== '');
     find('#record-rules').hidden = !has;
     fillRecordRules(find('#record-rules'), has ? rows : [], useRecord);
+    const own = found?.results;
+    showGuard(find('#record-guard'), own, { outputMin: own?.OUTPUT_MIN, outputMax: own?.OUTPUT_MAX, reverse: (own?.OPTIONS & OPTION.REVERSE) !== 0,
+        rest: 2, setpoint: null });
 }
 
 function showMargins(margins) {
@@ -424,6 +444,43 @@ function useFit() {
     }
 }
 
+// --- A sensor -----------------------------------------------------------------------
+
+function sensorOfPage() {
+    const number = (id) => (find(id).value === '' ? NaN : Number(find(id).value));
+    const scale = number('#s-scale');
+    return { kind: find('#s-kind').value, r25: number('#s-r25'), beta: number('#s-beta'), series: number('#s-series'),
+        supply: find('#s-supply').value !== '', bits: number('#s-bits'), microvolts: number('#s-microvolts'),
+        low: number('#s-low'), high: number('#s-high'), scale, points: number('#s-points') };
+}
+
+function showTable(found, s) {
+    const good = found?.points !== undefined;
+    find('#table').hidden = !good;
+    find('#copy-table').disabled = !good;
+    setText(find('#table'), good ? tableText(found, s.kind === 'ntc' ? 'ntc' : 'type_k', s.scale) : '');
+    setText(find('#table-found'), good ? `Worst error ${digits(found.error / s.scale)} °C, over every count, with ${found.points.length} points.` : found?.refused ?? '');
+    find('#table-found').classList.toggle('refused', found !== null && !good);
+}
+
+// What was chosen for other values is not shown beside these.
+function changeSensor(event) {
+    const { kind } = sensorOfPage();
+    if (event.target.id === 's-kind') {
+        find('#s-high').value = kind === 'ntc' ? 150 : 1372;
+        find('#s-scale').value = kind === 'ntc' ? 100 : 10;
+    }
+    for (const label of find('#sensor').querySelectorAll('[data-of]')) {
+        label.hidden = label.dataset.of !== kind;
+    }
+    showTable(null);
+}
+
+function chooseTable() {
+    const s = sensorOfPage();
+    showTable(tableOf(s), s);
+}
+
 // --- From the start -----------------------------------------------------------------
 
 function buildHead() {
@@ -461,6 +518,9 @@ function listen() {
         find(id).addEventListener('input', showFit);
     }
     find('#use-fit').addEventListener('click', useFit);
+    find('#sensor').addEventListener('input', changeSensor);
+    find('#choose').addEventListener('click', chooseTable);
+    find('#copy-table').addEventListener('click', () => toClipboard(find('#table').textContent, 'The table is copied.'));
     window.addEventListener('hashchange', () => {
         if (location.hash.slice(1) !== fragmentOf(currentState())) {
             changeNow(stateOfFragment(location.hash.slice(1)));
@@ -484,8 +544,8 @@ async function startPage() {
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     // What the tests take hold of.
-    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, fitStep, gainsOfRule, headerOf, isStable, linearResponse,
-        controllerOf, marginsOf, presetState, readRecording, recordText, recorded, responseSteps, run, sampledPlant, sceneOf, short, timeRuns };
+    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, fitStep, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
+        controllerOf, marginsOf, presetState, readRecording, recordText, recorded, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }
 

@@ -17,6 +17,7 @@ import tempfile
 import numpy
 
 import fixpid
+from sensors import ntc, type_k, type_k_mv
 
 INCLUDE, README = sys.argv[1:]
 CONFIG = {"gains": fixpid.pid_gains(kp=2, ki=0.5, kd=1.5, rate=10, filter=2), "output_max": 255}
@@ -145,46 +146,6 @@ def table_has_the_lines_of_its_points():
     assert refuses(OverflowError, fixpid.Table, [(x, x) for x in range(256)])
     assert refuses(OverflowError, table.at, 32768)
     assert refuses(TypeError, table.at, 0.5)
-
-
-def ntc(bits, scale):
-    """10k, B 3950, below 10k to the supply: 0..150 degrees over the counts of a converter."""
-    def celsius(count):
-        ratio = (count + 0.5) / 2**bits
-        return 1 / (1 / 298.15 + math.log(ratio / (1 - ratio)) / 3950) - 273.15
-    inside = [count for count in range(2**bits) if 0 <= celsius(count) <= 150]
-    return lambda count: celsius(count) * scale, inside[0], inside[-1]
-
-
-# Type K in mV, NIST Monograph 175: above 0 with an exponential.
-K_ABOVE = (-0.176004136860E-01, 0.389212049750E-01, 0.185587700320E-04, -0.994575928740E-07,
-           0.318409457190E-09, -0.560728448890E-12, 0.560750590590E-15, -0.320207200030E-18,
-           0.971511471520E-22, -0.121047212750E-25)
-K_BELOW = (0, 0.394501280250E-01, 0.236223735980E-04, -0.328589067840E-06, -0.499048287770E-08,
-           -0.675090591730E-10, -0.574103274280E-12, -0.310888728940E-14, -0.104516093650E-16,
-           -0.198892668780E-19, -0.163226974860E-22)
-
-
-def type_k_mv(celsius):
-    value = 0
-    for factor in reversed(K_ABOVE if celsius >= 0 else K_BELOW):
-        value = value * celsius + factor
-    bump = 0.1185976 * math.exp(-0.1183432E-3 * (celsius - 126.9686) ** 2)
-    return value + (bump if celsius >= 0 else 0)
-
-
-def type_k(low, high):
-    """Tenths of degrees over counts of 2 uV, by Newton from one count to the next."""
-    first, last = math.ceil(type_k_mv(low) * 500), math.floor(type_k_mv(high) * 500)
-    tenths, celsius = {}, float(low)
-    for count in range(first, last + 1):
-        step = 1
-        while abs(step) > 1e-6:
-            slope = (type_k_mv(celsius + 1e-3) - type_k_mv(celsius - 1e-3)) / 2e-3
-            step = (count / 500 - type_k_mv(celsius)) / slope
-            celsius += step
-        tenths[count] = celsius * 10
-    return tenths.__getitem__, first, last
 
 
 # What is reached with 8, 16 and 24 points at most, in counts.

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "fit.h"
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_autotune.h"
@@ -34,6 +35,7 @@ static struct fixpid_an937 an937;
 static struct fixpid_an964 an964;
 static struct fixpid_autotune autotune;
 static struct fixpid_autotune_record record;
+static struct fit fit;
 
 // A loop that runs: the library's, or its twin's, which has no drift offset.
 static struct scene scene;
@@ -507,4 +509,26 @@ int tuner_rule(int rule)
     results[RESULT_FILTER] = config.gains.derivative_filter;
     results[RESULT_WEIGHT] = config.setpoint_weight_q8;
     return has ? 1 : 0;
+}
+
+double *tuner_fit_values(void)
+{
+    return fit.f;
+}
+
+int tuner_fit(int first, int last, int most)
+{
+    fit.first = first;
+    fit.last = last;
+    return fit_least(&fit, most) ? fit.count : 0;
+}
+
+struct fixpid_table_point *tuner_fit_points(void)
+{
+    return fit.points;
+}
+
+double tuner_fit_error(void)
+{
+    return fit.error;
 }

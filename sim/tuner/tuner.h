@@ -12,6 +12,8 @@
 #define TUNER_H
 #include <stdint.h>
 
+#include "fixpid_table.h"
+
 #define TUNER_STEPS 20000 // at most
 #define TUNER_EVENTS 16
 #define TUNER_EVENT_SIZE 4 // seconds, enum tuner_event, and two values
@@ -165,5 +167,14 @@ int tuner_unpack(void);
 // parameters, in tuner_results. Returns 1, or 0 where the rule has none, which
 // are zeros then; RESULT_REASON says why.
 int tuner_rule(int rule);
+
+// The points of a table, as fit.h finds them: the caller fills tuner_fit_values
+// with the function at first, first + 1, .. last. Returns the points that are
+// used, `most` at most, or 0 where that is refused; their x and y follow each
+// other in tuner_fit_points.
+double *tuner_fit_values(void);
+int tuner_fit(int first, int last, int most);
+struct fixpid_table_point *tuner_fit_points(void);
+double tuner_fit_error(void);
 
 #endif

@@ -6,7 +6,7 @@
 module Sources
   LIBRARY = (Dir['src/*/*.c'] - Dir['src/*/*_{pic14,pic18}.c']).sort.freeze
   PLANTS = (Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort + ['sim/plant/plant.c']).freeze
-  TUNER = %w[sim/loops/pid_double.c sim/tuner/params.c sim/tuner/scene.c sim/tuner/twin.c sim/tuner/tuner.c].freeze
+  TUNER = %w[sim/loops/pid_double.c sim/tuner/fit.c sim/tuner/params.c sim/tuner/scene.c sim/tuner/twin.c sim/tuner/tuner.c].freeze
   PATHS = %w[-Isim/tuner/libm -Iinclude -Isrc -Isim/plant -Isim/loops -Isim/tuner].freeze
   # Without contraction each operation rounds as IEEE 754 says, on every machine.
   EXACT = %w[-std=c99 -Wall -Wextra -Werror -ffp-contract=off].freeze
