@@ -185,10 +185,10 @@ function showGuard(place, results, loop) {
     const top = 2 ** currentState().SENSOR_BITS - 1;
     const config = results?.HAS_MODEL === 1 ? guardOf(results, { top, ...loop }) : null;
     place.hidden = config === null;
-    const reach = config?.reach_max > 0 ? 'reach is four fifths of the way that the model gives the output’s ends'
-        : 'reach is left to the readings: set it where the output’s ends surely bring the plant';
-    setText(place.querySelector('p'), config === null ? '' : 'The guard beside this loop, by the rule of fixpid_guard.h from the same model. ' +
-        `A reading outside measurement_min to measurement_max is a broken sensor’s, and ${reach}.`);
+    const reach = config?.reach_max > 0 ? 'From the setpoint to where the ends of the output would bring the plant, it takes four fifths as surely within reach'
+        : 'What the ends of the output surely reach is not known: reach_min and reach_max of 0 are the range of readings';
+    setText(place.querySelector('p'), config === null ? '' : 'The guard for this loop, by the rule of fixpid_guard.h: a reading outside ' +
+        `measurement_min to measurement_max is a broken sensor’s. ${reach}.`);
     setText(place.querySelector('pre'), config === null ? '' : guardText(config));
 }
 

@@ -77,16 +77,16 @@ export function tableText({ points, error }, name, scale) {
     const lines = [''];
     for (const [x, y] of points) {
         const next = `{${x}, ${y}}, `;
-        if (lines.at(-1).length + next.length > 76) {
+        if (lines.at(-1).length + next.length > 46) {
             lines.push('');
         }
         lines[lines.length - 1] += next;
     }
     return ['#include "fixpid_table.h"', '',
-        `// ${points.length} points for ${points[0][0]} to ${points.at(-1)[0]}, within ${Number((error / scale).toPrecision(3))} degrees.`,
-        `// One count of the result is ${1 / scale} degrees. On an AVR write PROGMEM`,
-        `// after ${name}_points[], and call fixpid_table_at_P.`,
-        `static const struct fixpid_table_point ${name}_points[] = {`,
+        `// ${points.length} points for ${points[0][0]} to ${points.at(-1)[0]}, in ${1 / scale} degrees,`,
+        `// within ${Number((error / scale).toPrecision(3))} degrees. On an AVR, write PROGMEM`,
+        `// after ${name}_points[] and call`, '// fixpid_table_at_P.',
+        'static const struct fixpid_table_point', `    ${name}_points[] = {`,
         ...lines.map((line) => `    ${line.trimEnd()}`), '};',
         `static const struct fixpid_table ${name} =`, `    FIXPID_TABLE(${name}_points);`, ''].join('\n');
 }

@@ -129,17 +129,26 @@ static bool before(const struct fit_place *a, const struct fit_place *b)
     return (a->at != b->at) ? (a->at > b->at) : (a->y > b->y);
 }
 
-// Keeps a place among the farthest ones, which are in order, each once.
+// Where a place belongs among those that are kept, in their order; FIT_KEPT
+// where there is no room for it or it is there already.
+static int32_t room_for(const struct fit_place *all, int32_t kept,
+                        const struct fit_place *found)
+{
+    int32_t to = kept;
+
+    while ((to > 0) && before(found, &all[to - 1])) {
+        to--;
+    }
+    return ((to > 0) && !before(&all[to - 1], found)) ? FIT_KEPT : to;
+}
+
+// Keeps the farthest places, each once.
 static void keep(struct fit *self, int stage, struct fit_place found)
 {
     struct fit_place *const all = self->places[stage];
-    int32_t to = self->kept[stage];
+    const int32_t to = room_for(all, self->kept[stage], &found);
 
-    while ((to > 0) && before(&found, &all[to - 1])) {
-        to--;
-    }
-    if ((to == FIT_KEPT) || ((to > 0) && (all[to - 1].at == found.at) &&
-                             (all[to - 1].y == found.y))) {
+    if (to == FIT_KEPT) {
         return;
     }
     self->kept[stage] += (self->kept[stage] < FIT_KEPT) ? 1 : 0;
@@ -304,11 +313,16 @@ bool fit_least(struct fit *self, int most)
     return true;
 }
 
+static bool reach_within(struct fit *self, double error)
+{
+    return legal(self) && (error >= 0.0) && reach(self, error, FIT_POINTS);
+}
+
 // With the error alone to go by, the farthest ends are not always those that
 // need the fewest points in all: fewer are tried until the error is missed.
 bool fit_within(struct fit *self, double error)
 {
-    if (!legal(self) || !(error >= 0.0) || !reach(self, error, FIT_POINTS)) {
+    if (!reach_within(self, error)) {
         return false;
     }
     int most = self->count;
@@ -316,5 +330,5 @@ bool fit_within(struct fit *self, double error)
         most = self->count;
     }
     return (fit_least(self, most) && (self->error <= error)) ||
-           reach(self, error, FIT_POINTS);
+           reach_within(self, error);
 }

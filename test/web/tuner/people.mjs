@@ -252,6 +252,9 @@ const text = (here, selector) => here.locator(selector).first().textContent();
     await here.fill('#record', record);
     check('a record is computed', /^At 20 steps per second, as set on this page: gain 4\.\d+, lag 8\.\d+ s/.test(await said()) && (await shown()) === 6, await said());
     const first = await said();
+    const guard = await text(here, '#record-guard pre');
+    check('its guard has its limits and its sign', /-50, +\/\* output_min.*\n +900, +\/\* output_max/.test(guard) && /true, +\/\* reverse/.test(guard) &&
+        /0, +\/\* reach_max/.test(guard), guard);
     await here.fill('#record', record.replace(/[0-9a-f]+/g, '0x$&,').toUpperCase());
     check('an array of C is the same', (await said()) === first, await said());
     await here.evaluate(() => window.tuner.change({ RATE: 40 }));
@@ -281,7 +284,7 @@ const text = (here, selector) => here.locator(selector).first().textContent();
         check(`${name}: it is refused with a sentence`, (await said()).includes(sentence) && !(await shown()), await said());
     }
     await here.fill('#record', ' \n');
-    check('nothing says nothing', (await said()) === '' && !(await shown()), await said());
+    check('nothing says nothing', (await said()) === '' && !(await shown()) && !(await here.isVisible('#record-guard')), await said());
     await here.click('#presets button[value=an937]');
     await frame(here);
     check('a note’s controller has no such card', !(await here.isVisible('#chip')));
