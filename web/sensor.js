@@ -84,8 +84,8 @@ export function tableText({ points, error }, name, scale) {
     }
     return ['#include "fixpid_table.h"', '',
         `// ${points.length} points for ${points[0][0]} to ${points.at(-1)[0]}, in ${1 / scale} degrees,`,
-        `// within ${Number((error / scale).toPrecision(3))} degrees. On an AVR, write PROGMEM`,
-        `// after ${name}_points[] and call`, '// fixpid_table_at_P.',
+        `// within ${Number((error / scale).toPrecision(3))} degrees. On an AVR write`,
+        `// PROGMEM after ${name}_points[] and call`, '// fixpid_table_at_P.',
         'static const struct fixpid_table_point', `    ${name}_points[] = {`,
         ...lines.map((line) => `    ${line.trimEnd()}`), '};',
         `static const struct fixpid_table ${name} =`, `    FIXPID_TABLE(${name}_points);`, ''].join('\n');
