@@ -17,7 +17,8 @@ module Docs
                              'bumps' => :bumps, 'drift' => :drift },
     'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override, 'two_rates' => :two_rates,
                            'heat_cool' => :heat_cool, 'least_output' => :least_output, 'ramp_soak' => :ramp_soak,
-                           'guard' => :guard, 'behind_tpo' => :behind_tpo, 'retune' => :retune },
+                           'guard' => :guard, 'interpolated' => :interpolated,
+                           'behind_tpo' => :behind_tpo, 'retune' => :retune },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits,
                           'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
                           'guard_half' => :guard_half }

@@ -23,7 +23,7 @@ RECIPE_RUNS = {
   'cascade' => 5999, 'two_rates' => 5.999, 'override' => 3999, 'ramp' => 599.9, 'ramp_soak' => 1199,
   'ssr' => 1799.9, 'tune_ssr' => 1499, 'retune' => 4999, 'heat_cool' => 99_990, 'least_output' => 19_999,
   'angle' => 1.999, 'guard' => 1999.9, 'dead_band' => 3999, 'sensor_break' => 599.9,
-  'scheduling' => 2999, 'sample_time' => 1199.9, 'interrupt' => 999, 'freertos' => 999, 'zephyr' => 999,
+  'scheduling' => 2999, 'interpolated' => 19_999, 'sample_time' => 1199.9, 'interrupt' => 999, 'freertos' => 999, 'zephyr' => 999,
   'converter' => 1999
 }.freeze
 
@@ -186,6 +186,30 @@ def check_scheduling(run)
   # The price of no bump far from the setpoint: what P gave, the integral has to lose.
   check_step('scheduling', run, 'value', 800.0, 1000.0, 2000.0, 250.0, 18.0)
   check_step('scheduling, back', run, 'value', 400.0, 2000.0, 3000.0, 250.0, 5.0)
+end
+
+INTERPOLATED_GOALS = [800.0, 200.0, 950.0, 150.0].freeze # each 4000 s, after one of 100
+
+# Between two setpoints the valve moves by what the level asks for, whatever the gains become.
+# A valve that is fully open decides how soon the higher levels are reached.
+def check_interpolated(run)
+  INTERPOLATED_GOALS.each_with_index do |goal, i|
+    from = 4000.0 * (i + 1)
+    check_step('interpolated', run, 'value', goal, from, from + 4000.0, 2000.0, 1.0, 's')
+    Report.at_most("interpolated: largest step of the valve after the one to #{goal.to_i}",
+                   largest_change(run, 'output', from + 5, from + 4000.0), 80.0, 'counts')
+  end
+  { 'with' => ['value', 'output'], 'low' => %w[low output_low], 'high' => %w[high output_high] }.each do |which, (value, output)|
+    Report.number("interpolated_#{which}_over", INTERPOLATED_GOALS.each_with_index.map do |goal, i|
+      values = run.values(value, 4000.0 * (i + 1), 4000.0 * (i + 2))
+      values.first < goal ? values.max - goal : goal - values.min
+    end.max)
+    Report.number("interpolated_#{which}_travel", run.values(output).each_cons(2).sum { |a, b| (b - a).abs })
+  end
+  numbers = Report.numbers['recipes']
+  Report.at_least('gains of level 100: farthest beyond', numbers['interpolated_low_over'], 20.0, 'counts')
+  Report.at_most('interpolated: travel of the valve, of that with the gains of level 1000',
+                 numbers['interpolated_with_travel'] / numbers['interpolated_high_travel'], 0.25)
 end
 
 def check_sample_time(run)
@@ -368,7 +392,7 @@ end
 
 # An even number of them.
 RECIPE_PANELS = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retune heat_cool least_output
-                   angle guard dead_band sensor_break].freeze
+                   angle guard dead_band sensor_break scheduling interpolated].freeze
 
 def with_and_without(run, with = 'with', without = 'without', titles = %w[with without])
   [Plot.curve(run, without, titles[1], Plot::WITHOUT), Plot.curve(run, with, titles[0], Plot::MEASUREMENT)]
@@ -460,4 +484,16 @@ def draw_sensor_break(plot, place, run)
   recipe_panel(plot, place, 'broken sensor from 200 to 260 s',
                [Plot.curve(run, 'reading', 'reading', Plot::SECOND), Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
                [0, 599], [100, 1023], SECONDS_COUNTS, OutputAxis.new(run, "(column('output')/2.55)", 'drive', 0, 100, 'drive, %'))
+end
+
+def draw_scheduling(plot, place, run)
+  recipe_panel(plot, place, 'gains that change at 500, without a bump',
+               [Plot.curve(run, 'value', 'measurement', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [0, 2999], [0, 950], STEPS_COUNTS, OutputAxis.new(run, "(column('output')/10)", 'output', 0, 100, 'output, %'))
+end
+
+def draw_interpolated(plot, place, run)
+  recipe_panel(plot, place, 'a cone-shaped tank, gains by a table',
+               [Plot.curve(run, 'low', 'gains of level 100', Plot::WITHOUT), Plot.curve(run, 'value', 'by the level', Plot::MEASUREMENT), Plot.setpoint(run)],
+               [8000, 19_999], [100, 980], ['time, s', 'level, counts'], OutputAxis.new(run, "(column('output')/10)", 'valve', 0, 100, 'valve, %'))
 end

@@ -208,6 +208,14 @@ module Tables
       table('setpoint 60 degrees', 'hottest without a guard', 'with', rows)
     end
 
+    def interpolated
+      numbers = Report.numbers['recipes']
+      rows = { 'low' => 'of level 100', 'high' => 'of level 1000', 'with' => 'by the level' }.map do |which, title|
+        [title, *%w[over travel].map { |what| format('%.0f', numbers["interpolated_#{which}_#{what}"]) }]
+      end
+      table('gains', 'farthest beyond a setpoint, of 1000', 'travel of the valve', rows)
+    end
+
     def behind_tpo
       numbers = Report.numbers['recipes']
       rows = { 'direct' => 'direct', 'tpo' => '`fixpid_tpo`' }.map do |way, title|
