@@ -17,7 +17,8 @@ static const uint16_t table_nasty[] = {
     511, 4097, 9999, 65279, 65280, 65281, 65533, 65534, 65535};
 #define TABLE_NASTY (sizeof table_nasty / sizeof table_nasty[0])
 
-static inline uint32_t share_is_wrong(uint16_t rise, uint16_t part, uint16_t run)
+static inline uint32_t share_is_wrong(uint16_t rise, uint16_t part,
+                                      uint16_t run)
 {
     const uint64_t sum = (uint64_t)rise * part * 2u + run;
 
