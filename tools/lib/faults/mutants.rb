@@ -69,7 +69,7 @@ end
 
 # Of fixpid_pid with all features and with none.
 def pid_runs(sources)
-  [Run.new('test_fixpid_pid', sources, []),
+  [Run.new('test_fixpid_pid', sources, []), Run.new('test_fixpid_pid_error', sources, []),
    Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
