@@ -164,7 +164,7 @@ void test_at_one_point_is_a_constant_which_is_not_valid(void)
 void test_at_each_point_is_its_y_and_beyond_both_ends_theirs(void)
 {
     for (uint8_t i = 0; i < MOST; i++) {
-        add((int16_t)(i * 250 - 32000), (int16_t)(i * 16381));
+        add((int16_t)(i * 250L - 32000L), (int16_t)(i * 16381u));
     }
     for (uint8_t i = 0; i < MOST; i++) {
         TEST_ASSERT_EQUAL_INT16(points[i].y, at(points[i].x));
@@ -176,7 +176,7 @@ void test_at_each_point_is_its_y_and_beyond_both_ends_theirs(void)
 void test_at_255_points_every_x(void)
 {
     for (uint8_t i = 0; i < MOST; i++) {
-        add((int16_t)(i * 257 - 32768), (int16_t)(i * 16381));
+        add((int16_t)(i * 257L - 32768L), (int16_t)(i * 16381u));
     }
     points[MOST - 1u].x = INT16_MAX;
     every_x_is_as_defined();
