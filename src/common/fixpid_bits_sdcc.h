@@ -34,13 +34,15 @@ typedef int32_t counts_word;
 #define fixpid_sub32(a, b) ((a) - (b))
 
 // SDCC multiplies bytes only where there is no cast, and then keeps all 16
-// bits. Nobody calls it where a PIC18's products are in assembly, and there it
-// would stay in every object file.
+// bits. A function would stay in every object file of a PIC18, where most
+// products are in assembly and do not call it.
 #if !defined(__SDCC_pic16) || defined(FIXPID_NO_ASSEMBLY)
 FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 {
     return a * b;
 }
+#else
+#define fixpid_8x8(a, b) ((a) * (b))
 #endif
 
 #endif

@@ -62,18 +62,9 @@ static number height(struct fixpid_table_point a, struct fixpid_table_point b,
 {
     const number run = (number)b.x - a.x;
 
-    return (a.y <= b.y) ? a.y + part_of((number)b.y - a.y, x - a.x, run)
-                        : b.y + part_of((number)a.y - b.y, b.x - x, run);
-}
-
-static number defined(const struct fixpid_table *table, int16_t x)
-{
-    for (unsigned i = 0; i < table->count; i++) {
-        if (x < points[i].x) {
-            return (i == 0) ? points[0].y : height(points[i - 1], points[i], x);
-        }
-    }
-    return (table->count == 0) ? 0 : points[table->count - 1].y;
+    return (a.y <= b.y)
+               ? (number)a.y + part_of((number)b.y - a.y, x - a.x, run)
+               : (number)b.y + part_of((number)a.y - b.y, b.x - x, run);
 }
 
 static bool between_two(const struct fixpid_table *table, number y)
@@ -89,14 +80,28 @@ static bool between_two(const struct fixpid_table *table, number y)
     return false;
 }
 
-// Of points in order, or of one or none. By contract: share.
+// At or before the first of points in order, at or after the last one, and
+// between any two neighbours. By contract: share.
 void prove_at(void)
 {
     const struct fixpid_table table = any_table();
     const int16_t x = nondet_int16();
+    const uint8_t i = nondet_uint8();
+    int16_t y;
 
     assume(in_order(&table));
-    claim(fixpid_table_at(&table, x) == defined(&table, x));
+    y = fixpid_table_at(&table, x);
+    claim((table.count != 0) || (y == 0));
+    assume(i < table.count);
+    if ((i == 0) && (x <= points[0].x)) {
+        claim(y == points[0].y);
+    }
+    if ((i == table.count - 1) && (x >= points[i].x)) {
+        claim(y == points[i].y);
+    }
+    if ((i + 1 < table.count) && (x >= points[i].x) && (x < points[i + 1].x)) {
+        claim(y == height(points[i], points[i + 1], x));
+    }
 }
 
 // Of points in any order: it ends, reads none but them, divides by none but

@@ -16,6 +16,7 @@ enum { POINT, VERDICT, LOOKUP };
 
 static struct fixpid_table_point points[POINTS];
 static struct fixpid_table table = {points, 0};
+static bool defined; // whether its points are in order, or one or none
 
 // Points in flash, where an AVR reads them in another way: its runs and rises
 // go up to the longest.
@@ -59,17 +60,16 @@ static bool is_table(void)
     return valid;
 }
 
-// What a table out of order gives is defined by its points' y alone.
-static void look_up(int16_t x, bool defined)
+// What a table out of order gives is not defined.
+static void look_up(int16_t x)
 {
     const uint32_t y = (uint16_t)fixpid_table_at(&table, x);
 
-    (void)defined;
     calls_answer(
         y, DEFINED(defined ? (uint16_t)reference_table_at(&table, x) : y, y));
 }
 
-// Of the definition no table in flash is known; both are one on the host.
+// On the host, where there is a definition, it reads them like any others.
 static void look_up_in_flash(const struct fixpid_table *one, int16_t x)
 {
     const uint32_t y = (uint16_t)fixpid_table_at_P(one, x);
@@ -96,22 +96,26 @@ void calls_rows(void)
             (void)is_table();
             break;
         default:
-            look_up(rows_x[row], true);
+            defined = true;
+            look_up(rows_x[row]);
             break;
         }
     }
 }
 
+static void new_table(void)
+{
+    table.count = numbers_table_points(points, POINTS);
+    defined = is_table() || table.count < 2u;
+}
+
 void calls_random(uint32_t count)
 {
-    bool defined = false;
-
     for (uint32_t i = 0; i < count; i++) {
         if (i == 0u || numbers_one_in(20)) {
-            table.count = numbers_table_points(points, POINTS);
-            defined = is_table() || table.count < 2u;
+            new_table();
         }
-        look_up(numbers_table_x(points, table.count), defined);
+        look_up(numbers_table_x(points, table.count));
         look_up_in_flash(&steep, numbers_int16());
         look_up_in_flash(&longest, numbers_int16());
     }

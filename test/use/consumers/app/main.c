@@ -12,6 +12,7 @@
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
 #include "fixpid_slew.h"
+#include "fixpid_table.h"
 #include "fixpid_tpo.h"
 
 static bool an937_works(void)
@@ -66,6 +67,15 @@ static bool small_ones_work(void)
            fixpid_tpo_step(&tpo, 200) &&
            fixpid_gains_from_milli(&gains, &typed, 10000, 0) &&
            gains.kp_q8 == 512;
+}
+
+static bool table_works(void)
+{
+    static const struct fixpid_table_point points[] = {{0, 0}, {2, -1}};
+    static const struct fixpid_table table = FIXPID_TABLE(points);
+
+    return fixpid_table_valid(&table) && fixpid_table_at(&table, 1) == 0 &&
+           fixpid_table_at(&table, 9) == -1;
 }
 
 static bool guard_works(void)
@@ -158,8 +168,8 @@ int main(void)
            FIXPID_AN964_TERM_LIMIT, FIXPID_AN964_OUTPUT_LIMIT,
            FIXPID_AN964_8BIT_SUM_LIMIT, FIXPID_AN964_8BIT_TERM_LIMIT);
     if (!an937_works() || !pid_works() || !autotune_works() ||
-        !small_ones_work() || !guard_works() || !an964_limits_agree() ||
-        !an964_8bit_limits_agree()) {
+        !small_ones_work() || !guard_works() || !table_works() ||
+        !an964_limits_agree() || !an964_8bit_limits_agree()) {
         printf("the library is not the one of the header\n");
         return 1;
     }

@@ -12,6 +12,7 @@
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
 #include "fixpid_slew.h"
+#include "fixpid_table.h"
 #include "fixpid_tpo.h"
 
 static constexpr std::uint8_t kp_q4 = FIXPID_AN937_GAIN(6.0);
@@ -54,6 +55,8 @@ int main()
     fixpid_tpo tpo;
     const fixpid_guard_config watched = {0, 255, 0,   1023,  0,
                                          0, 8,   395, false, true};
+    static const fixpid_table_point points[] = {{0, 0}, {2, -1}};
+    static const fixpid_table line = FIXPID_TABLE(points);
     fixpid_guard guard;
 
     fixpid_pid_config kept;
@@ -98,7 +101,8 @@ int main()
                    fixpid_autotune_step(&autotune, 500, 20) == 9 &&
                    fixpid_slew_step(&slew, 100) == 3 &&
                    fixpid_tpo_step(&tpo, 200) &&
-                   fixpid_guard_step(&guard, 500, 20, 255) == 0
+                   fixpid_guard_step(&guard, 500, 20, 255) == 0 &&
+                   fixpid_table_valid(&line) && fixpid_table_at(&line, 2) == -1
                ? 0
                : 1;
 }
