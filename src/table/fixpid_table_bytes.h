@@ -8,7 +8,7 @@
 
 // a * b, from four products of bytes. `left` is at most 255 * 255 + 254, and
 // `right` and what makes `high` at most 255 * 255 + 255 + 255 = 65535.
-FIXPID_INLINE uint32_t product(uint16_t a, uint16_t b)
+TABLE_INLINE uint32_t product(uint16_t a, uint16_t b)
 {
     const uint8_t a_low = (uint8_t)(a & 0xFFu);
     const uint8_t a_high = (uint8_t)(a >> 8);
