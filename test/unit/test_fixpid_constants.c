@@ -6,6 +6,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_pid.h"
 #include "fixpid_slew.h"
+#include "fixpid_table.h"
 #include "unity.h"
 
 // In object mode the library is built for objects of these names.
@@ -50,6 +51,12 @@ __attribute__((no_sanitize("float-cast-overflow"))) static bool rate_legal(
 static bool an937_gain_legal(double gain)
 {
     (void)FIXPID_AN937_GAIN(gain);
+    return seen;
+}
+
+static bool array_legal(struct fixpid_table table)
+{
+    (void)table;
     return seen;
 }
 
@@ -160,4 +167,19 @@ void test_an_an937_gain_is_from_0_to_half_above_255(void)
     TEST_ASSERT_FALSE(an937_gain_legal(-0.001));
     TEST_ASSERT_TRUE(an937_gain_legal(255.4999 / 16));
     TEST_ASSERT_FALSE(an937_gain_legal(255.5 / 16));
+}
+
+#define TABLE_OF(array) array_legal((struct fixpid_table)FIXPID_TABLE(array))
+
+void test_a_table_has_2_to_255_points(void)
+{
+    static const struct fixpid_table_point one[1];
+    static const struct fixpid_table_point two[2];
+    static const struct fixpid_table_point most[255];
+    static const struct fixpid_table_point more[256];
+
+    TEST_ASSERT_FALSE(TABLE_OF(one));
+    TEST_ASSERT_TRUE(TABLE_OF(two));
+    TEST_ASSERT_TRUE(TABLE_OF(most));
+    TEST_ASSERT_FALSE(TABLE_OF(more));
 }

@@ -7,8 +7,9 @@
 HEADERS = Dir["#{ARGV.fetch(0)}/fixpid_*.h"].sort.freeze
 TEXT = HEADERS.map { |path| File.read(path).gsub(%r{//.*}, '') }.join.freeze
 
-# [function, the type of each argument], without what says where it lives.
-FUNCTIONS = TEXT.gsub(/^#.*(?:\\\n.*)*/, '').scan(/^\w[\w ]*\b(fixpid_\w+)\(([^;{)]*)\);/).map do |name, arguments|
+# [function, the type of each argument], without what says where it lives, and without
+# those that only an AVR has.
+FUNCTIONS = TEXT.gsub(/^#.*(?:\\\n.*)*/, '').scan(/^\w[\w ]*\b(fixpid_\w+)(?<!_P)\(([^;{)]*)\);/).map do |name, arguments|
   [name, arguments.split(',').map { |one| one[/\A\s*(?:FIXPID_DATA )?(?:const )?((?:struct )?\w+ \*?)/, 1] }]
 end.freeze
 

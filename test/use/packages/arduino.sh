@@ -157,6 +157,22 @@ arduino_config() {
     step_is fixpid_pid_step_0x01
 }
 
+# Points in flash, from a sketch.
+arduino_table() {
+    heater=libraries/fixpid/examples/arduino/Heater/Heater.ino
+    rm -rf libraries built
+    sketch Heater uno compiler.c.extra_flags=-fno-lto
+    cat - "$heater" >with_table <<'END'
+#include <fixpid_table.h>
+static const fixpid_table_point points[] PROGMEM = {{0, 0}, {2, -1}};
+static const fixpid_table curve = FIXPID_TABLE(points);
+volatile int16_t height = fixpid_table_at_P(&curve, 1);
+END
+    mv with_table "$heater"
+    build_sketch Heater uno compiler.c.extra_flags=-fno-lto
+    avr-nm built/Heater.ino.elf | grep ' T fixpid_table_at_P$'
+}
+
 # step_is NAME: what the library's step is called, and the sketch calls.
 step_is() {
     avr-nm built/libraries/fixpid/pid/fixpid_pid.c.o | grep " T $1$"
