@@ -159,9 +159,9 @@ arduino_config() {
 
 # Points in flash, from a sketch.
 arduino_table() {
-    heater=libraries/fixpid/examples/arduino/Heater/Heater.ino
+    heater=libraries/fixpid/examples/arduino/02.Heater/02.Heater.ino
     rm -rf libraries built
-    sketch Heater uno compiler.c.extra_flags=-fno-lto
+    sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
     cat - "$heater" >with_table <<'END'
 #include <fixpid_table.h>
 static const fixpid_table_point points[] PROGMEM = {{0, 0}, {2, -1}};
@@ -169,8 +169,8 @@ static const fixpid_table curve = FIXPID_TABLE(points);
 volatile int16_t height = fixpid_table_at_P(&curve, 1);
 END
     mv with_table "$heater"
-    build_sketch Heater uno compiler.c.extra_flags=-fno-lto
-    avr-nm built/Heater.ino.elf | grep ' T fixpid_table_at_P$'
+    build_sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
+    avr-nm built/02.Heater.ino.elf | grep ' T fixpid_table_at_P$'
 }
 
 # step_is NAME: what the library's step is called, and the sketch calls.
