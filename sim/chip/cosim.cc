@@ -316,7 +316,7 @@ void Cosimulation::look()
         set_tick(true);
         masked_until = 0;
     }
-    obey(faults_watch(drive_counts, drive_counts));
+    obey(faults_watch(drive_counts, drive_counts, 0)); // a chip has no guard
     looking = false;
 }
 

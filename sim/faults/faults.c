@@ -23,10 +23,17 @@
 #define BETWEEN_HANGS_S 20e-3
 
 static const char *const kind_names[FAULT_KINDS] = {
-    "none",       "flip",          "reset",     "brown_out",  "hang",
-    "hangs",      "dead_timer",    "stuck",     "shorted",    "open",
-    "noisy",      "clipped",       "input_low", "input_high", "input_moved",
-    "ticks_lost", "ticks_doubled", "ticks_late"};
+    "none",       "flip",          "reset",       "brown_out",   "hang",
+    "hangs",      "dead_timer",    "stuck",       "shorted",     "open",
+    "noisy",      "clipped",       "input_low",   "input_high",  "input_moved",
+    "ticks_lost", "ticks_doubled", "ticks_late",  "stays_stuck", "stays_level",
+    "stays_off",  "stays_on",      "stays_turned"};
+
+// What a sensor reads that stays at a level: so much of its full scale from the
+// set point, or an end.
+static const double levels[] = {-1.0, -0.2, -0.1, -0.03, -0.01, 0.0,
+                                0.01, 0.03, 0.1,  0.2,   1.0};
+#define LEVELS ((long)(sizeof(levels) / sizeof(levels[0])))
 
 static struct plan {
     const char *name;
@@ -34,6 +41,7 @@ static struct plan {
     long first;
     long count;
     int kind;
+    bool cut;
 } plan;
 
 static struct fault {
@@ -63,6 +71,11 @@ static struct seen {
     int asked_low;
     int asked_high;
     double worst;
+    double value;
+    double least;
+    double most;
+    double alarm_s; // from the fault; negative where it was before it
+    unsigned alarms;
     double error;
     double outside_s; // when the error was outside of the band last
     double on_s;      // when the drive was on last
@@ -111,7 +124,7 @@ static size_t column(const char *name)
 void faults_plan(const char *name, unsigned object_bits, long first, long count,
                  int kind)
 {
-    plan = (struct plan){name, object_bits, first, count, kind};
+    plan = (struct plan){name, object_bits, first, count, kind, false};
     value_at = column(fault_loop.value);
     target_at =
         (fault_loop.target != NULL) ? column(fault_loop.target) : value_at;
@@ -122,6 +135,11 @@ void faults_plan(const char *name, unsigned object_bits, long first, long count,
             exit(EXIT_FAILURE);
         }
     }
+}
+
+void faults_cut_at_alarm(void)
+{
+    plan.cut = true;
 }
 
 // ---- A fault from its number ----
@@ -152,7 +170,7 @@ static void draw_input(long turn)
 // A half are flips, as there are many bits; the other kinds take turns.
 static enum fault_kind kind_of(long number, long *turn)
 {
-    const long others = (long)FAULT_KINDS - 1;
+    const long others = (long)FAULT_PASSING - 1;
     const long other = (number / 2) % others;
     if (plan.kind != (int)FAULT_KINDS) {
         *turn = number;
@@ -202,6 +220,14 @@ static void draw_kind(long turn)
         fault.value = fault_loop.watchdog_s * drawn(1.0, LATEST_WATCHDOG);
         seen.hangs_left = 1u + (faults_random() % (HANGS_MOST - 1u));
         break;
+    case FAULT_STAYS_LEVEL:
+        fault.value = levels[turn % LEVELS];
+        break;
+    case FAULT_STAYS_STUCK:
+    case FAULT_STAYS_OFF:
+    case FAULT_STAYS_ON:
+    case FAULT_STAYS_TURNED:
+        break; // nothing else to choose
     default:
         draw_lasting(turn);
         break;
@@ -230,9 +256,10 @@ static void draw(long number)
 
 void faults_heading(void)
 {
-    (void)printf("loop,kind,number,bit,channel,value,at_s,for_s,resets,"
-                 "drive_low,drive_high,asked_low,asked_high,worst,error,back_s,"
-                 "off_s,off_first_s,off_after_s,end\n");
+    (void)printf(
+        "loop,kind,number,bit,channel,value,at_s,for_s,resets,"
+        "drive_low,drive_high,asked_low,asked_high,worst,error,back_s,"
+        "off_s,off_first_s,off_after_s,least,most,alarm_s,alarms,end\n");
     (void)fflush(stdout);
 }
 
@@ -259,20 +286,25 @@ static const char *end(void)
 static void report(const char *how)
 {
     const double until_s = fault.at_s + fault.for_s;
-    (void)printf("%s,%s,%ld,%u,%u,%.6g,%.6f,%.6f,%u,%d,%d,%d,%d,%.5g,%.5g,"
-                 "%.6f,%.6f,%.6f,%.6f,%s\n",
-                 plan.name, kind_names[fault.kind], fault.number, fault.bit,
-                 (unsigned)fault.channel, fault.value, fault.at_s, fault.for_s,
-                 seen.resets, seen.drive_low, seen.drive_high, seen.asked_low,
-                 seen.asked_high, seen.worst, seen.error,
-                 fmax(seen.outside_s - until_s, 0.0),
-                 fmax(seen.on_s - fault.at_s, 0.0),
-                 (seen.off_s < 0.0) ? -1.0 : (seen.off_s - fault.at_s),
-                 seen.off_after_s, how);
+    (void)printf(
+        "%s,%s,%ld,%u,%u,%.6g,%.6f,%.6f,%u,%d,%d,%d,%d,%.5g,%.5g,"
+        "%.6f,%.6f,%.6f,%.6f,%.5g,%.5g,%.6f,%u,%s\n",
+        plan.name, kind_names[fault.kind], fault.number, fault.bit,
+        (unsigned)fault.channel, fault.value, fault.at_s, fault.for_s,
+        seen.resets, seen.drive_low, seen.drive_high, seen.asked_low,
+        seen.asked_high, seen.worst, seen.error,
+        fmax(seen.outside_s - until_s, 0.0), fmax(seen.on_s - fault.at_s, 0.0),
+        (seen.off_s < 0.0) ? -1.0 : (seen.off_s - fault.at_s), seen.off_after_s,
+        seen.least, seen.most, seen.alarm_s, seen.alarms, how);
     (void)fflush(stdout);
 }
 
 // ---- Breaking and mending ----
+
+static bool stays(void)
+{
+    return fault.kind >= FAULT_PASSING;
+}
 
 static struct fault_order hang(void)
 {
@@ -293,13 +325,42 @@ static void break_input(void)
     }
 }
 
+// What stays broken: nothing mends it.
+static void break_for_good(void)
+{
+    const double set = world_last_voltage(fault_loop.inputs[0]);
+    switch (fault.kind) {
+    case FAULT_STAYS_STUCK:
+        world_break_input(fault_loop.sensor, WORLD_STUCK, 0.0);
+        break;
+    case FAULT_STAYS_LEVEL:
+        world_break_input(fault_loop.sensor, WORLD_READS, set + fault.value);
+        break;
+    case FAULT_STAYS_OFF:
+        world_break_drive(WORLD_HELD, 0.0);
+        break;
+    case FAULT_STAYS_ON:
+        world_break_drive(WORLD_HELD, 1.0);
+        break;
+    case FAULT_STAYS_TURNED:
+        world_break_drive(WORLD_MIRRORED, (fault_loop.low + fault_loop.high) /
+                                              (double)PORT_DRIVE_FULL);
+        break;
+    default:
+        break;
+    }
+}
+
 static struct fault_order strike(void)
 {
     struct fault_order order = {.deed = FAULT_GO_ON};
 
     seen.struck = true;
+    seen.least = seen.value;
+    seen.most = seen.value;
     seen.ticks_seen = floor(world_time_s() / TICK_S);
     break_input();
+    break_for_good();
     switch (fault.kind) {
     case FAULT_FLIP:
         order.deed = FAULT_FLIP_BIT;
@@ -340,7 +401,8 @@ static struct fault_order shift_ticks(double ticks)
 static struct fault_order shake_ticks(struct fault_order order)
 {
     const double ticks = floor(world_time_s() / TICK_S);
-    if ((fault.kind < FAULT_TICKS_LOST) || (ticks <= seen.ticks_seen)) {
+    if ((fault.kind < FAULT_TICKS_LOST) || stays() ||
+        (ticks <= seen.ticks_seen)) {
         return order;
     }
     seen.ticks_seen = ticks;
@@ -389,7 +451,8 @@ static void judge_error(double now_s)
 {
     double values[WORLD_TRACE_MAX];
     world_trace(values);
-    seen.error = values[value_at];
+    seen.value = values[value_at];
+    seen.error = seen.value;
     if (target_at != value_at) {
         seen.error -= values[target_at];
     }
@@ -398,6 +461,8 @@ static void judge_error(double now_s)
     }
     if (seen.struck) {
         seen.worst = fmax(seen.worst, fabs(seen.error));
+        seen.least = fmin(seen.least, seen.value);
+        seen.most = fmax(seen.most, seen.value);
     }
 }
 
@@ -419,6 +484,17 @@ static void judge_drive(double now_s, int drive, int asked)
         const double since_s = fmax(seen.on_s, fault.at_s);
         if ((seen.off_s < 0.0) && ((now_s - since_s) > TICK_S)) {
             seen.off_s = since_s;
+        }
+    }
+}
+
+static void judge_alarms(double now_s, unsigned alarms)
+{
+    if ((alarms != 0u) && (seen.alarms == 0u)) {
+        seen.alarms = alarms;
+        seen.alarm_s = now_s - fault.at_s;
+        if (plan.cut) {
+            world_break_drive(WORLD_HELD, 0.0);
         }
     }
 }
@@ -451,12 +527,13 @@ static void copy_for_each(void)
     _exit(EXIT_SUCCESS); // each row has been written
 }
 
-// What has been quiet for half of the time that it is watched is over.
+// What has been quiet for half of the time that it is watched is over, unless
+// it stays broken.
 static bool over(double now_s)
 {
     const double until_s = fault.at_s + fault.for_s;
     const double half_s = fault_loop.watch_s / 2.0;
-    const bool quiet = seen.struck && (seen.hangs_left == 0u) &&
+    const bool quiet = seen.struck && !stays() && (seen.hangs_left == 0u) &&
                        ((now_s - fmax(seen.outside_s, until_s)) > half_s);
     return quiet || (now_s > (until_s + fault_loop.watch_s));
 }
@@ -468,7 +545,7 @@ static struct fault_order act(double now_s)
     if (!seen.struck && (now_s >= fault.at_s)) {
         order = strike();
     }
-    if (seen.struck && !seen.mended) {
+    if (seen.struck && !seen.mended && !stays()) {
         if (now_s < (fault.at_s + fault.for_s)) {
             order = shake_ticks(order);
         } else {
@@ -483,7 +560,7 @@ static struct fault_order act(double now_s)
     return order;
 }
 
-struct fault_order faults_watch(int drive, int asked)
+struct fault_order faults_watch(int drive, int asked, unsigned alarms)
 {
     const double now_s = world_time_s();
     if (!seen.begun) {
@@ -494,6 +571,7 @@ struct fault_order faults_watch(int drive, int asked)
     }
     judge_error(now_s);
     judge_drive(now_s, drive, asked);
+    judge_alarms(now_s, alarms);
     if (over(now_s)) {
         report(end());
         _exit(EXIT_SUCCESS);

@@ -11,6 +11,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "fixpid_guard.h"
+
 enum fault_kind {
     FAULT_NONE,       // to see what the loop does by itself
     FAULT_FLIP,       // a bit of the controller's object
@@ -30,6 +32,12 @@ enum fault_kind {
     FAULT_TICKS_LOST, // about every second tick
     FAULT_TICKS_DOUBLED,
     FAULT_TICKS_LATE,
+    FAULT_PASSING, // so many pass; the others stay, and are tried if named only
+    FAULT_STAYS_STUCK = FAULT_PASSING, // the sensor reads what it read
+    FAULT_STAYS_LEVEL,                 // it reads a level around the set point
+    FAULT_STAYS_OFF,                   // the drive is off, whatever is asked
+    FAULT_STAYS_ON,                    // it is full
+    FAULT_STAYS_TURNED, // it is least for most and most for least
     FAULT_KINDS
 };
 
@@ -54,10 +62,15 @@ struct fault_loop {
     double longest_s;   // the most that a fault with an end takes
     double watchdog_s;  // typical, as the data sheet has it
     uint8_t sensor;     // channels
-    uint8_t inputs[FAULT_INPUTS];
+    uint8_t inputs[FAULT_INPUTS]; // with a guard, the first is the set point
     size_t input_count;
     int low; // what the application may ask of its drive
     int high;
+
+    // Of the guard beside the loop, by the rule of its header and in counts of
+    // the converter; all 0: there is none.
+    struct fixpid_guard_config guard;
+    double guard_step_s;
 };
 
 // Bound by the linker: loop_*.c.
@@ -84,9 +97,12 @@ struct fault_order {
 
 // The faults with these numbers will be tried on an object of so many bits;
 // each number is a fault by itself, kinds by turns or only one of them
-// (FAULT_KINDS: all).
+// (FAULT_KINDS: all that pass).
 void faults_plan(const char *name, unsigned object_bits, long first, long count,
                  int kind);
+
+// From here on an alarm cuts the drive's supply. The faults are the same.
+void faults_cut_at_alarm(void);
 
 // False: there is no such kind.
 bool faults_kind(const char *name, int *kind);
@@ -94,10 +110,10 @@ bool faults_kind(const char *name, int *kind);
 void faults_heading(void);
 
 // To be called whenever time has passed, at least four times a tick: `drive` is
-// what the pins command and `asked` what the application wanted. Returns what
-// is to be done to the chip, and not at all when the last fault has been
-// watched.
-struct fault_order faults_watch(int drive, int asked);
+// what the pins command, `asked` what the application wanted and `alarms` what
+// the guard says. Returns what is to be done to the chip, and not at all when
+// the last fault has been watched.
+struct fault_order faults_watch(int drive, int asked, unsigned alarms);
 
 // To be called after a reset that was not ordered.
 void faults_was_reset(void);

@@ -19,6 +19,7 @@
 #define TEXT(name) TEXT_OF(name)
 #define TICK_S (1.0 / (double)PORT_TICKS_PER_SECOND)
 #define START_UP_S 2e-3
+#define COUNTS 1024.0 // of the converter
 #define EXIT_WRONG_USE 2
 
 static void *application;
@@ -27,6 +28,8 @@ static const size_t object_size = sizeof(struct PROBE_TYPE);
 static jmp_buf power_on; // Deviation 21.4: a reset leaves the application
 static bool timer_dead;
 static double dead_since_s;
+static struct fixpid_guard guard; // beside the application
+static double guard_due_s;
 
 void host_probe(struct host_terms *terms)
 {
@@ -56,6 +59,8 @@ static void load(const char *path)
         exit(EXIT_FAILURE);
     }
     object = found(TEXT(HOST_PROBE_OBJECT));
+    (void)fixpid_guard_init(&guard, &fault_loop.guard);
+    guard_due_s = world_time_s();
 }
 
 static void flip(unsigned bit)
@@ -68,7 +73,8 @@ static void obey(const struct fault_order *order);
 static void look(void)
 {
     const struct fault_order order =
-        faults_watch(host_drive_counts(), host_drive_asked());
+        faults_watch(host_drive_counts(), host_drive_asked(),
+                     fixpid_guard_flags(&guard) & FIXPID_GUARD_ALARMS);
     obey(&order);
 }
 
@@ -134,8 +140,26 @@ static void obey(const struct fault_order *order)
     }
 }
 
+static int16_t last_reading(uint8_t channel)
+{
+    const double counts = floor(COUNTS * world_last_voltage(channel));
+    return (int16_t)fmin(counts, COUNTS - 1.0);
+}
+
+// The guard sees what the application read and asked for, as it would there.
+static void step_guard(void)
+{
+    if ((fault_loop.guard_step_s > 0.0) && (world_time_s() >= guard_due_s)) {
+        guard_due_s += fault_loop.guard_step_s;
+        (void)fixpid_guard_step(&guard, last_reading(fault_loop.inputs[0]),
+                                last_reading(fault_loop.sensor),
+                                host_drive_asked());
+    }
+}
+
 static void watch(void)
 {
+    step_guard();
     if (timer_dead) {
         host_shift_ticks((dead_since_s - world_time_s()) / TICK_S);
     }
@@ -175,22 +199,28 @@ static void run(const char *path)
     (void)begin();
 }
 
-// PROGRAM APPLICATION.so FIRST COUNT [KIND]
+// PROGRAM APPLICATION.so FIRST COUNT [KIND [cut]]
 int main(int count, char **arguments)
 {
     int kind = (int)FAULT_KINDS;
 
-    if ((count < 4) || ((count > 4) && !faults_kind(arguments[4], &kind))) {
+    const bool cut = (count == 6) && (strcmp(arguments[5], "cut") == 0);
+    if ((count < 4) || ((count > 4) && !faults_kind(arguments[4], &kind)) ||
+        ((count > 5) && !cut)) {
         (void)fprintf(stderr,
-                      "usage: %s APPLICATION.so FIRST COUNT [KIND]\n"
+                      "usage: %s APPLICATION.so FIRST COUNT [KIND [cut]]\n"
                       "Breaks the application's loop by the faults FIRST and "
-                      "the next ones: rows of CSV.\n",
+                      "the next ones: rows of CSV. With cut, an alarm of the "
+                      "guard cuts the drive.\n",
                       arguments[0]);
         return EXIT_WRONG_USE;
     }
     faults_plan(TEXT(FAULTS_NAME), (unsigned)(object_size * 8u),
                 strtol(arguments[2], NULL, 10), strtol(arguments[3], NULL, 10),
                 kind);
+    if (cut) {
+        faults_cut_at_alarm();
+    }
     faults_heading();
     run(arguments[1]);
     return EXIT_FAILURE; // the copies end by themselves

@@ -12,6 +12,12 @@
 static double now_s;
 static double scene_count; // updates of the scene so far
 static double drive;
+
+static struct {
+    enum world_drive_break broken;
+    double value;
+} output;
+
 static uint32_t noise_state;
 
 #define CHANNELS 256u
@@ -80,6 +86,19 @@ void world_start(uint32_t seed)
     scene_start();
 }
 
+static double driven(void)
+{
+    double fraction = drive;
+    if (output.broken == WORLD_HELD) {
+        fraction = output.value;
+    } else if (output.broken == WORLD_MIRRORED) {
+        fraction = output.value - drive;
+    } else {
+        // it is whole
+    }
+    return fraction;
+}
+
 void world_advance(double seconds)
 {
     const double end_s = now_s + seconds;
@@ -90,7 +109,7 @@ void world_advance(double seconds)
             scene_count += 1.0;
         }
         const double until_s = fmin(end_s, scene_count * SCENE_PERIOD_S);
-        scene_advance(drive, until_s - now_s);
+        scene_advance(driven(), until_s - now_s);
         now_s = until_s;
     }
 }
@@ -153,9 +172,20 @@ double world_voltage(uint8_t channel)
     return input->last;
 }
 
+double world_last_voltage(uint8_t channel)
+{
+    return inputs[channel].last;
+}
+
 void world_drive(double fraction)
 {
     drive = fmin(fmax(fraction, -1.0), 1.0);
+}
+
+void world_break_drive(enum world_drive_break how, double value)
+{
+    output.broken = how;
+    output.value = value;
 }
 
 const char *const *world_trace_names(size_t *count)

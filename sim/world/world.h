@@ -48,6 +48,9 @@ bool world_running(void);
 // converter's reference, 0..1. An input that is not wired is at 0.
 double world_voltage(uint8_t channel);
 
+// What the last conversion of an analog input got; the noise does not go on.
+double world_last_voltage(uint8_t channel);
+
 // How an analog input is broken, and what `value` is then.
 enum world_break {
     WORLD_WHOLE,
@@ -63,6 +66,16 @@ void world_break_input(uint8_t channel, enum world_break how, double value);
 
 // The mean voltage of the bridge as a fraction of full drive, -1..1.
 void world_drive(double fraction);
+
+// What the plant gets of the drive.
+enum world_drive_break {
+    WORLD_OBEYED,  // all of it
+    WORLD_HELD,    // value, as of a wire that is open or a relay that is shut
+    WORLD_MIRRORED // value less the drive
+};
+
+// Breaks the drive from here on, or mends it.
+void world_break_drive(enum world_drive_break how, double value);
 
 // The true values behind the sensors, to record: names with their units, and as
 // many values.

@@ -41,7 +41,7 @@ FAULT_LOOPS = {
 # What one run showed.
 class FaultRun
   NUMBERS = %i[number bit channel value at_s for_s resets drive_low drive_high asked_low asked_high
-               worst error back_s off_s off_first_s off_after_s].freeze
+               worst error back_s off_s off_first_s off_after_s least most alarm_s alarms].freeze
   attr_reader :kind, :end, *NUMBERS
 
   def initialize(path, names, line)
