@@ -126,8 +126,23 @@ EVEN = "#{HEAD}0,1\n1,1\n2,1\n3,1\n"
 # A run of a loop that must be back in 2 s; nothing is wrong with it until `changes`.
 FAULT = { loop: 'x', kind: 'hang', number: 0, bit: 0, channel: 0, value: 0.032, at_s: 1, for_s: 0, resets: 1,
           drive_low: 0, drive_high: 9, asked_low: 0, asked_high: 9, worst: 1, error: 0, back_s: 1.5,
-          off_s: 0.1, off_first_s: 0.1, off_after_s: 0.033, end: 'back' }.freeze
-FAULT_TEST = FaultRules.new(tick_s: 1e-3, watchdog_s: 32e-3, duties: 0..9, back: 2.0, lasting: 0.0, blind: 2e-3)
+          off_s: 0.1, off_first_s: 0.1, off_after_s: 0.033, least: 0, most: 1, alarm_s: 0, alarms: 0, end: 'back' }.freeze
+FAULT_TEST = FaultRules.new(tick_s: 1e-3, watchdog_s: 32e-3, duties: 0..9, back: 2.0, lasting: 0.0, blind: 2e-3,
+                            guard: GuardRules.new(unit: 'C', seen_s: 1.0, near_s: 2.0, reach: 0.0..9.0))
+
+# The same of one that stays broken, of as many rows as there must be.
+STAYS = FAULT.merge(kind: 'stays_off', value: 0, alarm_s: 0.5, alarms: 1).freeze
+
+def stays(changes = {}, what = 'no drive', rows = STAYING_TURNS)
+  row = STAYS.merge(changes)
+  on_file("#{row.keys.join(',')}\n#{"#{row.values.join(',')}\n" * rows}") do |path|
+    runs = FaultRuns.read('x', FAULT_TEST, [path]).like(*STAYING_FAULTS.fetch(what))
+    Report.start('fault')
+    before = Report.checks.size
+    check_staying(what, runs, runs)
+    Report.checks.drop(before).reject(&:ok?).map(&:what).join('; ')
+  end
+end
 
 # What is said of it: all well, or the checks that failed.
 def fault(changes = {}, count = 1)
@@ -220,6 +235,19 @@ Gate.expect('a sensor that is not noticed', fault({ kind: 'open', for_s: 1, off_
 Gate.expect('one noticed too late', fault({ kind: 'open', for_s: 1, off_first_s: 0.003 }), 'sensor at an end: off after')
 Gate.expect('one that is whole before it can be noticed', fault({ kind: 'open', for_s: 0.002, off_first_s: -1 }), '')
 Gate.expect('a fault with no number', fault({ worst: 'nan' }), /no number worst/)
+Gate.expect('an alarm where nothing is broken', fault({ kind: 'none', alarms: 1 }), 'nothing: alarms of the guard')
+Gate.expect('what stays broken, seen in time', stays, '')
+Gate.expect('one run too few', stays({}, 'no drive', 7), /tried, without and with/)
+Gate.expect('another kind of fault', stays({ kind: 'stays_on' }), /tried, without and with/)
+Gate.expect('another level', stays({ kind: 'stays_level', value: 0.1 }, 'sensor 3 % above'), /tried, without and with/)
+Gate.expect('not seen', stays({ alarms: 0 }), /no drive: seen; /)
+Gate.expect('seen too late', stays({ alarm_s: 1.1 }), 'no drive: seen after')
+Gate.expect('a sensor near the set point, seen later', stays({ kind: 'stays_level', value: 0.03, alarm_s: 1.9 }, 'sensor 3 % above'), '')
+Gate.expect('seen later still', stays({ kind: 'stays_level', value: 0.03, alarm_s: 2.1 }, 'sensor 3 % above'), 'sensor 3 % above: seen after')
+Gate.expect('an alarm before the fault', stays({ alarm_s: -0.1 }), 'no drive: alarms, none before it')
+Gate.expect('a plant that got too far', stays({ most: 9.1 }), 'no drive, the drive cut: most')
+Gate.expect('and to the other side', stays({ least: -0.1 }), 'no drive, the drive cut: least')
+Gate.expect('what may not be seen', stays({ kind: 'stays_level', value: 0, alarms: 0, most: 10 }, 'sensor at the set point'), '')
 Gate.expect('a row of a fault that breaks off', fault({ end: "\n" }), /not a row of a fault/)
 Gate.expect('dots while a loop takes long', -> { printed { with_dots(0.02) { sleep 0.2 } } }, /\A(\. ){2,10}\z/)
 Gate.expect('none of a short loop', -> { printed { with_dots { nil } } }, '')

@@ -20,6 +20,7 @@ module Docs
                            'guard' => :guard, 'interpolated' => :interpolated,
                            'behind_tpo' => :behind_tpo, 'retune' => :retune },
     'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits,
+                          'staying' => :staying, 'staying_limits' => :staying_limits,
                           'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
                           'guard_half' => :guard_half }
   }.freeze

@@ -13,6 +13,22 @@ FAULT_KINDS = {
   'input_moved' => 'an input moving', 'ticks_lost' => 'ticks lost',
   'ticks_doubled' => 'ticks doubled', 'ticks_late' => 'ticks late'
 }.freeze
+
+# What stays broken, with fixpid_guard beside the loop: the program's kind, and of a
+# sensor at a level how far that is from the set point, of full scale.
+STAYING_FAULTS = {
+  'sensor stuck as it read' => ['stays_stuck'], 'sensor reads 0' => ['stays_level', -1.0],
+  'sensor 20 % below the set point' => ['stays_level', -0.2], 'sensor 10 % below' => ['stays_level', -0.1],
+  'sensor 3 % below' => ['stays_level', -0.03], 'sensor 1 % below' => ['stays_level', -0.01],
+  'sensor at the set point' => ['stays_level', 0.0], 'sensor 1 % above' => ['stays_level', 0.01],
+  'sensor 3 % above' => ['stays_level', 0.03], 'sensor 10 % above' => ['stays_level', 0.1],
+  'sensor 20 % above' => ['stays_level', 0.2], 'sensor reads full scale' => ['stays_level', 1.0],
+  'no drive' => ['stays_off'], 'drive always full' => ['stays_on'], 'sign turned round' => ['stays_turned']
+}.freeze
+STAYING_LEVELS = STAYING_FAULTS.values.count { |kind,| kind == 'stays_level' }
+STAYING_TURNS = 8 # of each
+# Where it stands still at the set point or next to it, a sensor can be right.
+STAYING_UNSEEN = ['sensor stuck as it read', 'sensor at the set point'].freeze
 WATCHDOG_KINDS = %w[hang hangs dead_timer].freeze
 
 # What must happen. `back`: in control again so many seconds after the end of the
@@ -21,7 +37,11 @@ WATCHDOG_KINDS = %w[hang hangs dead_timer].freeze
 # control until the next reset, as they change what only `init` sets; `blind`: off
 # so soon when the sensor reads an end for longer.
 FaultRules = Struct.new(:runs, :long_runs, :tick_s, :watchdog_s, :duties, :back, :fallen, :lasting,
-                        :blind, :inputs, :chip, keyword_init: true)
+                        :blind, :inputs, :chip, :guard, keyword_init: true)
+# Of the guard: the plant's unit, and what stays broken is seen after so many seconds,
+# of a sensor 3 % or less beside the set point after `near_s`. Then the drive is cut,
+# and the plant has been nowhere outside of `reach`.
+GuardRules = Struct.new(:unit, :seen_s, :near_s, :reach, keyword_init: true)
 
 FAULT_LOOPS = {
   'pendulum' => FaultRules.new(runs: 500, long_runs: 47_000, tick_s: 1.0 / 256, watchdog_s: 17e-3,
@@ -29,13 +49,16 @@ FAULT_LOOPS = {
                                blind: 2.0 / 256, inputs: 'the gains'),
   'motor' => FaultRules.new(runs: 600, long_runs: 47_000, tick_s: 1e-3, watchdog_s: 32e-3,
                             duties: -1023..1023, back: 0.5, lasting: 1.0, blind: 25e-3,
-                            inputs: 'the set point'),
+                            inputs: 'the set point',
+                            guard: GuardRules.new(unit: 'rad/s', seen_s: 0.008, near_s: 0.012, reach: -1.0..395.0)),
   'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
                            duties: 0..1023, back: 40.0, lasting: 0.0, blind: 2e-3,
-                           inputs: 'the set point'),
+                           inputs: 'the set point',
+                           guard: GuardRules.new(unit: 'C', seen_s: 13.0, near_s: 65.0, reach: 19.0..340.0)),
   'thermostat' => FaultRules.new(runs: 600, long_runs: 4000, tick_s: 1e-3, watchdog_s: 32e-3,
                                  duties: 0..1023, back: 40.0, lasting: 0.0, blind: 102e-3,
-                                 inputs: 'the set point, the selector')
+                                 inputs: 'the set point, the selector',
+                                 guard: GuardRules.new(unit: 'C', seen_s: 9.0, near_s: 27.0, reach: 19.0..265.0))
 }.freeze
 
 # What one run showed.
@@ -55,6 +78,10 @@ class FaultRun
       value&.finite? or raise Host::Failure, "#{path}: no number #{name}: #{line}"
       instance_variable_set("@#{name}", value)
     end
+  end
+
+  def alarmed?
+    alarms.positive?
   end
 
   # The host's watchdog is late on purpose, a simulated chip's cannot be.
@@ -86,6 +113,16 @@ class FaultRuns
     FaultRuns.new(name, rules, runs.select { |run| kinds.include?(run.kind) })
   end
 
+  # At this level, if it is one.
+  def like(kind, level = 0.0)
+    FaultRuns.new(name, rules, runs.select { |run| run.kind == kind && run.value == level })
+  end
+
+  # The least and the most that the plant has been.
+  def reach
+    [runs.map(&:least).min, runs.map(&:most).max]
+  end
+
   def kinds
     FAULT_KINDS.keys.select { |kind| runs.any? { |run| run.kind == kind } }
   end
@@ -114,6 +151,11 @@ class FaultRuns
     kinds.each { |kind| check_kind(of(kind), FAULT_KINDS[kind]) }
     check_watchdog
     check_blind
+    Report.exactly('nothing: alarms of the guard', of('none').alarmed, 0) if rules.guard
+  end
+
+  def alarmed
+    runs.count(&:alarmed?)
   end
 
   private
@@ -177,6 +219,7 @@ def run_faults(long)
     all.check(count, true)
     number_faults(all)
     draw_faults(all)
+    run_staying(all, command) if rules.guard
   end
 end
 
@@ -217,6 +260,46 @@ def halves_of_faults(name, command, count, *kind)
     end
   end
   threads.map(&:value)
+end
+
+# ---- What stays broken ----
+
+# Each fault twice: an alarm changes nothing, or it cuts the drive.
+def run_staying(all, command)
+  without, with = [[], ['cut']].map do |word|
+    paths = STAYING_FAULTS.values.map(&:first).uniq.flat_map do |kind|
+      count = STAYING_TURNS * (kind == 'stays_level' ? STAYING_LEVELS : 1)
+      halves_of_faults(["faults-#{all.name}", kind, *word].join('-'), command, count, kind, *word)
+    end
+    FaultRuns.read(all.name, all.rules, paths)
+  end
+  rows = STAYING_FAULTS.to_h { |what, fault| [what, check_staying(what, without.like(*fault), with.like(*fault))] }
+  rows.each { |what, row| Report.unchanged("#{what}: seen; s; reach without, with", staying_text(row)) }
+  Report.number('staying', rows)
+end
+
+def check_staying(what, without, with)
+  seen = with.runs.select(&:alarmed?)
+  row = { 'seen' => seen.size, 'after_s' => seen.map(&:alarm_s).max, 'without' => without.reach, 'with' => with.reach }
+  Report.exactly("#{what}: tried, without and with the guard's cut", [without, with].map { |some| some.runs.size },
+                 [STAYING_TURNS] * 2)
+  check_seen(what, with, row) unless STAYING_UNSEEN.include?(what)
+  Report.at_least("#{what}: alarms, none before it", seen.map(&:alarm_s).min || 0.0, 0.0, 's')
+  row
+end
+
+def check_seen(what, with, row)
+  rules = with.rules.guard
+  Report.exactly("#{what}: seen", row['seen'], STAYING_TURNS)
+  near = STAYING_FAULTS[what].last.then { |level| level.is_a?(Float) && level.abs <= 0.03 }
+  Report.at_most("#{what}: seen after", row['after_s'], near ? rules.near_s : rules.seen_s, 's')
+  Report.at_least("#{what}, the drive cut: least", row['with'].first, rules.reach.first, rules.unit)
+  Report.at_most("#{what}, the drive cut: most", row['with'].last, rules.reach.last, rules.unit)
+end
+
+def staying_text(row)
+  [row['seen'], row['after_s'] ? format('%.2g', row['after_s']) : '-',
+   *%w[without with].map { |way| row[way].map(&:round).join('..') }].join('|')
 end
 
 # The numbers of the table.

@@ -97,6 +97,24 @@ module Tables
       end)
     end
 
+    # What stays broken: when it is seen, and where the plant has been.
+    def staying
+      loops = FAULT_LOOPS.select { |_, rules| rules.guard }
+      heads = loops.flat_map { |name, rules| ["#{name}: seen after", "#{rules.guard.unit}, without", 'the drive cut'] }
+      table('it stays so', *heads, STAYING_FAULTS.keys.map do |what|
+        [what, *loops.keys.flat_map { |name| staying_cells(Report.numbers["faults #{name}"]['staying'][what]) }]
+      end)
+    end
+
+    def staying_limits
+      table('loop', 'seen within', 'a sensor 1 or 3 % beside the set point within', 'where the plant stays, the drive cut',
+            FAULT_LOOPS.select { |_, rules| rules.guard }.map do |name, rules|
+              guard = rules.guard
+              [name, *[guard.seen_s, guard.near_s].map { |time| short_time(time) },
+               "#{guard.reach.first.round} to #{guard.reach.last.round} #{guard.unit}"]
+            end)
+    end
+
     # What fixpid_guard sees of 800 plants, and how many get far beyond their setpoint.
     def guard_sees
       far = GUARD_CLASSES.keys.map { |title| "#{title}: far over, without and with" }
@@ -311,6 +329,16 @@ module Tables
                ["#{row['off']} off", row['off'], row['off_s']], ["#{row['out']} out", row['out'], nil]]
       parts.select { |_, count, _| count.positive? }
            .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
+    end
+
+    def short_time(seconds)
+      seconds < 1.0 ? format('%.1f ms', 1e3 * seconds) : format('%.1f s', seconds)
+    end
+
+    def staying_cells(row)
+      seen = short_time(row['after_s']) if row['after_s']
+      seen = [seen, "#{row['seen']} of #{STAYING_TURNS}"].compact.join(', ') if row['seen'] < STAYING_TURNS
+      [seen, *%w[without with].map { |way| row[way].map(&:round).join(' to ') }]
     end
 
     # What the experiment found of a plant.
