@@ -389,6 +389,9 @@ static struct fault_order strike(void)
     default:
         break;
     }
+    if (stays() && !plan.cut) {
+        order.deed = FAULT_BLIND_GUARD;
+    }
     return order;
 }
 

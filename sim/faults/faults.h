@@ -67,8 +67,8 @@ struct fault_loop {
     int low; // what the application may ask of its drive
     int high;
 
-    // Of the guard beside the loop, by the rule of its header and in counts of
-    // the converter; all 0: there is none.
+    // Of the guard beside a loop whose application has none, by the rule of its
+    // header and in counts of the converter; all 0: there is none at all.
     struct fixpid_guard_config guard;
     double guard_step_s;
 };
@@ -83,7 +83,8 @@ enum fault_deed {
     FAULT_RESET_CHIP, // without drive for `seconds`
     FAULT_HANG_LOOP,  // until the watchdog comes, typically after `seconds`
     FAULT_STOP_TIMER,
-    FAULT_SHIFT_TICKS // the same as host_shift_ticks
+    FAULT_BLIND_GUARD, // it says nothing any more
+    FAULT_SHIFT_TICKS  // the same as host_shift_ticks
 };
 
 struct fault_order {
@@ -101,7 +102,8 @@ struct fault_order {
 void faults_plan(const char *name, unsigned object_bits, long first, long count,
                  int kind);
 
-// From here on an alarm cuts the drive's supply. The faults are the same.
+// From here on an alarm cuts the drive's supply. Else nobody hears one of a
+// fault that stays. The faults are the same.
 void faults_cut_at_alarm(void);
 
 // False: there is no such kind.
