@@ -2,6 +2,7 @@
 #include "fixpid_guard.h"
 
 #undef OBJECT
+#include "../common/fixpid_difference.h"
 #include "../common/fixpid_self.h"
 
 #define BAND_MAX 32767u
@@ -21,17 +22,11 @@
 #define LAST 0x0Cu // the last zone outside, since the loop was settled
 #define END 0x30u  // the last end of the output, inside the band
 #define NOISY 0x40u
-#define REVERSE 0x80u
+#define REVERSED 0x80u
 
-// high - low, which is 0..65535. pre: low <= high
-static uint16_t less(int16_t high, int16_t low)
+static uint16_t counts_apart(int16_t a, int16_t b)
 {
-    return (uint16_t)((uint16_t)high - (uint16_t)low);
-}
-
-static uint16_t distance(int16_t a, int16_t b)
-{
-    return (a < b) ? less(b, a) : less(a, b);
+    return (a < b) ? fixpid_difference(b, a) : fixpid_difference(a, b);
 }
 
 static void take_ranges(FIXPID_DATA struct fixpid_guard *self,
@@ -72,7 +67,8 @@ static bool reach_legal(FIXPID_DATA const struct fixpid_guard *self)
     if (SELF.band > BAND_MAX) {
         return false;
     }
-    return less(SELF.reach_max, SELF.reach_min) > (uint16_t)(SELF.band << 1);
+    return fixpid_difference(SELF.reach_max, SELF.reach_min) >
+           (uint16_t)(SELF.band << 1);
 }
 
 static bool legal(FIXPID_DATA const struct fixpid_guard *self)
@@ -100,7 +96,7 @@ bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
     SELF.band = config->band;
     SELF.patience = config->patience;
     if (config->reverse) {
-        state = REVERSE;
+        state = REVERSED;
     }
     if (config->noisy) {
         state |= NOISY;
@@ -122,7 +118,7 @@ void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self)
     SELF.mark = 0;
     SELF.anchor = 0;
     SELF.flags = 0;
-    SELF.state &= REVERSE | NOISY;
+    SELF.state &= REVERSED | NOISY;
 }
 
 void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self)
@@ -170,8 +166,9 @@ static bool should_have_moved(FIXPID_DATA const struct fixpid_guard *self,
     if ((SELF.state & NOISY) != 0u) {
         return true;
     }
-    quarter = (uint16_t)(less(SELF.output_max, SELF.output_min) >> 2);
-    return distance(output, SELF.hold) > quarter;
+    quarter =
+        (uint16_t)(fixpid_difference(SELF.output_max, SELF.output_min) >> 2);
+    return counts_apart(output, SELF.hold) > quarter;
 }
 
 // pre: the reading is the last one, and within reach
@@ -232,7 +229,7 @@ static uint8_t end_of(FIXPID_DATA const struct fixpid_guard *self,
         }
         end = ABOVE;
     }
-    if ((SELF.state & REVERSE) != 0u) {
+    if ((SELF.state & REVERSED) != 0u) {
         end ^= ZONE;
     }
     return end;
@@ -258,7 +255,7 @@ static uint8_t zone_of(FIXPID_DATA const struct fixpid_guard *self,
     if ((SELF.state & ZONE) != INSIDE) {
         band >>= 1;
     }
-    if (distance(reading, goal) <= band) {
+    if (counts_apart(reading, goal) <= band) {
         return INSIDE;
     }
     return (reading < goal) ? BELOW : ABOVE;
@@ -267,7 +264,7 @@ static uint8_t zone_of(FIXPID_DATA const struct fixpid_guard *self,
 static void watch_swing(FIXPID_DATA struct fixpid_guard *self, int16_t setpoint,
                         uint8_t last, uint8_t now)
 {
-    if (distance(setpoint, SELF.anchor) > SELF.band) {
+    if (counts_apart(setpoint, SELF.anchor) > SELF.band) {
         SELF.anchor = setpoint;
         SELF.swings = 0;
     } else if ((last ^ now) == LAST) { // from one side to the other
@@ -320,7 +317,7 @@ static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
     }
     if (upper < lower) {
         SELF.mark = reading;
-    } else if (less(upper, lower) >= SELF.band) {
+    } else if (fixpid_difference(upper, lower) >= SELF.band) {
         SELF.mark = reading;
         SELF.count = 0;
         return;

@@ -8,7 +8,7 @@
 
 // sat16(x), or with a mirror sat16(-x). Not every x has a -x, but every one
 // within these limits does.
-static int16_t counts_of(int32_t x, uint16_t mirror)
+static int16_t saturated(int32_t x, uint16_t mirror)
 {
     if (mirror != 0u) {
         return (int16_t)-clamp32(x, -INT16_MAX, INT32_C(32768));
@@ -36,12 +36,12 @@ int16_t fixpid_pid_step_error(FIXPID_DATA struct fixpid_pid *self,
     if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
         seen = 0; // and `previous` says that there is none
     } else if ((options & ON_ERROR) == 0u) {
-        SELF.previous = counts_of(rise, (uint16_t)~mirror);
+        SELF.previous = saturated(rise, (uint16_t)~mirror);
     } else {
         // the error's own
     }
     SELF.options = (uint8_t)(options & (uint8_t) ~(REVERSE | WEIGHTED));
-    output = fixpid_pid_step(self, counts_of(error, mirror), 0);
+    output = fixpid_pid_step(self, saturated(error, mirror), 0);
     SELF.options = options;
     if ((options & ON_ERROR) == 0u) {
         seen = (uint16_t)(seen + (uint16_t)rise) ^ mirror;

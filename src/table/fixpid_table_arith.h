@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "../common/fixpid_bits.h"
+#include "../common/fixpid_difference.h"
 
 // SDCC would keep a copy of each inline function in a PIC18's flash, beside the
 // one in a lookup: 3296 bytes instead of 2334.
@@ -20,24 +21,18 @@
 
 // floor(rise * part / run + 1/2). pre: part <= run, 1 <= run; post: 0..rise.
 // The sum is at most 65535 * 65535 + 32767 < 2^32.
-TABLE_INLINE uint16_t share(uint16_t rise, uint16_t part, uint16_t run)
+TABLE_INLINE uint16_t rise_at(uint16_t rise, uint16_t part, uint16_t run)
 {
     return (uint16_t)((((uint32_t)rise * part) + (uint16_t)(run >> 1)) / run);
 }
 
 #endif
 
-// high - low, which is 0..65535. pre: low <= high
-TABLE_INLINE uint16_t less(int16_t high, int16_t low)
-{
-    return (uint16_t)((uint16_t)high - (uint16_t)low);
-}
-
 // The height at `part` of the `run` from y0 to y1, rounded half up. A line that
 // falls is one that rises from its other end. pre: part < run; post: between y0
 // and y1
-TABLE_INLINE int16_t between(int16_t y0, int16_t y1, uint16_t part,
-                             uint16_t run)
+TABLE_INLINE int16_t height_at(int16_t y0, int16_t y1, uint16_t part,
+                               uint16_t run)
 {
     int16_t low = y0;
     int16_t high = y1;
@@ -48,7 +43,8 @@ TABLE_INLINE int16_t between(int16_t y0, int16_t y1, uint16_t part,
         high = y0;
         at = (uint16_t)(run - part);
     }
-    return (int16_t)(uint16_t)((uint16_t)low + share(less(high, low), at, run));
+    return (int16_t)(uint16_t)((uint16_t)low +
+                               rise_at(fixpid_difference(high, low), at, run));
 }
 
 #endif

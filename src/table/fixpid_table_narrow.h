@@ -41,7 +41,7 @@ TABLE_INLINE uint32_t product(uint16_t a, uint16_t b)
 // half is below the run, and the quotient has 16 bits. They come into `low`
 // where the sum's leave it. Twice the rest has 17 bits: where the highest is 1,
 // the run fits.
-TABLE_INLINE uint16_t share(uint16_t rise, uint16_t part, uint16_t run)
+TABLE_INLINE uint16_t rise_at(uint16_t rise, uint16_t part, uint16_t run)
 {
     const uint32_t sum = product(rise, part) + (uint16_t)(run >> 1);
     uint16_t rest = (uint16_t)(sum >> 16);

@@ -55,8 +55,9 @@ int16_t fixpid_table_at(const struct fixpid_table *self, int16_t x)
         }
     }
     x0 = READ(points[low].x);
-    return between(READ(points[low].y), READ(points[high].y), less(x, x0),
-                   less(READ(points[high].x), x0));
+    return height_at(READ(points[low].y), READ(points[high].y),
+                     fixpid_difference(x, x0),
+                     fixpid_difference(READ(points[high].x), x0));
 }
 
 #undef READ

@@ -35,12 +35,12 @@ static bool in_order(const struct fixpid_table *table)
 
 // floor(rise * part / run + 1/2), of which is known here only that it is one
 // function, is 0..rise, and all or nothing at the ends.
-uint16_t __CPROVER_uninterpreted_share(uint16_t rise, uint16_t part,
-                                       uint16_t run);
+uint16_t __CPROVER_uninterpreted_rise(uint16_t rise, uint16_t part,
+                                      uint16_t run);
 
 static uint16_t part_of(number rise, number part, number run)
 {
-    const uint16_t q = __CPROVER_uninterpreted_share(
+    const uint16_t q = __CPROVER_uninterpreted_rise(
         (uint16_t)rise, (uint16_t)part, (uint16_t)run);
 
     assume(q <= rise);
@@ -49,7 +49,7 @@ static uint16_t part_of(number rise, number part, number run)
     return q;
 }
 
-uint16_t share_contract(uint16_t rise, uint16_t part, uint16_t run)
+uint16_t rise_at_contract(uint16_t rise, uint16_t part, uint16_t run)
 {
     pre(run >= 1);
     pre(part <= run);
@@ -81,7 +81,7 @@ static bool between_two(const struct fixpid_table *table, number y)
 }
 
 // At or before the first of points in order, at or after the last one, and
-// between any two neighbours. By contract: share.
+// between any two neighbours. By contract: rise_at.
 void prove_at(void)
 {
     const struct fixpid_table table = any_table();
@@ -105,7 +105,7 @@ void prove_at(void)
 }
 
 // Of points in any order: it ends, reads none but them, divides by none but
-// runs, and gives a y between two neighbours. By contract: share.
+// runs, and gives a y between two neighbours. By contract: rise_at.
 void prove_disorder(void)
 {
     const struct fixpid_table table = any_table();
@@ -124,11 +124,11 @@ void prove_valid(void)
 }
 
 // Whatever it divides, it ends and does nothing undefined.
-void prove_share(void)
+void prove_rise_at(void)
 {
     const uint16_t run = nondet_uint16();
     const uint16_t part = nondet_uint16();
 
     assume((run >= 1) && (part <= run));
-    (void)share(nondet_uint16(), part, run);
+    (void)rise_at(nondet_uint16(), part, run);
 }

@@ -17,16 +17,15 @@ static const uint16_t table_nasty[] = {
     511, 4097, 9999, 65279, 65280, 65281, 65533, 65534, 65535};
 #define TABLE_NASTY (sizeof table_nasty / sizeof table_nasty[0])
 
-static inline uint32_t share_is_wrong(uint16_t rise, uint16_t part,
-                                      uint16_t run)
+static inline uint32_t rise_is_wrong(uint16_t rise, uint16_t part, uint16_t run)
 {
     const uint64_t sum = (uint64_t)rise * part * 2u + run;
 
-    return share(rise, part, run) == sum / (2u * (uint64_t)run) ? 0u : 1u;
+    return rise_at(rise, part, run) == sum / (2u * (uint64_t)run) ? 0u : 1u;
 }
 
 // Each nasty run, and parts and rises that are nasty, or any.
-static inline uint32_t share_all_wrong(void)
+static inline uint32_t rise_all_wrong(void)
 {
     uint32_t wrong = 0;
 
@@ -37,13 +36,13 @@ static inline uint32_t share_all_wrong(void)
             const uint16_t near = table_nasty[j] <= run ? table_nasty[j] : run;
 
             for (unsigned k = 0; k < TABLE_NASTY; k++) {
-                wrong += share_is_wrong(table_nasty[k], near, run);
+                wrong += rise_is_wrong(table_nasty[k], near, run);
             }
         }
         for (uint32_t rise = i; rise <= 65535u; rise += 7u * TEST_STRIDE) {
-            wrong += share_is_wrong((uint16_t)rise, run / 2u, run);
-            wrong += share_is_wrong((uint16_t)rise,
-                                    (uint16_t)(rise * 40503u % run), run);
+            wrong += rise_is_wrong((uint16_t)rise, run / 2u, run);
+            wrong += rise_is_wrong((uint16_t)rise,
+                                   (uint16_t)(rise * 40503u % run), run);
         }
     }
     return wrong;

@@ -18,7 +18,7 @@ void tearDown(void)
 
 void test_bytes_share_nasty_numbers_is_rounded_half_up(void)
 {
-    TEST_ASSERT_EQUAL_UINT32(0, share_all_wrong());
+    TEST_ASSERT_EQUAL_UINT32(0, rise_all_wrong());
 }
 
 void test_bytes_product_nasty_numbers(void)

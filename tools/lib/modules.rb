@@ -54,7 +54,7 @@ module Modules
       # each is left or tested once more. A Cortex-M0 divides by a routine that jumps into
       # its own loop, so that no bound can be told.
       calls: [{ calls: 5000, functions: { 'fixpid_table_at' => 'at' }, without: /_avr\.o\z/, kinds: %i[avr pic],
-                turns: { 'fixpid_table_at' => [9, 17], 'share' => 17 } },
+                turns: { 'fixpid_table_at' => [9, 17], 'rise_at' => 17 } },
               { calls: 5000, functions: { 'fixpid_table_at_P' => 'at, in flash' }, without: /_fixpid_table\.o\z/, kinds: %i[avr],
                 turns: { 'fixpid_table_at_P' => [9, 17] } },
               { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] }]
