@@ -147,64 +147,6 @@ static inline uint8_t flags(void)
     return fixpid_pid_flags(&pid_controller);
 }
 
-enum column {
-    RUN,
-    KP,
-    KI,
-    KD,
-    FILTER,
-    OUTPUT_MIN,
-    OUTPUT_MAX,
-    INTEGRAL_MIN,
-    INTEGRAL_MAX,
-    WEIGHT,
-    OPTIONS,
-    EVENT,
-    VALUE,
-    SETPOINT,
-    MEASUREMENT,
-    OUTPUT,
-    P,
-    I,
-    D,
-    STATUS
-};
-
-static inline void configure(const int32_t row[])
-{
-    config.gains.kp_q8 = (uint16_t)row[KP];
-    config.gains.ki_q24 = (uint32_t)row[KI];
-    config.gains.kd_q8 = (uint16_t)row[KD];
-    config.gains.derivative_filter = (uint8_t)row[FILTER];
-    config.output_min = (int16_t)row[OUTPUT_MIN];
-    config.output_max = (int16_t)row[OUTPUT_MAX];
-    config.integral_min = (int16_t)row[INTEGRAL_MIN];
-    config.integral_max = (int16_t)row[INTEGRAL_MAX];
-    config.setpoint_weight_q8 = (uint16_t)row[WEIGHT];
-    vectors_pid_set_options(&config, (unsigned)row[OPTIONS]);
-}
-
-// Of the recording of tracking.
-enum track_column {
-    TRACK_EVENT = 11,
-    TRACK_VALUE,
-    TRACK_VALUE2,
-    TRACK_ACCEPTED,
-    TRACK_SETPOINT,
-    TRACK_MEASUREMENT,
-    TRACK_OUTPUT,
-    TRACK_EVENT2,
-    TRACK_VALUE3,
-    TRACK_TRACKED,
-    TRACK_APPLIED,
-    TRACK_SHIFT,
-    TRACK_LAST_OUTPUT,
-    TRACK_P,
-    TRACK_I,
-    TRACK_D,
-    TRACK_STATUS
-};
-
 // Some of these may be refused, and the limits are arguments.
 static inline bool before_the_step(const int32_t row[])
 {
@@ -212,32 +154,32 @@ static inline bool before_the_step(const int32_t row[])
     const int16_t value2 = (int16_t)row[TRACK_VALUE2];
 
     switch (row[TRACK_EVENT]) {
-    case 0:
+    case PID_NOTHING:
         return true;
-    case 1:
+    case PID_INIT:
         return init();
-    case 2:
+    case PID_RESET:
         reset();
         return true;
-    case 3:
+    case PID_SET_GAINS:
         return set_gains();
-    case 4:
+    case PID_SET_LIMITS:
         return set_limits(value, value2);
-    case 5:
+    case PID_SET_INTEGRAL_LIMITS:
         return set_integral_limits(value, value2);
-    case 6:
+    case PID_SET_FEEDFORWARD:
         set_feedforward(value);
         return true;
-    case 7:
+    case PID_SET_MANUAL:
         set_manual(value);
         return true;
-    case 8:
+    case PID_SET_AUTO:
         set_auto();
         return true;
-    case 9:
+    case PID_SEED:
         seed(value);
         return true;
-    case 10:
+    case PID_TRACK:
         track(value, (uint8_t)value2);
         return true;
     default:

@@ -66,31 +66,6 @@ enum {
     AN964_COLUMNS
 };
 
-// Columns of pid_definition.csv.
-enum {
-    PID_RUN,
-    PID_KP,
-    PID_KI,
-    PID_KD,
-    PID_FILTER,
-    PID_OUTPUT_MIN,
-    PID_OUTPUT_MAX,
-    PID_INTEGRAL_MIN,
-    PID_INTEGRAL_MAX,
-    PID_WEIGHT,
-    PID_OPTIONS,
-    PID_EVENT,
-    PID_VALUE,
-    PID_SETPOINT,
-    PID_MEASUREMENT,
-    PID_OUTPUT,
-    PID_P,
-    PID_I,
-    PID_D,
-    PID_STATUS,
-    PID_COLUMNS
-};
-
 // Columns of slew.csv.
 enum {
     SLEW_RUN,
@@ -171,61 +146,6 @@ enum {
     EVENT_SET_RATES,
     EVENT_ACKNOWLEDGE = EVENT_SET_RATES, // of a guard
     EVENT_SEED
-};
-
-// What was called before the row's step.
-enum {
-    PID_NOTHING,
-    PID_INIT,
-    PID_RESET,
-    PID_SET_GAINS,
-    PID_SET_LIMITS,
-    PID_SET_INTEGRAL_LIMITS,
-    PID_SET_FEEDFORWARD,
-    PID_SET_MANUAL,
-    PID_SET_AUTO,
-    PID_SEED,
-    PID_TRACK // of track.csv
-};
-
-// Columns of track.csv from the event on; those before are the same.
-enum {
-    TRACK_EVENT = PID_EVENT,
-    TRACK_VALUE,
-    TRACK_VALUE2,
-    TRACK_ACCEPTED,
-    TRACK_SETPOINT,
-    TRACK_MEASUREMENT,
-    TRACK_OUTPUT,
-    TRACK_EVENT2, // after the step
-    TRACK_VALUE3,
-    TRACK_TRACKED,
-    TRACK_APPLIED,
-    TRACK_SHIFT,
-    TRACK_LAST_OUTPUT,
-    TRACK_P,
-    TRACK_I,
-    TRACK_D,
-    TRACK_STATUS,
-    TRACK_COLUMNS
-};
-
-// Columns of step_error.csv from by_error on; those before are the same as in
-// track.csv.
-enum {
-    BY_ERROR = TRACK_SETPOINT,
-    BY_ERROR_FIRST,
-    BY_ERROR_SECOND,
-    BY_ERROR_OUTPUT,
-    BY_ERROR_TRACKED,
-    BY_ERROR_APPLIED,
-    BY_ERROR_SHIFT,
-    BY_ERROR_LAST_OUTPUT,
-    BY_ERROR_P,
-    BY_ERROR_I,
-    BY_ERROR_D,
-    BY_ERROR_STATUS,
-    BY_ERROR_COLUMNS
 };
 
 static const char *path;
@@ -502,19 +422,9 @@ static bool table_row_is_same(const int32_t at[], bool fresh)
 
 static struct fixpid_pid_config pid_config(const int32_t at[])
 {
-    struct fixpid_pid_config config = {
-        .gains = {.ki_q24 = (uint32_t)at[PID_KI],
-                  .kp_q8 = (uint16_t)at[PID_KP],
-                  .kd_q8 = (uint16_t)at[PID_KD],
-                  .derivative_filter = (uint8_t)at[PID_FILTER]},
-        .output_min = (int16_t)at[PID_OUTPUT_MIN],
-        .output_max = (int16_t)at[PID_OUTPUT_MAX],
-        .integral_min = (int16_t)at[PID_INTEGRAL_MIN],
-        .integral_max = (int16_t)at[PID_INTEGRAL_MAX],
-        .setpoint_weight_q8 = (uint16_t)at[PID_WEIGHT],
-    };
+    struct fixpid_pid_config config;
 
-    vectors_pid_set_options(&config, (unsigned)at[PID_OPTIONS]);
+    vectors_pid_config(&config, at);
     return config;
 }
 

@@ -35,36 +35,36 @@ void tearDown(void)
 
 static void make_event(const int32_t row[])
 {
-    switch (row[EVENT]) {
-    case 0:
+    switch (row[PID_EVENT]) {
+    case PID_NOTHING:
         break;
-    case 1:
+    case PID_INIT:
         TEST_ASSERT_TRUE(init());
         break;
-    case 2:
+    case PID_RESET:
         reset();
         break;
-    case 3:
+    case PID_SET_GAINS:
         TEST_ASSERT_TRUE(set_gains());
         break;
-    case 4:
+    case PID_SET_LIMITS:
         TEST_ASSERT_TRUE(set_limits(config.output_min, config.output_max));
         break;
-    case 5:
+    case PID_SET_INTEGRAL_LIMITS:
         TEST_ASSERT_TRUE(
             set_integral_limits(config.integral_min, config.integral_max));
         break;
-    case 6:
-        set_feedforward((int16_t)row[VALUE]);
+    case PID_SET_FEEDFORWARD:
+        set_feedforward((int16_t)row[PID_VALUE]);
         break;
-    case 7:
-        set_manual((int16_t)row[VALUE]);
+    case PID_SET_MANUAL:
+        set_manual((int16_t)row[PID_VALUE]);
         break;
-    case 8:
+    case PID_SET_AUTO:
         set_auto();
         break;
-    case 9:
-        seed((int16_t)row[VALUE]);
+    case PID_SEED:
+        seed((int16_t)row[PID_VALUE]);
         break;
     default:
         TEST_FAIL_MESSAGE("unknown event");
@@ -78,17 +78,19 @@ void test_step_recorded_rows_match_the_definition(void)
 
     VECTORS_OPEN(pid_definition);
     while (vectors_next(row)) {
-        configure(row);
-        vectors_pid_set_options(&config,
-                                vectors_pid_options(row[OPTIONS], row[WEIGHT]));
+        vectors_pid_config(&config, row);
+        vectors_pid_set_options(
+            &config, vectors_pid_options(row[PID_OPTIONS], row[PID_WEIGHT]));
         make_event(row);
-        TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[SETPOINT],
-                                                  (int16_t)row[MEASUREMENT]));
-        TEST_ASSERT_EQUAL_INT32(row[P],
+        TEST_ASSERT_EQUAL_INT16(
+            row[PID_OUTPUT],
+            step((int16_t)row[PID_SETPOINT], (int16_t)row[PID_MEASUREMENT]));
+        TEST_ASSERT_EQUAL_INT32(row[PID_P],
                                 fixpid_pid_proportional(&pid_controller));
-        TEST_ASSERT_EQUAL_INT32(row[I], integral());
-        TEST_ASSERT_EQUAL_INT32(row[D], fixpid_pid_derivative(&pid_controller));
-        TEST_ASSERT_EQUAL_HEX8(row[STATUS], flags() & VECTORS_PID_FLAGS);
+        TEST_ASSERT_EQUAL_INT32(row[PID_I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[PID_D],
+                                fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(row[PID_STATUS], flags() & VECTORS_PID_FLAGS);
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(2000, rows);
@@ -99,18 +101,18 @@ static void after_the_step(const int32_t row[])
     const int16_t value = (int16_t)row[TRACK_VALUE3];
 
     switch (row[TRACK_EVENT2]) {
-    case 0:
+    case PID_NOTHING:
         break;
-    case 2:
+    case PID_RESET:
         reset();
         break;
-    case 7:
+    case PID_SET_MANUAL:
         set_manual(value);
         break;
-    case 8:
+    case PID_SET_AUTO:
         set_auto();
         break;
-    case 9:
+    case PID_SEED:
         seed(value);
         break;
     default:
@@ -128,7 +130,7 @@ void test_track_recorded_rows_match_the_definition(void)
 
     VECTORS_OPEN(track);
     while (vectors_next(row)) {
-        configure(row);
+        vectors_pid_config(&config, row);
         TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
         TEST_ASSERT_EQUAL_INT16(row[TRACK_OUTPUT],
                                 step((int16_t)row[TRACK_SETPOINT],

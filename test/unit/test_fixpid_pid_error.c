@@ -42,29 +42,13 @@ static int16_t step_error(int32_t error, int32_t rise)
     return output;
 }
 
-// Of the recording of steps by the error; the event is as in that of tracking.
-enum error_column {
-    ERROR_BY_ERROR = 15,
-    ERROR_FIRST,
-    ERROR_SECOND,
-    ERROR_OUTPUT,
-    ERROR_TRACKED,
-    ERROR_APPLIED,
-    ERROR_SHIFT,
-    ERROR_LAST_OUTPUT,
-    ERROR_P,
-    ERROR_I,
-    ERROR_D,
-    ERROR_STATUS
-};
-
 static int16_t either_step(const int32_t row[])
 {
-    const int32_t first = row[ERROR_FIRST];
-    const int32_t second = row[ERROR_SECOND];
+    const int32_t first = row[BY_ERROR_FIRST];
+    const int32_t second = row[BY_ERROR_SECOND];
 
-    return (row[ERROR_BY_ERROR] != 0) ? step_error(first, second)
-                                      : step((int16_t)first, (int16_t)second);
+    return (row[BY_ERROR] != 0) ? step_error(first, second)
+                                : step((int16_t)first, (int16_t)second);
 }
 
 void test_step_error_recorded_rows_match_the_definition(void)
@@ -74,20 +58,20 @@ void test_step_error_recorded_rows_match_the_definition(void)
 
     VECTORS_OPEN(step_error);
     while (vectors_next(row)) {
-        configure(row);
+        vectors_pid_config(&config, row);
         TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
-        TEST_ASSERT_EQUAL_INT16(row[ERROR_OUTPUT], either_step(row));
-        if (row[ERROR_TRACKED] != 0) {
-            track((int16_t)row[ERROR_APPLIED], (uint8_t)row[ERROR_SHIFT]);
+        TEST_ASSERT_EQUAL_INT16(row[BY_ERROR_OUTPUT], either_step(row));
+        if (row[BY_ERROR_TRACKED] != 0) {
+            track((int16_t)row[BY_ERROR_APPLIED], (uint8_t)row[BY_ERROR_SHIFT]);
         }
-        TEST_ASSERT_EQUAL_INT16(row[ERROR_LAST_OUTPUT],
+        TEST_ASSERT_EQUAL_INT16(row[BY_ERROR_LAST_OUTPUT],
                                 fixpid_pid_output(&pid_controller));
-        TEST_ASSERT_EQUAL_INT32(row[ERROR_P],
+        TEST_ASSERT_EQUAL_INT32(row[BY_ERROR_P],
                                 fixpid_pid_proportional(&pid_controller));
-        TEST_ASSERT_EQUAL_INT32(row[ERROR_I], integral());
-        TEST_ASSERT_EQUAL_INT32(row[ERROR_D],
+        TEST_ASSERT_EQUAL_INT32(row[BY_ERROR_I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[BY_ERROR_D],
                                 fixpid_pid_derivative(&pid_controller));
-        TEST_ASSERT_EQUAL_HEX8(row[ERROR_STATUS], flags());
+        TEST_ASSERT_EQUAL_HEX8(row[BY_ERROR_STATUS], flags());
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(500, rows);
