@@ -202,9 +202,11 @@ void test_step_error_differences_beyond_16_bits_saturate(void)
         TEST_ASSERT_TRUE(init());
         step_error(0, 0);
         step_error(difference, difference);
-        TEST_ASSERT_EQUAL_INT32(256 * (config.reverse ? negated : kept),
+        TEST_ASSERT_EQUAL_INT32(INT32_C(256) *
+                                    (config.reverse ? negated : kept),
                                 fixpid_pid_proportional(&pid_controller));
-        TEST_ASSERT_EQUAL_INT32(256 * (config.reverse ? kept : negated),
+        TEST_ASSERT_EQUAL_INT32(INT32_C(256) *
+                                    (config.reverse ? kept : negated),
                                 fixpid_pid_derivative(&pid_controller));
     }
 }
@@ -233,12 +235,13 @@ void test_step_error_proportional_takes_the_whole_error_at_any_weight(void)
             config.proportional_on_measurement ? 0u : 64u;
         TEST_ASSERT_TRUE(init());
         step_error(100, 0);
-        TEST_ASSERT_EQUAL_INT32(512 * (config.reverse ? -100 : 100),
+        TEST_ASSERT_EQUAL_INT32(INT32_C(512) * (config.reverse ? -100 : 100),
                                 fixpid_pid_proportional(&pid_controller));
         step(400, 0); // weighs it again
         TEST_ASSERT_EQUAL_INT32(config.proportional_on_measurement
                                     ? 0
-                                    : 512 * (config.reverse ? -100 : 100),
+                                    : INT32_C(512) *
+                                          (config.reverse ? -100 : 100),
                                 fixpid_pid_proportional(&pid_controller));
     }
 }
