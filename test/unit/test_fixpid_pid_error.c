@@ -358,15 +358,16 @@ void test_step_error_lines_of_the_header_give_the_difference(void)
 
 // A wheel under a torque, its angle in 1/16 counts: from any origin around the
 // circle the outputs are those without a wrap.
-static uint32_t outputs_from(uint16_t origin)
+#define WHEEL_STEPS 60u
+
+static void outputs_from(uint16_t origin, int16_t outputs[WHEEL_STEPS])
 {
     int32_t angle_q4 = 0;
     int32_t speed = 0;
     uint16_t last = origin;
-    uint32_t digest = 0;
 
     TEST_ASSERT_TRUE(fixpid_pid_init(&pid_controller, &config));
-    for (uint16_t n = 0; n < 60u; n++) {
+    for (uint16_t n = 0; n < WHEEL_STEPS; n++) {
         const uint16_t goal = (uint16_t)(origin + ((n < 30u) ? 400u : 0u));
         const uint16_t angle = (uint16_t)(origin + (uint16_t)(angle_q4 / 16));
         const int16_t error = (int16_t)(uint16_t)(goal - angle);
@@ -377,26 +378,34 @@ static uint32_t outputs_from(uint16_t origin)
         last = angle;
         speed += torque / 4;
         angle_q4 += speed;
-        digest = digest * 31u + (uint16_t)torque;
+        outputs[n] = torque;
     }
-    return digest;
+}
+
+static void is_as_unwrapped(const int16_t unwrapped[WHEEL_STEPS],
+                            uint16_t origin)
+{
+    int16_t outputs[WHEEL_STEPS];
+
+    outputs_from(origin, outputs);
+    TEST_ASSERT_EQUAL_INT16_ARRAY(unwrapped, outputs, WHEEL_STEPS);
 }
 
 void test_step_error_wrapped_runs_are_those_without_a_wrap(void)
 {
-    uint32_t unwrapped;
+    int16_t unwrapped[WHEEL_STEPS];
 
     config.gains.kp_q8 = 100;
     config.gains.ki_q24 = 20000;
     config.gains.kd_q8 = 2000;
     config.output_min = -1000;
     config.output_max = 1000;
-    unwrapped = outputs_from(1000);
+    outputs_from(1000, unwrapped);
     for (uint32_t origin = 0; origin < 65536u; origin += 16u * 61u) {
-        TEST_ASSERT_EQUAL_HEX32(unwrapped, outputs_from((uint16_t)origin));
+        is_as_unwrapped(unwrapped, (uint16_t)origin);
     }
-    for (uint16_t origin = 65536u - 420u; origin != 20u; origin++) {
-        TEST_ASSERT_EQUAL_HEX32(unwrapped, outputs_from(origin));
+    for (uint32_t origin = 65536u - 420u; origin < 65536u + 20u; origin++) {
+        is_as_unwrapped(unwrapped, (uint16_t)origin);
     }
 }
 
