@@ -15,6 +15,7 @@
 #include "draw.h"
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
+#include "rule.h"
 
 #define SETPOINT 600 // tenths of a degree, as all temperatures here
 #define ROOM 200
@@ -57,24 +58,18 @@ struct boiler {
 static int32_t rate; // steps per second
 static double noise;
 
-// By the rule of fixpid_guard.h.
 static void start_guard(struct boiler *self)
 {
-    const double band = ceil(fmax(8.0 * noise + 4.0, 2.0 * GAIN));
-    const double slope = GAIN / LAG_S / rate;
-    const double patience =
-        ceil(2.0 * DEAD_STEPS + 20.0 * band / (slope * FULL_POWER));
-    const struct fixpid_guard_config config = {
+    const struct model model = {GAIN, DEAD_STEPS, GAIN / LAG_S / rate, noise};
+    struct fixpid_guard_config config = {
         .output_max = FULL_POWER,
         .measurement_min = 1,
         .measurement_max = SENSOR_MAX - 1,
         .reach_min = ROOM + 50,
         .reach_max = ROOM + 750, // on a supply 20 % low
-        .band = (uint16_t)band,
-        .patience = (uint16_t)fmax(patience, 4.0),
-        .noisy = noise >= 1.0 && patience >= 16.0,
     };
 
+    rule_for(&config, &model, 1.0);
     (void)fixpid_guard_init(&self->guard, &config);
 }
 

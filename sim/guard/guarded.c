@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "rule.h"
+
 double guarded_chance(struct guarded *self)
 {
     self->chance ^= self->chance << 13;
@@ -156,23 +158,18 @@ static double mistaken(struct guarded *self, double number, double factor)
 // As the header of fixpid_guard says.
 static void start_guard(struct guarded *self, const struct choice *choice)
 {
-    const double noise = self->task.noise;
-    const double twice = integrates(self) ? 0.0 : 2.0 * self->gain;
-    const double band = ceil(fmax(8.0 * noise + 4.0, twice));
+    const double gain = integrates(self) ? 0.0 : self->gain;
     const double dead = mistaken(self, self->dead, choice->wrong);
     const double slope = mistaken(self, self->slope, choice->wrong);
-    const double patience = choice->patience_share *
-                            (2.0 * dead + 20.0 * band / (slope * self->span));
+    const struct model model = {gain, dead, slope, self->task.noise};
 
     self->config = (struct fixpid_guard_config){
         .output_max = (int16_t)self->span,
         .measurement_min = 1,
         .measurement_max = (int16_t)(self->top - 1.0),
-        .band = (uint16_t)band,
-        .patience = (uint16_t)fmin(fmax(ceil(patience), 4.0), 32767.0),
         .reverse = self->task.reverse,
-        .noisy = noise >= 1.0 && patience >= 16.0,
     };
+    rule_for(&self->config, &model, choice->patience_share);
     set_reach(self);
     (void)fixpid_guard_init(&self->guard, &self->config);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the experiments of chip_avr.c in simavr, and writes what they left:
+// Runs the parts of chip_avr.c in simavr, and writes what they left:
 //
 //   avr FIRMWARE.elf MCU OVER BYTES RESULTS
 //
@@ -12,7 +12,7 @@
 
 #include "program.h"
 
-#define CYCLES_MAX UINT64_C(4000000000) // far more than any experiment takes
+#define CYCLES_MAX UINT64_C(4000000000) // far more than any part takes
 
 static unsigned address(const char *text)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells avr.c when an experiment is over, and goes on when that has looked.
+// Tells avr.c when a part is over, and goes on when that has looked.
 #include "program.h"
 
 volatile uint8_t over;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Leaves what the experiments left from 0x4000 on, where the debugger saves it,
+// Leaves what the parts left from 0x4000 on, where the debugger saves it,
 // and waits: see ../msp430/main.c.
 #include "program.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes what the experiments left to the simulator's file, through its
+// Writes what the parts left to the simulator's file, through its
 // interface: see ../ucsim_main.c.
 #include "program.h"
 

@@ -8,23 +8,24 @@ module Recipes
   MARKED = %r{^// recipe\n(.*?)^// end of recipe\n}m.freeze
 
   # What a recipe takes for granted, for the compiler of the document's blocks.
+  PLANT = 'extern int16_t measure(void); extern void drive(int16_t);'
   GIVEN = {
     'interrupt' => 'extern void disable_interrupts(void); extern void enable_interrupts(void); ' \
-                   'extern int16_t measure(void); extern void drive(int16_t);',
+                   "#{PLANT}",
     'guard' => 'extern void cut_supply(void); extern void close_supply(void);',
     'freertos' => 'typedef uint32_t TickType_t; typedef long BaseType_t; typedef void *QueueHandle_t; enum { pdTRUE = 1 }; ' \
                   'extern BaseType_t xQueueOverwrite(QueueHandle_t, const void *); ' \
                   'extern BaseType_t xQueueReceive(QueueHandle_t, void *, TickType_t); ' \
                   'extern TickType_t pdMS_TO_TICKS(TickType_t); extern TickType_t xTaskGetTickCount(void); ' \
                   'extern void vTaskDelayUntil(TickType_t *, TickType_t); ' \
-                  'extern int16_t measure(void); extern void drive(int16_t);',
+                  "#{PLANT}",
     'zephyr' => "\n#include <stddef.h>\n" \
                 "#define K_MSGQ_DEFINE(name, bytes, messages, align) static struct k_msgq name\n" \
                 "#define K_TIMER_DEFINE(name, expiry, stop) static struct k_timer name\n" \
                 'struct k_msgq { int any; }; struct k_timer { int any; }; enum { K_NO_WAIT }; extern int K_MSEC(int); ' \
                 'extern void k_timer_start(struct k_timer *, int, int); extern uint32_t k_timer_status_sync(struct k_timer *); ' \
                 'extern int k_msgq_put(struct k_msgq *, const void *, int); extern int k_msgq_get(struct k_msgq *, void *, int); ' \
-                'extern int16_t measure(void); extern void drive(int16_t);'
+                "#{PLANT}"
   }.freeze
 
   class << self
