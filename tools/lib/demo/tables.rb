@@ -4,6 +4,7 @@
 # The tables of the documents, from the numbers that the loops reported.
 module Tables
   LONG_STUDY = 'random_plants long'
+  TRACKED = %w[without with].to_h { |which| [which, "#{which} `fixpid_pid_track`"] }.freeze
 
   class << self
     def tuning
@@ -168,70 +169,48 @@ module Tables
     end
 
     def cascade
-      rows = %w[without with].map do |which|
-        peak, settled = %w[peak settled].map { |what| Report.numbers['recipes']["cascade_#{which}_#{what}"] }
-        ["#{which} `fixpid_pid_track`", format('%.0f', peak), format('%.0f', settled)]
-      end
-      table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps', rows)
+      table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps',
+            recipe_rows('%.0f', %w[cascade_NAME_peak cascade_NAME_settled], TRACKED))
     end
 
     def override
-      rows = %w[without with].map do |which|
-        pressure, flow = %w[pressure flow].map { |what| Report.numbers['recipes']["override_#{which}_#{what}"] }
-        ["#{which} `fixpid_pid_track`", format('%.0f', pressure), format('%.0f', flow)]
-      end
-      table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600', rows)
+      table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600',
+            recipe_rows('%.0f', %w[override_NAME_pressure override_NAME_flow], TRACKED))
     end
 
     def two_rates
       numbers = Report.numbers['recipes']
-      rows = { 'without' => 'without flags', 'with' => 'flags collected' }.map do |which, title|
-        peak, settled = %w[peak settled].map { |what| numbers["two_rates_#{which}_#{what}"] }
-        [title, format('%.0f', peak), format('%.0f', settled)]
-      end
+      rows = recipe_rows('%.0f', %w[two_rates_NAME_peak two_rates_NAME_settled], 'without' => 'without flags', 'with' => 'flags collected')
       table('two rates', 'peak of 500 after the weak supply', 'within 2 % after, ms', rows) +
         "\nIn #{numbers['two_rates_limited']} outer steps the inner loop was at its limit, " \
         "in #{numbers['two_rates_last']} of them in the last of the ten, too.\n"
     end
 
     def heat_cool
-      numbers = Report.numbers['recipes']
-      rows = { 'without' => 'without a gap', 'with' => 'with a gap' }.map do |which, title|
-        [title, numbers["heat_cool_#{which}_changes"]]
-      end
-      table('heat and cool', 'changes between heat and cool while the room crosses the setpoint 11 times', rows)
+      table('heat and cool', 'changes between heat and cool while the room crosses the setpoint 11 times',
+            recipe_rows('%d', %w[heat_cool_NAME_changes], 'without' => 'without a gap', 'with' => 'with a gap'))
     end
 
     def least_output
-      numbers = Report.numbers['recipes']
-      rows = { 'tracked' => 'told what the fan got', 'with' => 'not told' }.map do |which, title|
-        [title, format('%.1f', numbers["least_output_#{which}_far"])]
-      end
-      table('the controller is', 'farthest from 50 degrees', rows)
+      table('the controller is', 'farthest from 50 degrees',
+            recipe_rows('%.1f', %w[least_output_NAME_far], 'tracked' => 'told what the fan got', 'with' => 'not told'))
     end
 
     def ramp_soak
-      numbers = Report.numbers['recipes']
-      rows = { 'without' => 'without waiting', 'with' => 'waiting' }.map do |which, title|
-        [title, *SOAKS.keys.map { |degrees| numbers["ramp_soak_#{which}_#{degrees.to_i}"] }]
-      end
-      table('ramp and soak', *SOAKS.map { |degrees, seconds| "within 8 degrees of #{degrees.to_i}, #{seconds.to_i} s wanted" }, rows)
+      names = SOAKS.keys.map { |degrees| "ramp_soak_NAME_#{degrees.to_i}" }
+      table('ramp and soak', *SOAKS.map { |degrees, seconds| "within 8 degrees of #{degrees.to_i}, #{seconds.to_i} s wanted" },
+            recipe_rows('%d', names, 'without' => 'without waiting', 'with' => 'waiting'))
     end
 
     def guard
-      numbers = Report.numbers['recipes']
-      rows = { 'slipped' => 'the sensor slips off', 'shut' => 'the relay stays on' }.map do |what, title|
-        [title, *%w[without with].map { |which| format('%.0f', numbers["guard_#{what}_#{which}"]) }]
-      end
-      table('setpoint 60 degrees', 'hottest without a guard', 'with', rows)
+      table('setpoint 60 degrees', 'hottest without a guard', 'with',
+            recipe_rows('%.0f', %w[guard_NAME_without guard_NAME_with], 'slipped' => 'the sensor slips off', 'shut' => 'the relay stays on'))
     end
 
     def interpolated
-      numbers = Report.numbers['recipes']
-      rows = { 'low' => 'of level 100', 'high' => 'of level 1000', 'with' => 'by the level' }.map do |which, title|
-        [title, *%w[over travel].map { |what| format('%.0f', numbers["interpolated_#{which}_#{what}"]) }]
-      end
-      table('gains', 'farthest beyond a setpoint, of 1000', 'travel of the valve', rows)
+      table('gains', 'farthest beyond a setpoint, of 1000', 'travel of the valve',
+            recipe_rows('%.0f', %w[interpolated_NAME_over interpolated_NAME_travel],
+                        'low' => 'of level 100', 'high' => 'of level 1000', 'with' => 'by the level'))
     end
 
     def behind_tpo
@@ -245,11 +224,8 @@ module Tables
     end
 
     def retune
-      numbers = Report.numbers['recipes']
-      rows = { 'narrow' => 'a fifth to each side', 'whole' => 'all' }.map do |which, title|
-        [title, format('%.0f', numbers["retune_#{which}_far"])]
-      end
-      table('range of the experiment', 'farthest from the setpoint of 500', rows)
+      table('range of the experiment', 'farthest from the setpoint of 500',
+            recipe_rows('%.0f', %w[retune_NAME_far], 'narrow' => 'a fifth to each side', 'whole' => 'all'))
     end
 
     def comparison
@@ -329,6 +305,13 @@ module Tables
                ["#{row['off']} off", row['off'], row['off_s']], ["#{row['out']} out", row['out'], nil]]
       parts.select { |_, count, _| count.positive? }
            .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
+    end
+
+    # A row for each of `titles`: numbers of the recipes, which have its name for NAME.
+    def recipe_rows(form, numbers, titles)
+      titles.map do |name, title|
+        [title, *numbers.map { |number| format(form, Report.numbers['recipes'].fetch(number.sub('NAME', name))) }]
+      end
     end
 
     def short_time(seconds)

@@ -7,10 +7,11 @@ module Recipes
   FOLDER = 'examples/recipes'
   MARKED = %r{^// recipe\n(.*?)^// end of recipe\n}m.freeze
 
-  # What a recipe takes for granted, for the compiler of the document's blocks.
   PLANT = 'extern int16_t measure(void); extern void drive(int16_t);'
+
+  # What a recipe takes for granted, for the compiler of the document's blocks.
   GIVEN = {
-    'interrupt' => 'extern void disable_interrupts(void); extern void enable_interrupts(void); ' \
+    'interrupt' => 'extern void disable_interrupts(void); extern void enable_interrupts(void);  ' \
                    "#{PLANT}",
     'guard' => 'extern void cut_supply(void); extern void close_supply(void);',
     'freertos' => 'typedef uint32_t TickType_t; typedef long BaseType_t; typedef void *QueueHandle_t; enum { pdTRUE = 1 }; ' \
