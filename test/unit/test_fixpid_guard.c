@@ -2,6 +2,7 @@
 #include "fixpid_guard.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_guard.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"

@@ -2,6 +2,7 @@
 #include "fixpid_table.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_table.h"
 #include "reference_control.h"
 #include "table_in_flash.h"
 #include "unity.h"

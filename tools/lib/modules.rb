@@ -163,6 +163,11 @@ module Modules
     ALL[name] || PARTS.fetch(name)
   end
 
+  # What makes the random arguments of a module alone.
+  def numbers(name)
+    Dir["test/support/numbers_#{name}.c"]
+  end
+
   # Those that calls_x.c calls on simulated chips, against the host: all but
   # controllers, which have a driver for that. And the parts.
   def called

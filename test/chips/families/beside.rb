@@ -55,7 +55,7 @@ module Beside
       folder = "#{@folder}/#{chip.name}-#{name}-#{File.basename(tree)}"
       FileUtils.mkdir_p(folder)
       flags = ['-DCALLS_PART', *gnu(chip), *FLAGS, "-I#{rows(name)}"]
-      chip.run(flags, ["#{FOLDER}/main.c", "#{FOLDER}/calls_#{name}.c", *NUMBERS, *library(name, tree)], folder)
+      chip.run(flags, ["#{FOLDER}/main.c", "#{FOLDER}/calls_#{name}.c", *numbers(name), *library(name, tree)], folder)
       format('%08x', File.binread("#{folder}/results", 4).unpack1('V'))
     end
 
@@ -65,10 +65,14 @@ module Beside
         @answers[name] ||= begin
           program = "#{@folder}/#{name}-here"
           Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, *FLAGS, "-I#{rows}", "#{FOLDER}/main.c", "#{FOLDER}/calls_#{name}.c",
-                      *NUMBERS, *library(name, '.'), '-o', program)
+                      *numbers(name), *library(name, '.'), '-o', program)
           Host.output(program)[/random (\h+)/, 1]
         end
       end
+    end
+
+    def numbers(name)
+      NUMBERS | Modules.numbers(name)
     end
 
     def library(name, tree)

@@ -26,7 +26,7 @@ class CalledModule
 
   # Where the calls of a module with its rows, each of its functions among them, need more
   # than 32 KB.
-  CHIPS = %w[autotune gains guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
+  CHIPS = %w[autotune guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
 
   # The autotuner has no definition in C: test/model/autotune compares it.
   def initialize(name)
@@ -60,7 +60,7 @@ class CalledModule
     if Modules.entry(@name)[:rows]
       BUILT.make(rows, [Inputs.digest([maker, 'tools/lib/modules.rb', recorded])]) { written(rows, said('ruby', maker, recorded)) }
     end
-    [*FLAGS, *MORE_CALLS[@name], "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS if compared?)]
+    [*FLAGS, *MORE_CALLS[@name], "#{FOLDER}/calls_#{@name}.c", *(MORE_NUMBERS | Modules.numbers(@name) if compared?)]
   end
 
   def digests(machine)

@@ -35,7 +35,7 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
 
   # What makes the calls.
   def callers
-    program || %w[test/support/numbers_control.c]
+    program || %w[test/support/numbers_control.c] + Modules.numbers(id)
   end
 end
 
