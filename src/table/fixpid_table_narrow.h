@@ -7,7 +7,13 @@
 
 #include "../common/fixpid_bits.h"
 
-#if FIXPID_MULTIPLIER_BITS == 0
+#if FIXPID_MULTIPLIER_BITS != 0
+#if defined(__AVR__)
+#include "fixpid_table_words_avr.h"
+#else
+#include "fixpid_table_bytes.h"
+#endif
+#else
 
 // a * b. The product moves right into the place of b, whose bits leave; what a
 // bit adds is a * 2^16, halved as the sum is: below 2^31 + 2^31.
@@ -28,10 +34,6 @@ TABLE_INLINE uint32_t product(uint16_t a, uint16_t b)
     return sum;
 }
 
-#elif defined(__AVR__)
-#include "fixpid_table_words_avr.h"
-#else
-#include "fixpid_table_bytes.h"
 #endif
 
 // floor(rise * part / run + 1/2). pre: part <= run, 1 <= run; post: 0..rise.

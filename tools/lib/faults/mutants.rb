@@ -90,7 +90,7 @@ def runs_of(file)
   when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
   when 'fixpid_table_text' then runs_of('src/table/fixpid_table.c')
   when 'fixpid_difference'
-    %w[guard table].map { |noun| Run.new(\"test_fixpid_#{noun}\", [\"src/#{noun}/fixpid_#{noun}.c\"], []) }
+    %w[guard table].map { |noun| Run.new("test_fixpid_#{noun}", ["src/#{noun}/fixpid_#{noun}.c"], []) }
   when 'fixpid_bytes' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c], []), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
   when 'fixpid_an937_turns' then [run_of('test_fixpid_an937_arith', %w[-D__riscv])]
   when 'fixpid_signed_riscv'
