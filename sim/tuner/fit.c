@@ -47,8 +47,7 @@ static double error_of(const struct fit *self)
     return most;
 }
 
-// --- One line
-// -----------------------------------------------------------------
+// ---- One line ----
 
 // Twice the height of the line's upper or lower end at t above y0: the table
 // rounds half up, so the line may be from low - 1/2 to below high + 1/2.
@@ -121,8 +120,7 @@ static struct ends ends_at(const struct fit *self, struct fit_place from,
     return y;
 }
 
-// --- The places of one point
-// --------------------------------------------------
+// ---- The places of one point ----
 
 static bool before(const struct fit_place *a, const struct fit_place *b)
 {
@@ -210,8 +208,7 @@ static void drop_far(struct fit *self, int stage)
     }
 }
 
-// --- The search
-// ---------------------------------------------------------------
+// ---- The search ----
 
 // False where the error leaves the table nothing at some x.
 static bool bound(struct fit *self, double error)

@@ -19,8 +19,8 @@
 #define BELOW 0x01u
 #define ABOVE 0x02u
 #define ZONE 0x03u
-#define LAST 0x0Cu // the last zone outside, since the loop was settled
-#define END 0x30u  // the last end of the output, inside the band
+#define LAST 0x0Cu     // the last zone outside, since the loop was settled
+#define LAST_END 0x30u // the last end of the output, inside the band
 #define NOISY 0x40u
 #define REVERSED 0x80u
 
@@ -336,7 +336,7 @@ static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
 static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 {
     const uint8_t state =
-        (uint8_t)((SELF.state & (uint8_t)~END) | (uint8_t)(end << 4));
+        (uint8_t)((SELF.state & (uint8_t)~LAST_END) | (uint8_t)(end << 4));
     uint16_t count = SELF.count;
 
     if ((count & NEGATIVE) == 0u) {

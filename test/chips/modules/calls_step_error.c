@@ -17,20 +17,6 @@ static struct reference_pid reference;
 #define DEFINE(call) ((void)0)
 #endif
 
-enum {
-    NOTHING,
-    INIT,
-    RESET,
-    SET_GAINS,
-    SET_LIMITS,
-    SET_INTEGRAL_LIMITS,
-    SET_FEEDFORWARD,
-    SET_MANUAL,
-    SET_AUTO,
-    SEED,
-    TRACK
-};
-
 FIXPID_DATA struct fixpid_pid pid_errors;
 
 static struct fixpid_pid_config config;
@@ -41,23 +27,23 @@ static void set(uint8_t event, int16_t value, int16_t value2)
     bool good = true;
 
     switch (event) {
-    case INIT:
+    case PID_INIT:
         good = fixpid_pid_init(&pid_errors, &config);
         DEFINE(reference_pid_init(&reference, &config));
         break;
-    case RESET:
+    case PID_RESET:
         fixpid_pid_reset(&pid_errors);
         DEFINE(reference_pid_reset(&reference));
         break;
-    case SET_GAINS:
+    case PID_SET_GAINS:
         good = fixpid_pid_set_gains(&pid_errors, &config.gains);
         DEFINE(reference_pid_set_gains(&reference, &config.gains));
         break;
-    case SET_LIMITS:
+    case PID_SET_LIMITS:
         good = fixpid_pid_set_limits(&pid_errors, value, value2);
         DEFINE(reference_pid_set_limits(&reference, value, value2));
         break;
-    case SET_INTEGRAL_LIMITS:
+    case PID_SET_INTEGRAL_LIMITS:
         good = fixpid_pid_set_integral_limits(&pid_errors, value, value2);
         DEFINE(reference_pid_set_integral_limits(&reference, value, value2));
         break;
@@ -70,23 +56,23 @@ static void set(uint8_t event, int16_t value, int16_t value2)
 static void call(uint8_t event, int16_t value, int16_t value2)
 {
     switch (event) {
-    case SET_FEEDFORWARD:
+    case PID_SET_FEEDFORWARD:
         fixpid_pid_set_feedforward(&pid_errors, value);
         DEFINE(reference_pid_set_feedforward(&reference, value));
         break;
-    case SET_MANUAL:
+    case PID_SET_MANUAL:
         fixpid_pid_set_manual(&pid_errors, value);
         DEFINE(reference_pid_set_manual(&reference, value));
         break;
-    case SET_AUTO:
+    case PID_SET_AUTO:
         fixpid_pid_set_auto(&pid_errors);
         DEFINE(reference_pid_set_auto(&reference));
         break;
-    case SEED:
+    case PID_SEED:
         fixpid_pid_seed(&pid_errors, value);
         DEFINE(reference_pid_seed(&reference, value));
         break;
-    case TRACK:
+    case PID_TRACK:
         fixpid_pid_track(&pid_errors, value, (uint8_t)value2);
         DEFINE(reference_pid_track(&reference, value, (uint8_t)value2));
         break;
@@ -161,7 +147,7 @@ void calls_rows(void)
             step((int16_t)rows_first[row], (int16_t)rows_second[row]);
         }
         if (rows_tracked[row] != 0u) {
-            call(TRACK, rows_applied[row], rows_shift[row]);
+            call(PID_TRACK, rows_applied[row], rows_shift[row]);
         }
     }
 }
@@ -172,10 +158,10 @@ static void random_call(uint8_t event)
 {
     const int16_t value = numbers_int16();
 
-    if (event == INIT) {
+    if (event == PID_INIT) {
         numbers_pid_config(&config);
     }
-    if ((event == INIT) || (event == RESET)) {
+    if ((event == PID_INIT) || (event == PID_RESET)) {
         measurement = 0;
     }
     numbers_pid_gains(&config.gains);
@@ -217,7 +203,7 @@ void calls_random(uint32_t count)
 {
     int16_t setpoint = 0;
 
-    random_call(INIT);
+    random_call(PID_INIT);
     for (uint32_t i = 0; i < count; i++) {
         if (numbers_one_in(16)) {
             random_call((uint8_t)(1u + numbers_below(10)));

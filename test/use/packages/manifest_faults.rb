@@ -90,11 +90,12 @@ end
 
 # What is said of a manifest that differs in everything: a few lines of a few words.
 def readable
+  more = File.readlines('keywords.txt').size + 1 - 10 # all of its lines and `nothing`, but for those that are shown
   output, = seeded('keywords.txt', /.+/m, "nothing\n") { Gate.run('ruby', 'tools/lib/manifests.rb') }
   said = output[/^FAILED keywords.*?(?=^ok|^FAILED|\z)/m].lines(chomp: true)
   Gate.expect('a difference is at most 12 lines', said.size <= 12, true)
   Gate.expect('of 130 characters', said.map(&:size).max <= 130, true)
-  Gate.expect('says how much more there is', said[-2].match?(/^ +and 1\d\d lines more$/), true)
+  Gate.expect('says how much more there is', said[-2].strip, "and #{more} lines more")
   Gate.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
 end
 
