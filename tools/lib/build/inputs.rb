@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require 'digest'
+require 'digest/sha2' # of threads, only the first may load it
 require 'open3'
 require 'pathname'
 

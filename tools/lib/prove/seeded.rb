@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The breaks of src/ that the proofs must notice: those of test/faults.txt, each with its
 # proof, and what choice.rb draws.
-require 'digest'
+require 'digest/sha2' # of threads, only the first may load it
 require 'fileutils'
 require_relative '../c_functions'
 require_relative '../faults/faults'
