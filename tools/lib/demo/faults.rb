@@ -31,10 +31,10 @@ FAULT_LOOPS = {
                             duties: -1023..1023, back: 0.5, lasting: 1.0, blind: 25e-3,
                             inputs: 'the set point'),
   'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
-                           duties: 0..1023, back: 40.0, lasting: 0.0, blind: 2e-3,
+                           duties: 0..1023, back: 40.0, lasting: 0.0, blind: 5e-3,
                            inputs: 'the set point'),
   'thermostat' => FaultRules.new(runs: 600, long_runs: 4000, tick_s: 1e-3, watchdog_s: 32e-3,
-                                 duties: 0..1023, back: 40.0, lasting: 0.0, blind: 102e-3,
+                                 duties: 0..1023, back: 40.0, lasting: 0.0, blind: 402e-3,
                                  inputs: 'the set point, the selector')
 }.freeze
 
