@@ -157,7 +157,7 @@ THERMOSTAT_STORY = [
   [DOOR.to, 'door', 'shut'],
   [BREAK.from, 'wire', 'broken'],
   [BREAK.to, 'alarm', 'stays'],
-  [OFF.from, 'turned', 'off'],
+  [OFF.from, 'at', 'off'],
   [OFF.to, 'automatic', 'again'],
   [THERMOSTAT_END_S]
 ].freeze
