@@ -5,6 +5,8 @@
 #include "fixpid_an937.h"
 #include "port.h"
 
+#include "../turned_down.h"
+
 // The anti-windup limit of the accumulated error is 1..65535. The note's value
 // is 4000; 65535 is as good as none.
 #ifndef MOTOR_ACCUMULATED_ERROR_LIMIT
@@ -24,18 +26,19 @@
 #define CLOSE_ERROR 80     // 2 % of the note's range
 #define RUNNING_TICKS 250u // this long close to the set speed
 
-// A tachometer that reads an end for so long, while so much drive pushes it
-// away from there, is broken. The motor leaves an end within 2 ms.
-#define LOW_END 8 // of 1023 counts
-#define HIGH_END 1015
-#define PUSH (PORT_DRIVE_FULL / 2)
-#define DEAF_TICKS 20u
+// Of the guard, whose step is a tick of 1 ms. The plant that it guards,
+// sim/plant/plant_motor.h, has a gain of 1 count of speed for one of duty, a
+// time constant of 25 ms, that is a slope of 0.04, a dead time of a tick and
+// 0.4 counts of noise. The rule of fixpid_guard.h makes of that a band of 8
+// counts and a patience of 4. It is 20, as the noise of a bad tachometer is
+// more than 0.4: in 4 steps of it there may be no progress.
+#define GUARD_BAND 8u
+#define GUARD_PATIENCE 20u
+// Full drive surely brings 360 rad/s, with 22 V of 24 and the largest load.
+#define GUARD_REACH_MAX 768
 
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an937 motor;
-
-// Deviation 8.9: its test begins each time with 0.
-static uint16_t deaf_ticks = 0; // of a tachometer that does not answer
 
 static int16_t limited_to_full_drive(int32_t output)
 {
@@ -68,24 +71,9 @@ static void follow_schedule(int16_t setpoint, int16_t error)
     }
 }
 
-// For good, until the next reset: a motor that stands still reads as one whose
-// tachometer is broken.
-static bool is_deaf(uint8_t ticks, int16_t duty, int16_t speed)
-{
-    if (deaf_ticks >= DEAF_TICKS) {
-        return true;
-    }
-    if (((duty >= PUSH) && (speed <= LOW_END)) ||
-        ((duty <= -PUSH) && (speed >= HIGH_END))) {
-        deaf_ticks = (uint16_t)(deaf_ticks + ticks);
-    } else {
-        deaf_ticks = 0;
-    }
-    return deaf_ticks >= DEAF_TICKS;
-}
-
-// P acts on every pass, I and D on the passes after a tick. The drive is off
-// without a tachometer.
+// P acts on every pass, I and D on the passes after a tick. The guard sees what
+// the controller asks for in those. After an alarm the drive is off and the
+// controller begins anew.
 static void control(uint8_t ticks)
 {
     const int16_t setpoint = (int16_t)port_read(PORT_SETPOINT);
@@ -98,7 +86,11 @@ static void control(uint8_t ticks)
         follow_schedule(setpoint, error);
     }
     duty = limited_to_full_drive(fixpid_an937_step(&motor, error));
-    if (is_deaf(ticks, duty, speed)) {
+    if (ticks > 0u) {
+        (void)fixpid_guard_step(&guard, setpoint, speed, duty);
+    }
+    if (is_off(setpoint)) {
+        fixpid_an937_reset(&motor);
         duty = 0;
     }
     port_drive(duty);
@@ -109,9 +101,19 @@ int main(void)
     static const struct fixpid_an937_config config = {
         KP_Q4, KI_START_Q4, KD_Q4, MOTOR_ACCUMULATED_ERROR_LIMIT,
         DERIVATIVE_PERIOD_TICKS};
+    // A tachometer may read anything: one at an end is seen as one that does
+    // not follow the drive.
+    static const struct fixpid_guard_config guarded = {
+        .output_min = -PORT_DRIVE_FULL,
+        .output_max = PORT_DRIVE_FULL,
+        .reach_max = GUARD_REACH_MAX,
+        .band = GUARD_BAND,
+        .patience = GUARD_PATIENCE,
+    };
 
     port_init();
     (void)fixpid_an937_init(&motor, &config);
+    (void)fixpid_guard_init(&guard, &guarded);
     while (port_running()) {
         control(port_ticks());
     }

@@ -5,7 +5,9 @@
 #include "fixpid_an937.h"
 #include "port.h"
 
-#include "../oven_sensor.h"
+#include "../oven_guard.h"
+#include "../oven_temperature.h"
+#include "../turned_down.h"
 
 // These are the gains x 16, each 0..255.
 #ifndef OVEN_KP_Q4
@@ -43,8 +45,6 @@
 // Deviation 8.4: the application's one controller, found by its name.
 FIXPID_DATA struct fixpid_an937 oven;
 
-static bool lost = false; // the last pass had no sensor
-
 // A heater cannot cool, so its duty is 0..PORT_DRIVE_FULL.
 static int16_t heater_duty(int32_t output)
 {
@@ -57,10 +57,9 @@ static int16_t heater_duty(int32_t output)
     return (int16_t)(output / OUTPUT_PER_DUTY);
 }
 
-// There is at most one control tick, as 255 ms are less than its period. One
-// without a sensor makes the controller start anew: the heater has been off.
-// What else only init sets is set each time, as a bit that has flipped in it
-// would else last.
+// There is at most one control tick, as 255 ms are less than its period. What
+// else only init sets is set each time, as a bit that has flipped in it would
+// else last.
 static void count_milliseconds(uint8_t ticks)
 {
     static uint16_t waited_ms = 0;
@@ -68,34 +67,31 @@ static void count_milliseconds(uint8_t ticks)
     waited_ms = (uint16_t)(waited_ms + ticks);
     if (waited_ms >= CONTROL_TICK_MS) {
         waited_ms = (uint16_t)(waited_ms - CONTROL_TICK_MS);
-        if (lost) {
-            fixpid_an937_reset(&oven);
-        } else {
-            (void)fixpid_an937_set_gains(&oven, OVEN_KP_Q4, OVEN_KI_Q4,
-                                         OVEN_KD_Q4);
-            (void)fixpid_an937_set_accumulated_error_limit(
-                &oven, ACCUMULATED_ERROR_LIMIT);
-            (void)fixpid_an937_set_derivative_period(&oven,
-                                                     DERIVATIVE_PERIOD_TICKS);
-            fixpid_an937_tick(&oven);
-        }
+        (void)fixpid_an937_set_gains(&oven, OVEN_KP_Q4, OVEN_KI_Q4, OVEN_KD_Q4);
+        (void)fixpid_an937_set_accumulated_error_limit(&oven,
+                                                       ACCUMULATED_ERROR_LIMIT);
+        (void)fixpid_an937_set_derivative_period(&oven,
+                                                 DERIVATIVE_PERIOD_TICKS);
+        fixpid_an937_tick(&oven);
     }
 }
 
 // The error is four times the difference in counts of the converter, so that
-// its 1023 counts are the note's 4000. Without a sensor the heater is off.
+// its 1023 counts are the note's 4000. Each pass is a step of the guard.
+// After an alarm the heater is off and the controller begins anew.
 static void control(void)
 {
     const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
     const int16_t error = (int16_t)(setpoint - measurement);
+    int16_t duty = heater_duty(fixpid_an937_step(&oven, error));
 
-    lost = !sensed(measurement);
-    if (lost) {
-        port_drive(0);
-    } else {
-        port_drive(heater_duty(fixpid_an937_step(&oven, error)));
+    (void)fixpid_guard_step(&guard, setpoint, measurement, duty);
+    if (is_off(setpoint)) {
+        fixpid_an937_reset(&oven);
+        duty = 0;
     }
+    port_drive(duty);
 }
 
 int main(void)
@@ -103,9 +99,12 @@ int main(void)
     static const struct fixpid_an937_config config = {
         OVEN_KP_Q4, OVEN_KI_Q4, OVEN_KD_Q4, ACCUMULATED_ERROR_LIMIT,
         DERIVATIVE_PERIOD_TICKS};
+    static const struct fixpid_guard_config guarded =
+        OVEN_GUARD(GUARD_PATIENCE_MS);
 
     port_init();
     (void)fixpid_an937_init(&oven, &config);
+    (void)fixpid_guard_init(&guard, &guarded);
     while (port_running()) {
         count_milliseconds(port_wait_tick());
         control();

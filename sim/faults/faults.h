@@ -11,8 +11,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "fixpid_guard.h"
-
 enum fault_kind {
     FAULT_NONE,       // to see what the loop does by itself
     FAULT_FLIP,       // a bit of the controller's object
@@ -66,11 +64,6 @@ struct fault_loop {
     size_t input_count;
     int low; // what the application may ask of its drive
     int high;
-
-    // Of the guard beside a loop whose application has none, by the rule of its
-    // header and in counts of the converter; all 0: there is none at all.
-    struct fixpid_guard_config guard;
-    double guard_step_s;
 };
 
 // Bound by the linker: loop_*.c.

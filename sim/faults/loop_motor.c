@@ -18,12 +18,4 @@ const struct fault_loop fault_loop = {
     .input_count = 1,
     .low = -PORT_DRIVE_FULL,
     .high = PORT_DRIVE_FULL,
-    // K is 1 count of speed for one of the drive, the slope 0.04 with a lag of
-    // 25 ms, L a tick and s 0.4: 4 + 8 s is 7.2, and 2 L + 20 bands / 82 is 4.
-    .guard = {.output_min = -PORT_DRIVE_FULL,
-              .output_max = PORT_DRIVE_FULL,
-              .reach_max = 900, // on the largest load
-              .band = 8,
-              .patience = 4},
-    .guard_step_s = 1e-3,
 };

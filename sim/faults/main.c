@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "faults.h"
+#include "fixpid_guard.h"
 #include "host.h"
 #include "port_board.h"
 #include "world.h"
@@ -19,7 +20,6 @@
 #define TEXT(name) TEXT_OF(name)
 #define TICK_S (1.0 / (double)PORT_TICKS_PER_SECOND)
 #define START_UP_S 2e-3
-#define COUNTS 1024.0 // of the converter
 
 // A sensor that is noisy for a while looks like a loop that swings.
 #define ALARMS                                                                 \
@@ -32,9 +32,8 @@ static const size_t object_size = sizeof(struct PROBE_TYPE);
 static jmp_buf power_on; // Deviation 21.4: a reset leaves the application
 static bool timer_dead;
 static double dead_since_s;
-static struct fixpid_guard beside; // an application without one of its own
+static struct fixpid_guard none; // of an application without one: refused
 static struct fixpid_guard *guard;
-static double guard_due_s;
 
 void host_probe(struct host_terms *terms)
 {
@@ -64,12 +63,8 @@ static void load(const char *path)
         exit(EXIT_FAILURE);
     }
     object = found(TEXT(HOST_PROBE_OBJECT));
-    (void)fixpid_guard_init(&beside, &fault_loop.guard);
     guard = dlsym(application, "guard");
-    if (guard == NULL) {
-        guard = &beside;
-    }
-    guard_due_s = world_time_s();
+    guard = (guard != NULL) ? guard : &none;
 }
 
 static void flip(unsigned bit)
@@ -152,26 +147,8 @@ static void obey(const struct fault_order *order)
     }
 }
 
-static int16_t last_reading(uint8_t channel)
-{
-    const double counts = floor(COUNTS * world_last_voltage(channel));
-    return (int16_t)fmin(counts, COUNTS - 1.0);
-}
-
-// The guard sees what the application read and asked for, as it would there.
-static void step_guard(void)
-{
-    if ((fault_loop.guard_step_s > 0.0) && (world_time_s() >= guard_due_s)) {
-        guard_due_s += fault_loop.guard_step_s;
-        (void)fixpid_guard_step(&beside, last_reading(fault_loop.inputs[0]),
-                                last_reading(fault_loop.sensor),
-                                host_drive_asked());
-    }
-}
-
 static void watch(void)
 {
-    step_guard();
     if (timer_dead) {
         host_shift_ticks((dead_since_s - world_time_s()) / TICK_S);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The oven's world: cold at power-on, with a temperature to reach, and a person
-// who turns the selector, opens the door and may choose another temperature or
-// break the sensor's wire.
+// who turns the selector, opens the door and may choose another temperature,
+// break the sensor's wire or switch off.
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -35,6 +35,10 @@ enum oven_option {
     WIRE_AT,
     WIRE_FOR,
     WIRE_READS,
+    OFF_AT,
+    OFF_FOR,
+    DOWN_AT,
+    DOWN_FOR,
     STEP
 };
 
@@ -54,6 +58,10 @@ struct world_option scene_options[] = {
     {"wire_at", HOUR_S, 0.0, HOUR_S, "the sensor's wire breaks, s"},
     {"wire_for", 5.0, 0.0, HOUR_S, "until it is whole, s"},
     {"wire_reads", 1.0, 0.0, 1.0, "which then reads, of full scale"},
+    {"off_at", HOUR_S, 0.0, HOUR_S, "selector to off, s"},
+    {"off_for", 1.0, 0.0, HOUR_S, "until it is back, s"},
+    {"down_at", HOUR_S, 0.0, HOUR_S, "set temperature to 0 C, s"},
+    {"down_for", 1.0, 0.0, HOUR_S, "until it is back, s"},
     {"plant_step", 1e-3, 1e-6, 1e-1, "longest step of the integrator, s"},
 };
 const size_t scene_option_count =
@@ -93,6 +101,14 @@ void scene_update(double time_s)
     if (within(time_s, scene_options[LOW_POWER_AT].value,
                scene_options[LOW_POWER_FOR].value)) {
         selector = LOW_POWER;
+    }
+    if (within(time_s, scene_options[OFF_AT].value,
+               scene_options[OFF_FOR].value)) {
+        selector = OFF;
+    }
+    if (within(time_s, scene_options[DOWN_AT].value,
+               scene_options[DOWN_FOR].value)) {
+        setpoint_c = 0.0;
     }
 
     door_open = within(time_s, scene_options[DOOR_AT].value,

@@ -5,6 +5,7 @@
 
 TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
+TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/motor")
 
@@ -30,12 +31,11 @@ static uint16_t convert(uint8_t channel, int calls)
 
 void setUp(void)
 {
-    static const struct fixpid_an937_config config = {
-        KP_Q4, KI_START_Q4, KD_Q4, MOTOR_ACCUMULATED_ERROR_LIMIT,
-        DERIVATIVE_PERIOD_TICKS};
-
-    fixpid_an937_init(&motor, &config);
-    deaf_ticks = 0;
+    port_init_Ignore();
+    port_running_IgnoreAndReturn(false);
+    TEST_ASSERT_EQUAL_INT(0, application_main()); // good configurations
+    port_init_StopIgnore();
+    port_running_StopIgnore();
     port_drive_Stub(drive);
     port_read_Stub(convert);
 }
@@ -102,82 +102,94 @@ static void passes(unsigned count, uint16_t setpoint, uint16_t speed)
 
 void test_control_tachometer_without_pulses_drive_is_off_after_20_ticks(void)
 {
-    passes(DEAF_TICKS - 1u, 500, LOW_END);
+    passes(GUARD_PATIENCE - 1u, 500, 0);
     TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
-    pass(0, 500, LOW_END); // between two ticks
+    pass(0, 500, 0); // between two ticks
     TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
-    pass(1, 500, LOW_END);
+    pass(1, 500, 0);
     TEST_ASSERT_EQUAL_INT16(0, duty);
 }
 
 void test_control_tachometer_at_full_scale_drive_is_off_after_20_ticks(void)
 {
-    passes(DEAF_TICKS - 1u, 500, HIGH_END);
+    passes(GUARD_PATIENCE - 1u, 500, 1023);
     TEST_ASSERT_EQUAL_INT16(-PORT_DRIVE_FULL, duty);
-    pass(1, 500, HIGH_END);
+    pass(1, 500, 1023);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+void test_control_tachometer_stuck_between_its_ends_drive_is_off(void)
+{
+    passes(GUARD_PATIENCE, 500, 300);
     TEST_ASSERT_EQUAL_INT16(0, duty);
 }
 
 void test_control_drive_that_is_off_stays_off_whatever_is_read(void)
 {
-    passes(DEAF_TICKS, 500, 0);
+    passes(GUARD_PATIENCE, 500, 0);
     passes(2, 500, 499);
     TEST_ASSERT_EQUAL_INT16(0, duty);
     pass(0, 500, 1023);
     TEST_ASSERT_EQUAL_INT16(0, duty);
 }
 
-void test_control_tachometer_that_answers_once_is_believed(void)
+void test_control_alarm_is_acknowledged_by_turning_down_and_up_again(void)
 {
-    passes(DEAF_TICKS - 1u, 500, 0);
-    pass(1, 500, LOW_END + 1);
-    passes(DEAF_TICKS - 1u, 500, 0);
-    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
-    pass(1, 600, HIGH_END - 1);
-    passes(DEAF_TICKS - 1u, 500, 1023);
-    TEST_ASSERT_EQUAL_INT16(-PORT_DRIVE_FULL, duty);
-}
-
-void test_control_ticks_that_came_together_count_for_the_tachometer(void)
-{
-    pass(DEAF_TICKS - 1u, 500, 0);
-    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
-    pass(255, 500, 0);
+    passes(GUARD_PATIENCE, 500, 0);
+    pass(1, TURNED_DOWN + 1, 0);
+    pass(1, 500, 499);
     TEST_ASSERT_EQUAL_INT16(0, duty);
+    passes(2u * GUARD_PATIENCE, TURNED_DOWN, 0);
+    TEST_ASSERT_EQUAL_INT16(0, duty);
+    pass(1, 500, 499); // begins anew: P 24, I 5 * 4, D 4
+    TEST_ASSERT_EQUAL_INT16(24 + 20 + 4, duty);
 }
 
-// Of PORT_DRIVE_FULL / 2, with P alone: 24 for each count.
-void test_control_an_end_is_believed_where_less_than_half_the_drive_pushes(void)
+void test_control_motor_that_gains_a_band_in_20_ticks_is_believed(void)
+{
+    for (uint16_t speed = 0; speed < 400u; speed += GUARD_BAND) {
+        passes(GUARD_PATIENCE - 1u, 500, speed);
+        TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, duty);
+    }
+}
+
+// P alone makes 24 for each count: 42 of them are less than the full drive.
+void test_control_an_end_is_believed_where_the_drive_does_not_push(void)
 {
     (void)fixpid_an937_set_gains(&motor, KP_Q4, 0, 0);
-    passes(2u * DEAF_TICKS, 21, 0);
-    TEST_ASSERT_EQUAL_INT16(21 * 24, duty);
-    passes(2u * DEAF_TICKS, 1002, 1023);
-    TEST_ASSERT_EQUAL_INT16(-21 * 24, duty);
-    passes(DEAF_TICKS, 22, 0);
+    passes(3u * GUARD_PATIENCE, 42, 0);
+    TEST_ASSERT_EQUAL_INT16(42 * 24, duty);
+    passes(GUARD_PATIENCE, 43, 0);
     TEST_ASSERT_EQUAL_INT16(0, duty);
+}
+
+// A pass of a motor that the guard believes, though it does not follow.
+static void believed_pass(uint16_t setpoint, uint16_t speed)
+{
+    fixpid_guard_reset(&guard);
+    pass(1, setpoint, speed);
 }
 
 // The schedule's counter cannot be cleared: one test tells its whole story.
 void test_control_integral_gain_goes_from_80_to_144_once_the_motor_runs(void)
 {
     for (unsigned i = 0; i < 300u; i++) {
-        pass(1, 0, 0); // standing still is not running
+        believed_pass(0, 0); // standing still is not running
     }
     for (unsigned i = 0; i < RUNNING_TICKS - 1u; i++) {
-        pass(1, 500, 480); // 80: just close enough
+        believed_pass(500, 480); // 80: just close enough
     }
-    pass(1, 500, 479); // not close: the count starts again
+    believed_pass(500, 479); // not close: the count starts again
     for (unsigned i = 0; i < RUNNING_TICKS - 1u; i++) {
-        pass(1, 500, 520);
+        believed_pass(500, 520);
     }
     TEST_ASSERT_EQUAL_INT32(80 * fixpid_an937_accumulated_error(&motor),
                             fixpid_an937_integral(&motor));
-    pass(1, 500, 520);
+    believed_pass(500, 520);
     TEST_ASSERT_EQUAL_INT32(144 * fixpid_an937_accumulated_error(&motor),
                             fixpid_an937_integral(&motor));
     TEST_ASSERT_EQUAL_INT32(-4000, fixpid_an937_accumulated_error(&motor));
-    pass(1, 500, 0); // and stays
+    believed_pass(500, 0); // and stays
     TEST_ASSERT_EQUAL_INT32(144 * fixpid_an937_accumulated_error(&motor),
                             fixpid_an937_integral(&motor));
 }

@@ -5,6 +5,7 @@
 
 TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
+TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/oven")
 
@@ -40,7 +41,6 @@ static void expect_pass(uint8_t ticks, uint16_t setpoint, uint16_t temperature,
 // To the end of a slow tick.
 static void reach_slow_tick(void)
 {
-    lost = false;
     oven.tick_pending = 0;
     do {
         count_milliseconds(1);
@@ -105,33 +105,85 @@ void test_main_drive_is_limited_to_full(void)
     run();
 }
 
-// A short interruption leaves the controller as it was, 2 counts of I here.
-void test_main_heater_is_off_while_the_wire_of_the_sensor_is_broken(void)
+static void expect_passes(unsigned count, uint16_t setpoint,
+                          uint16_t temperature, int16_t duty)
 {
-    reach_slow_tick();
+    for (unsigned i = 0; i < count; i++) {
+        expect_pass(1, setpoint, temperature, duty);
+    }
+}
+
+void test_main_three_readings_of_a_broken_wire_are_no_alarm(void)
+{
     port_init_Expect();
-    expect_pass(255, 500, 498, 1);
-    expect_pass(145, 500, 498, 2);
-    expect_pass(1, 500, 1016, 0);
-    expect_pass(1, 500, 1023, 0);
-    expect_pass(1, 500, 498, 2);
-    expect_pass(1, 500, 7, 0);
-    expect_pass(1, 500, 0, 0);
-    expect_pass(1, 500, 498, 2);
+    expect_passes(3, 500, 1016, 0);
+    expect_passes(1, 500, 400, 400 / 8);
+    expect_passes(3, 500, 7, 4 * 493 / 8);
+    expect_passes(1, 500, 400, 400 / 8);
     run();
 }
 
-void test_main_controller_starts_anew_after_a_slow_tick_without_sensor(void)
+void test_main_heater_is_off_from_the_fourth_reading_of_an_open_wire(void)
+{
+    port_init_Expect();
+    expect_passes(4, 500, 1016, 0);
+    expect_passes(5, 500, 400, 0);
+    run();
+}
+
+void test_main_heater_is_off_from_the_fourth_reading_of_a_shorted_wire(void)
+{
+    port_init_Expect();
+    expect_passes(3, 500, 7, 4 * 493 / 8);
+    expect_passes(1, 500, 7, 0);
+    expect_passes(5, 500, 400, 0);
+    run();
+}
+
+void test_main_alarm_is_acknowledged_by_turning_down_and_up_again(void)
+{
+    port_init_Expect();
+    expect_passes(4, 500, 1023, 0);
+    expect_passes(2, 2, 400, 0);
+    expect_passes(2, 500, 400, 400 / 8);
+    expect_passes(4, 500, 1023, 0);
+    expect_passes(1, 500, 400, 0); // turned down once is not for ever
+    run();
+}
+
+void test_main_heater_that_does_not_warm_is_an_alarm_after_its_patience(void)
+{
+    port_init_Expect();
+    run();
+    for (unsigned i = 1; i < GUARD_PATIENCE_MS; i++) {
+        TEST_ASSERT_EQUAL_HEX8(
+            0, fixpid_guard_step(&guard, 1280, 700, PORT_DRIVE_FULL) & ALARMS);
+    }
+    TEST_ASSERT_EQUAL_HEX8(
+        FIXPID_GUARD_NOT_RISING,
+        fixpid_guard_step(&guard, 1280, 700, PORT_DRIVE_FULL) & ALARMS);
+}
+
+void test_main_swings_do_not_switch_off(void)
+{
+    port_init_Expect();
+    for (unsigned i = 0; i < 20; i++) {
+        expect_passes(1, 500, 510, 0);
+        expect_passes(1, 500, 490, 40 / 8);
+    }
+    run();
+    TEST_ASSERT_BITS_HIGH(FIXPID_GUARD_OSCILLATING, fixpid_guard_flags(&guard));
+}
+
+void test_main_controller_begins_anew_after_an_alarm(void)
 {
     reach_slow_tick();
     port_init_Expect();
     expect_pass(255, 500, 498, 1);
-    expect_pass(145, 500, 498, 2);
-    expect_pass(255, 500, 1023, 0);
-    expect_pass(255, 500, 1023, 0);
-    expect_pass(1, 500, 498, 1);
-    expect_pass(255, 500, 498, 1);
-    expect_pass(34, 500, 498, 2);
+    expect_pass(145, 500, 498, 2); // with 1 of the integral
+    expect_passes(4, 500, 1023, 0);
+    expect_passes(1, 0, 498, 0);
+    expect_passes(1, 500, 498, 1);
     run();
 }
 

@@ -71,12 +71,16 @@ class Chip
   end
 end
 
-# The sensor's wire breaks, between two passes of a loop.
-CHIP_OVEN_WIRE = Stretch.new(15.05, 19.05)
+# The sensor's wire breaks, between two passes of a loop, and a person acknowledges the
+# alarm when it is whole.
+CHIP_OVEN_WIRE = Stretch.new(15.05, 17.05)
+CHIP_OVEN_DOWN = Stretch.new(18.05, 19.05)
 CHIP_THERMOSTAT_WIRE = Stretch.new(44.05, 48.05)
-OVEN_ON_CHIP = { seconds: 20, wire_at: CHIP_OVEN_WIRE.from, wire_for: 4 }.freeze
-THERMOSTAT_ON_CHIP = { seconds: 60, wire_at: CHIP_THERMOSTAT_WIRE.from,
-                       wire_for: 4 }.freeze
+CHIP_THERMOSTAT_OFF = Stretch.new(49.05, 50.05)
+OVEN_ON_CHIP = { seconds: 20, wire_at: CHIP_OVEN_WIRE.from, wire_for: 2,
+                 down_at: CHIP_OVEN_DOWN.from, down_for: 1 }.freeze
+THERMOSTAT_ON_CHIP = { seconds: 60, wire_at: CHIP_THERMOSTAT_WIRE.from, wire_for: 4,
+                       off_at: CHIP_THERMOSTAT_OFF.from, off_for: 1 }.freeze
 
 CHIPS = [
   Chip.new('pendulum', 'pendulum, AN964 on a PIC16F684', 'fixpid_an964_step',
@@ -122,10 +126,9 @@ end
 MOTOR_AGREES = [Agreement.new('speed_rad_s', 'rad/s', 0.0, 0.6, 10.0),
                 Agreement.new('speed_rad_s', 'rad/s', 0.6, 1.2, 4.0, 0.0)].freeze
 OVEN_AGREES = [Agreement.new('temperature_c', 'C', 0.0, 20.0, 0.05)].freeze
-# After the wire is whole it goes on from its last duty, with the noise that this
-# had.
-THERMOSTAT_AGREES = [Agreement.new('temperature_c', 'C', 0.0, CHIP_THERMOSTAT_WIRE.to, 0.1),
-                     Agreement.new('temperature_c', 'C', CHIP_THERMOSTAT_WIRE.to, 60.0, 0.5)].freeze
+# When the alarm is acknowledged it begins anew, a period sooner or later.
+THERMOSTAT_AGREES = [Agreement.new('temperature_c', 'C', 0.0, CHIP_THERMOSTAT_OFF.to, 0.1),
+                     Agreement.new('temperature_c', 'C', CHIP_THERMOSTAT_OFF.to, 60.0, 0.5)].freeze
 AGREEMENTS = {
   'pendulum' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
   'pendulum_8bit' => [Agreement.new('angle_degrees', 'degrees', 0.0, 1.0, 0.15)],
@@ -225,7 +228,9 @@ def check_oven_on_chip(one)
   Report.at_most('overshoot', oven_overshoot(run), 5.0, '%')
   Report.at_most('settles within 2 % after', oven_settling(run, 15.0),
                  1.1 * oven_settling(one.host, 15.0), 's')
-  check_wire(run, 'open', CHIP_OVEN_WIRE.from, CHIP_OVEN_WIRE.to, 0.02)
+  check_wire(run, 'open', CHIP_OVEN_WIRE.from, CHIP_OVEN_DOWN.to, 0.02)
+  Report.at_least('acknowledged: the drive', run.values('drive_counts', CHIP_OVEN_DOWN.to + 0.1).min,
+                  1.0, 'counts')
   AGREEMENTS[one.name][0].check(one)
 end
 
@@ -236,11 +241,12 @@ def check_thermostat_on_chip(one)
   limited = run.values('drive_counts', LOW_POWER.from + SEEN_S)
   Report.at_most('limit lowered: the drive, at once', limited.max, LOW_LIMIT,
                  'counts')
-  check_wire(run, 'open', CHIP_THERMOSTAT_WIRE.from, CHIP_THERMOSTAT_WIRE.to,
-             0.12)
+  check_wire(run, 'open', CHIP_THERMOSTAT_WIRE.from, CHIP_THERMOSTAT_OFF.to, 0.42)
+  Report.at_least('acknowledged: the drive',
+                  run.values('drive_counts', CHIP_THERMOSTAT_OFF.to + SEEN_S).max, 1.0, 'counts')
   before, after = AGREEMENTS[one.name]
   before.check(one)
-  after.check(one, 'wire whole again: agrees with the host')
+  after.check(one, 'acknowledged: agrees with the host')
 end
 
 def check_autotune_on_chip(one)
