@@ -3,6 +3,8 @@
 // sim/plant/plant_oven.h: by the rule of fixpid_guard.h, in 1/16 of a degree.
 #ifndef OVEN_GUARD_H
 #define OVEN_GUARD_H
+#include <stdbool.h>
+
 #include "fixpid_guard.h"
 #include "port.h"
 
@@ -16,9 +18,16 @@
 
 // A broken wire of the sensor reads full scale, as a resistor pulls it up
 // there, and one that touches ground reads 0. These are four conversions of 8
-// and of 1015 counts: 2 C and 253.75 C, beyond which no oven is.
+// and of 1015 counts: 2 C and 253.75 C, beyond which no oven is. From the first
+// such reading on the heater is off; the fourth is an alarm.
 #define COLDEST_SENSED (4 * 8)
 #define HOTTEST_SENSED (4 * 1015)
+
+static bool sensed(int16_t temperature_counts)
+{
+    return (temperature_counts >= COLDEST_SENSED) &&
+           (temperature_counts <= HOTTEST_SENSED);
+}
 
 // An oven that is off comes down to 40 C in the warmest room, and one at full
 // power leaves the sensor's range even at 80 % of its voltage.

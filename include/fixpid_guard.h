@@ -132,7 +132,18 @@ struct fixpid_guard {
     uint8_t strikes;
 };
 
+// Object mode, for firmware with one guard: compile the application and
+// fixpid_guard.c with -DFIXPID_GUARD_OBJECT=name, and define that object at
+// file scope, not static. Calls stay as they are; the pointer is ignored. On a
+// PIC18 under SDCC a third of the flash is saved.
+//
+// Sources that disagree about the object do not link: see FIXPID_MARKED.
+#ifdef FIXPID_GUARD_OBJECT
+extern FIXPID_DATA struct fixpid_guard FIXPID_GUARD_OBJECT;
+#define fixpid_guard_mark FIXPID_JOINED(, FIXPID_GUARD_OBJECT)
+#else
 #define fixpid_guard_mark
+#endif
 #define fixpid_guard_init FIXPID_MARKED(guard, init)
 #define fixpid_guard_reset FIXPID_MARKED(guard, reset)
 #define fixpid_guard_acknowledge FIXPID_MARKED(guard, acknowledge)

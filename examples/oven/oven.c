@@ -78,14 +78,18 @@ static void count_milliseconds(uint8_t ticks)
 
 // The error is four times the difference in counts of the converter, so that
 // its 1023 counts are the note's 4000. Each pass is a step of the guard.
-// After an alarm the heater is off and the controller begins anew.
+// Without a sensor the heater is off, and after an alarm the controller begins
+// anew, too.
 static void control(void)
 {
     const int16_t setpoint = set_temperature();
     const int16_t measurement = temperature();
     const int16_t error = (int16_t)(setpoint - measurement);
-    int16_t duty = heater_duty(fixpid_an937_step(&oven, error));
+    int16_t duty = 0;
 
+    if (sensed(measurement)) {
+        duty = heater_duty(fixpid_an937_step(&oven, error));
+    }
     (void)fixpid_guard_step(&guard, setpoint, measurement, duty);
     if (is_off(setpoint)) {
         fixpid_an937_reset(&oven);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // This is a thermostat on the general-purpose controller. It heats a small oven
 // from cold, and a person may switch the oven off, drive it by hand or run it
-// on little power while it is hot, without a jump of the heater. With its guard
-// it takes more flash than the 16 KB of a PIC18F4431.
+// on little power while it is hot, without a jump of the heater.
 #include "fixpid_pid.h"
 #include "port.h"
 
@@ -133,10 +132,11 @@ static bool alarm(int16_t setpoint, int16_t measurement, int16_t duty)
     return (fixpid_guard_step(&guard, goal, measurement, duty) & ALARMS) != 0u;
 }
 
-// After an alarm the heater is off until a person turns the selector to off,
-// and on from there. The board has no lamp: the heater that stays off is what
-// tells, and the guard's flags what it was. Now and then the controller goes on
-// from its duty without the derivative.
+// Without a sensor the heater is off and the controller waits. After an alarm
+// the heater is off until a person turns the selector to off, and on from
+// there. The board has no lamp: the heater that stays off is what tells, and
+// the guard's flags what it was. Now and then the controller goes on from its
+// duty without the derivative.
 static void control(void)
 {
     static int16_t duty = 0;
@@ -148,12 +148,14 @@ static void control(void)
     if (age_periods >= RENEWED_PERIODS) {
         go_on_from(steady_duty(duty));
     }
-    duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
+    if (sensed(measurement)) {
+        duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
+    }
     if (alarm(setpoint, measurement, duty)) {
         fixpid_pid_set_manual(&thermostat, 0);
         duty = 0;
     }
-    port_drive(duty);
+    port_drive(sensed(measurement) ? duty : 0);
 }
 
 int main(void)

@@ -2,6 +2,9 @@
 #include "fixpid_guard.h"
 
 #undef OBJECT
+#ifdef FIXPID_GUARD_OBJECT
+#define OBJECT FIXPID_GUARD_OBJECT
+#endif
 #include "../common/fixpid_difference.h"
 #include "../common/fixpid_self.h"
 

@@ -5,10 +5,14 @@
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "numbers.h"
+#include "numbers_control.h"
+#include "numbers_guard.h"
 #include "numbers_pid.h"
 #include "reference.h"
+#include "reference_control.h"
 #include "reference_pid.h"
 #include "unity.h"
 
@@ -26,6 +30,7 @@ TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
+TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 
 #define COUNT 5
 
@@ -183,5 +188,30 @@ void test_autotune_several_instances_keep_their_own_state(void)
             fixpid_autotune_unpack(&experiments[i], &records[1u - i]));
         fixpid_autotune_progress(&experiments[i], &stage);
         TEST_ASSERT_EQUAL_UINT16(2u * half_steps[1u - i], stage.period);
+    }
+}
+
+void test_guard_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_guard guards[COUNT];
+    struct reference_guard references[COUNT];
+    struct fixpid_guard_config configs[COUNT];
+    struct numbers_guard now[COUNT] = {{0, 0, 0}};
+
+    for (unsigned i = 0; i < COUNT; i++) {
+        do {
+            numbers_guard_config(&configs[i]);
+        } while (!reference_guard_init(&references[i], &configs[i]));
+        TEST_ASSERT_TRUE(fixpid_guard_init(&guards[i], &configs[i]));
+    }
+    for (unsigned n = 0; n < 5000; n++) {
+        const uint32_t i = numbers_below(COUNT);
+
+        numbers_guard_move(&now[i], &configs[i]);
+        TEST_ASSERT_EQUAL_HEX8(
+            reference_guard_step(&references[i], now[i].setpoint,
+                                 now[i].measurement, now[i].output),
+            fixpid_guard_step(&guards[i], now[i].setpoint, now[i].measurement,
+                              now[i].output));
     }
 }

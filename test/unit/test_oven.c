@@ -118,12 +118,12 @@ void test_main_three_readings_of_a_broken_wire_are_no_alarm(void)
     port_init_Expect();
     expect_passes(3, 500, 1016, 0);
     expect_passes(1, 500, 400, 400 / 8);
-    expect_passes(3, 500, 7, 4 * 493 / 8);
+    expect_passes(3, 500, 7, 0);
     expect_passes(1, 500, 400, 400 / 8);
     run();
 }
 
-void test_main_heater_is_off_from_the_fourth_reading_of_an_open_wire(void)
+void test_main_heater_stays_off_from_the_fourth_reading_of_an_open_wire(void)
 {
     port_init_Expect();
     expect_passes(4, 500, 1016, 0);
@@ -131,11 +131,10 @@ void test_main_heater_is_off_from_the_fourth_reading_of_an_open_wire(void)
     run();
 }
 
-void test_main_heater_is_off_from_the_fourth_reading_of_a_shorted_wire(void)
+void test_main_heater_stays_off_from_the_fourth_reading_of_a_shorted_wire(void)
 {
     port_init_Expect();
-    expect_passes(3, 500, 7, 4 * 493 / 8);
-    expect_passes(1, 500, 7, 0);
+    expect_passes(4, 500, 7, 0);
     expect_passes(5, 500, 400, 0);
     run();
 }

@@ -227,7 +227,30 @@ void test_renewed_controller_of_a_calm_oven_goes_on_from_the_same_drive(void)
     }
 }
 
-void test_broken_wire_of_the_sensor_switches_off_at_its_fourth_reading(void)
+void test_broken_wire_of_the_sensor_switches_off_at_once(void)
+{
+    static const uint16_t broken[] = {0, 7, 1016, 1023};
+
+    (void)turned_to(SELECTOR_AUTOMATIC, COLD);
+    for (int i = 0; i < 4; i++) {
+        TEST_ASSERT_GREATER_THAN_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
+        TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, broken[i]));
+    }
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_MANUAL, 1023));
+}
+
+void test_three_readings_of_a_broken_wire_do_not_move_the_controller(void)
+{
+    (void)turned_to(SELECTOR_MANUAL, SET);
+    (void)turned_to(SELECTOR_AUTOMATIC, SET);
+    const int16_t before = period(SELECTOR_AUTOMATIC, SET);
+    TEST_ASSERT_EQUAL_INT16(102, before);
+    run(SELECTOR_AUTOMATIC, 0, 3);
+    TEST_ASSERT_EQUAL_INT16(before, period(SELECTOR_AUTOMATIC, SET));
+}
+
+void test_fourth_reading_of_a_broken_wire_is_an_alarm(void)
 {
     static const uint16_t broken[] = {0, 7, 1016, 1023};
 
@@ -235,8 +258,8 @@ void test_broken_wire_of_the_sensor_switches_off_at_its_fourth_reading(void)
         (void)turned_to(SELECTOR_OFF, COLD);
         (void)turned_to(SELECTOR_MANUAL, COLD);
         run(SELECTOR_MANUAL, broken[i], 3);
-        TEST_ASSERT_EQUAL_INT16(102, driven);
-        TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_MANUAL, broken[i]));
+        TEST_ASSERT_EQUAL_INT16(102, period(SELECTOR_MANUAL, COLD));
+        run(SELECTOR_MANUAL, broken[i], 4);
         TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_MANUAL, COLD));
     }
 }
@@ -270,6 +293,7 @@ void test_low_power_that_does_not_warm_is_no_alarm(void)
 
 void test_swings_do_not_switch_off(void)
 {
+    (void)turned_to(SELECTOR_MANUAL, SET);
     (void)turned_to(SELECTOR_AUTOMATIC, SET);
     for (int i = 0; i < 20; i++) {
         (void)period(SELECTOR_AUTOMATIC, SET + 10);

@@ -35,7 +35,7 @@ module Modules
       rows: %w[event:uint8_t setpoint:int16_t measurement:int16_t output:int16_t repeat:uint16_t],
       shared: %w[output_min:int16_t output_max:int16_t measurement_min:int16_t measurement_max:int16_t
                  reach_min:int16_t reach_max:int16_t band:uint16_t patience:uint16_t options:uint8_t],
-      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' } }]
+      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] }]
     },
     'gains' => {
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
@@ -91,7 +91,7 @@ module Modules
       calls: [{ object: 'tuner', calls: 60_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
                 flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_end_cycle' => 17, 'amplitude_for' => 17, 'share' => 9 } },
-              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [], by_name: true,
+              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [], pic: %w[object],
                 functions: { 'fixpid_autotune_step_tuner' => 'any step', 'fixpid_autotune_result_tuner' => 'result' },
                 turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result_tuner] }]
     },

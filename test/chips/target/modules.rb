@@ -24,6 +24,10 @@ class CalledModule
   # Whether a machine has the same of the autotuner's record, too.
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
 
+  # The one object of its calls, of what is called in object mode, too. test/model/autotune
+  # calls the autotuner so.
+  OBJECTS = { 'guard' => 'guard' }.freeze
+
   # Where the calls of a module with its rows, each of its functions among them, need more
   # than 32 KB.
   CHIPS = %w[autotune guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
@@ -37,7 +41,7 @@ class CalledModule
 
   # name => what is done
   def tests
-    { 'host' => -> { compared? ? against_definition('src') : answers }, 'seeded' => -> { seeded }, 'pic18' => -> { pic18 },
+    { 'host' => -> { compared? ? against_definition('src') : answers }, 'seeded' => -> { seeded }, 'pic18' => -> { pic18 }, **by_name,
       **OTHERS.transform_values { |machine| -> { Target.same(answers, digests(machine)) } } }
       .transform_keys { |test| "#{test} #{@name}" }
   end
@@ -83,9 +87,15 @@ class CalledModule
     Target.noticed(/ different (?!0+$)/) { against_definition(folder) }
   end
 
-  def pic18
+  # The same by the object's name.
+  def by_name
+    object = OBJECTS[@name] or return {}
+    { 'pic18_object' => -> { pic18('-object', "-DFIXPID_#{@name.upcase}_OBJECT=#{object}") } }
+  end
+
+  def pic18(mode = '', *options)
     meters = BUILT.command("#{WORK}/calls", *Programs::CC, "#{FOLDER}/chip.cc", *Programs::SIMULATORS['gpsim'], '-o', "#{WORK}/calls")
-    text = said(meters, Images.program("calls-#{@name}", ['-DCALLS_SILENT', *calls, *sources], CHIPS.fetch(@name, 'pic18f4520')), *@functions)
+    text = said(meters, Images.program("calls-#{@name}#{mode}", ['-DCALLS_SILENT', *options, *calls, *sources], CHIPS.fetch(@name, 'pic18f4520')), *@functions)
     Target.same(answers, text.lines.first.sub(/ different.*/, ''))
     text
   end

@@ -241,7 +241,7 @@ def check_thermostat_on_chip(one)
   limited = run.values('drive_counts', LOW_POWER.from + SEEN_S)
   Report.at_most('limit lowered: the drive, at once', limited.max, LOW_LIMIT,
                  'counts')
-  check_wire(run, 'open', CHIP_THERMOSTAT_WIRE.from, CHIP_THERMOSTAT_OFF.to, 0.42)
+  check_wire(run, 'open', CHIP_THERMOSTAT_WIRE.from, CHIP_THERMOSTAT_OFF.to, 0.12)
   Report.at_least('acknowledged: the drive',
                   run.values('drive_counts', CHIP_THERMOSTAT_OFF.to + SEEN_S).max, 1.0, 'counts')
   before, after = AGREEMENTS[one.name]

@@ -52,11 +52,11 @@ FAULT_LOOPS = {
                             inputs: 'the set point',
                             guard: GuardRules.new(unit: 'rad/s', seen_s: 0.024, near_s: 0.03, reach: -160.0..440.0)),
   'oven' => FaultRules.new(runs: 460, long_runs: 2000, tick_s: 1e-3, watchdog_s: 32e-3,
-                           duties: 0..1023, back: 40.0, lasting: 0.0, blind: 5e-3,
+                           duties: 0..1023, back: 40.0, lasting: 0.0, blind: 2e-3,
                            inputs: 'the set point',
                            guard: GuardRules.new(unit: 'C', seen_s: 13.0, near_s: 65.0, reach: 19.0..340.0)),
   'thermostat' => FaultRules.new(runs: 600, long_runs: 4000, tick_s: 1e-3, watchdog_s: 32e-3,
-                                 duties: 0..1023, back: 40.0, lasting: 0.0, blind: 402e-3,
+                                 duties: 0..1023, back: 40.0, lasting: 0.0, blind: 102e-3,
                                  inputs: 'the set point, the selector',
                                  guard: GuardRules.new(unit: 'C', seen_s: 9.0, near_s: 27.0, reach: 19.0..265.0))
 }.freeze

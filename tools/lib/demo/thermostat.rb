@@ -108,8 +108,7 @@ def check_thermostat_wire
                    every: 0.02, seconds: 45, wire_at: WIRE.from,
                    wire_for: WIRE.to - WIRE.from, wire_reads: reads, off_at: WIRE_OFF.from,
                    off_for: WIRE_OFF.to - WIRE_OFF.from, **never)
-    check_wire(run, how, WIRE.from, WIRE_OFF.to, 0.42)
-    # At ground the oven gets full power until the fourth reading.
+    check_wire(run, how, WIRE.from, WIRE_OFF.to, 0.12)
     Report.at_most("wire #{how}: the temperature rises by",
                    run.values('temperature_c', WIRE.from, WIRE.to).max - OVEN_SET_C, 20.0, 'C')
     Report.at_most("wire #{how}, acknowledged: overshoot",

@@ -9,8 +9,8 @@ require_relative 'meters'
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
 # Objects that match `without` are left out where their flash is counted.
-# On a PIC, `by_name` is measured in object mode, for its one object.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :by_name, :part, :without,
+# On a PIC it is measured in the modes of `pic`: through a pointer, if nothing else is told.
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :pic, :part, :without,
                           keyword_init: true) do
   # The name of calls_x.c and of its recorded rows: the module's, or that of a part.
   def caller
@@ -70,7 +70,7 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
   def self.builds_of(called, chip)
     return chip.builds unless chip.kind == :pic
 
-    [called.by_name ? 'object' : 'pointer']
+    called.pic || %w[pointer]
   end
 end
 

@@ -27,10 +27,13 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
       - FIXPID_AN964_8BIT_OBJECT=pendulum
     'test_motor':
       - FIXPID_AN937_OBJECT=motor
+      - FIXPID_GUARD_OBJECT=guard
     'test_oven':
       - FIXPID_AN937_OBJECT=oven
+      - FIXPID_GUARD_OBJECT=guard
     'test_thermostat':
       - FIXPID_PID_OBJECT=thermostat
+      - FIXPID_GUARD_OBJECT=guard
     'test_kept':
       - FIXPID_PID_OBJECT=oven
     'test_autotune_example':
