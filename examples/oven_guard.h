@@ -3,10 +3,10 @@
 // sim/plant/plant_oven.h: by the rule of fixpid_guard.h, in 1/16 of a degree.
 #ifndef OVEN_GUARD_H
 #define OVEN_GUARD_H
-#include <stdbool.h>
-
 #include "fixpid_guard.h"
 #include "port.h"
+
+#include "oven_sensor.h"
 
 // Full power, 1023 counts, raises 400 C: K is 6.3 counts for one of them. The
 // sum of four conversions has 0.8 counts of noise. 2 K is more than 8 s + 4.
@@ -15,19 +15,6 @@
 // The dead time L is 0.35 s and a second of the element, and full power warms
 // by 67 C/s, 1067 counts: 2 L + 20 bands / 1067 is 2.95 s.
 #define GUARD_PATIENCE_MS 3000u
-
-// A broken wire of the sensor reads full scale, as a resistor pulls it up
-// there, and one that touches ground reads 0. These are four conversions of 8
-// and of 1015 counts: 2 C and 253.75 C, beyond which no oven is. From the first
-// such reading on the heater is off; the fourth is an alarm.
-#define COLDEST_SENSED (4 * 8)
-#define HOTTEST_SENSED (4 * 1015)
-
-static bool sensed(int16_t temperature_counts)
-{
-    return (temperature_counts >= COLDEST_SENSED) &&
-           (temperature_counts <= HOTTEST_SENSED);
-}
 
 // An oven that is off comes down to 40 C in the warmest room, and one at full
 // power leaves the sensor's range even at 80 % of its voltage.

@@ -6,7 +6,6 @@
 #include "port.h"
 
 #include "../oven_guard.h"
-#include "../oven_temperature.h"
 #include "../turned_down.h"
 
 // These are the gains x 16, each 0..255.

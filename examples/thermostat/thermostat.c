@@ -7,7 +7,6 @@
 
 #include "../alarm.h"
 #include "../oven_guard.h"
-#include "../oven_temperature.h"
 
 #define CONTROL_PERIOD_TICKS 100u
 #define STEPS_PER_SECOND 10.0

@@ -110,7 +110,7 @@ def check_thermostat_wire
                    off_for: WIRE_OFF.to - WIRE_OFF.from, **never)
     check_wire(run, how, WIRE.from, WIRE_OFF.to, 0.12)
     Report.at_most("wire #{how}: the temperature rises by",
-                   run.values('temperature_c', WIRE.from, WIRE.to).max - OVEN_SET_C, 20.0, 'C')
+                   run.values('temperature_c', WIRE.from, WIRE.to).max - OVEN_SET_C, 0.5, 'C')
     Report.at_most("wire #{how}, acknowledged: overshoot",
                    overshoot_percent(run, WIRE_OFF.to, 45.0), 0.5, '%')
     Report.at_most("wire #{how}, acknowledged: settles within 2 % after",
