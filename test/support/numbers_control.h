@@ -7,15 +7,6 @@
 #include "fixpid_gains.h"
 #include "fixpid_tpo.h"
 
-// True once in `count` times.
-bool numbers_one_in(uint32_t count);
-
-// Any uint32_t, each number of bits as often as another.
-uint32_t numbers_any_size(void);
-
-// As far as `most` below or above, and wraps.
-int16_t numbers_close_to(int16_t value, uint16_t most);
-
 // A rate of fixpid_slew.
 uint32_t numbers_slew_rate(void);
 

@@ -35,7 +35,10 @@ module Modules
       rows: %w[event:uint8_t setpoint:int16_t measurement:int16_t output:int16_t repeat:uint16_t],
       shared: %w[output_min:int16_t output_max:int16_t measurement_min:int16_t measurement_max:int16_t
                  reach_min:int16_t reach_max:int16_t band:uint16_t patience:uint16_t options:uint8_t],
-      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] }]
+      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] },
+              # A PIC16 has no room for its pointers, and no bound where its code lies in pages.
+              { object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, kinds: %i[pic16], pic: %w[object],
+                rows: 100, program: %w[test/support/numbers_guard.c], unbounded: %w[fixpid_guard_step] }]
     },
     'gains' => {
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
@@ -57,7 +60,10 @@ module Modules
                 turns: { 'fixpid_table_at' => [9, 17], 'rise_at' => 17 } },
               { calls: 5000, functions: { 'fixpid_table_at_P' => 'at, in flash' }, without: /_fixpid_table\.o\z/, kinds: %i[avr],
                 turns: { 'fixpid_table_at_P' => [9, 17] } },
-              { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] }]
+              { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] },
+              # A bank of a PIC16 holds fewer points, and it jumps to an address that it calculates.
+              { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[pic16], rows: 100, flags: %w[-DPOINTS=16],
+                program: %w[test/support/numbers_table.c], unbounded: %w[fixpid_table_at] }]
     },
     'record' => {
       title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',

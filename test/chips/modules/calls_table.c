@@ -11,7 +11,9 @@
 #include "reference_control.h"
 #endif
 
+#ifndef POINTS
 #define POINTS 24u
+#endif
 
 enum { POINT, VERDICT, LOOKUP };
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Prints the rows of a module's recorded file as tables in C, one for each column
 # that its entry of tools/lib/modules.rb names. Columns that many rows share, its `shared`,
-# are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv or PART.csv
+# are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv or
+# PART.csv, with a number: of the first rows only.
 require_relative '../../../tools/lib/modules'
 
 # C has no literal for these.
@@ -18,6 +19,7 @@ end
 path = ARGV.fetch(0)
 entry = Modules.entry(File.basename(path, '.csv'))
 head, *rows = File.readlines(path, chomp: true).map { |line| line.split(',') }
+rows = rows.first(Integer(ARGV[1])) if ARGV[1]
 values = lambda do |column|
   at = head.index(column[/\w+/]) or abort "#{path} has no column #{column[/\w+/]}"
   rows.map { |row| Integer(row[at], 10) }

@@ -16,6 +16,7 @@ require_relative 'firmware'
 require_relative 'remembered'
 require_relative 'modules'
 require_relative 'features'
+require_relative 'together'
 
 Encoding.default_external = 'UTF-8'
 
@@ -123,6 +124,11 @@ class Cost
     end
   end
 
+  # Of each firmware with controller, guard and table.
+  def together
+    @together ||= Together.all.to_h { |one| [one, @remembered.of(one) { one.sizes }] }
+  end
+
   def plain_c
     @plain_c ||= begin
       subjects = @subjects.select(&:has_plain_c?)
@@ -151,6 +157,7 @@ class Cost
     page = "#{Host.root}/docs/cost.md"
     [[page, 'steps', Tables.steps(measured)],
      [page, 'modules', Tables.modules(called)],
+     [page, 'together', Together.table(together)],
      ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
      ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
      [page, 'ratios', Tables.ratios(measured, plain_c)],

@@ -9,8 +9,9 @@ require_relative 'meters'
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
 # Objects that match `without` are left out where their flash is counted.
+# A PIC16 has room for the first `rows` recorded rows; only what names it is measured there.
 # On a PIC it is measured in the modes of `pic`: through a pointer, if nothing else is told.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :pic, :part, :without,
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :pic, :part, :without, :rows,
                           keyword_init: true) do
   # The name of calls_x.c and of its recorded rows: the module's, or that of a part.
   def caller
@@ -28,9 +29,10 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
     Modules.entry(caller)[:rows]
   end
 
-  # Whether it is measured on such a chip.
-  def on?(kind)
-    kinds.nil? || kinds.include?(kind)
+  # Whether it is measured on this chip.
+  def on?(chip)
+    kind = chip.flash == 'words' ? :pic16 : chip.kind
+    kinds.nil? ? kind != :pic16 : kinds.include?(kind)
   end
 
   # What makes the calls.
@@ -59,9 +61,11 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
                          .all? { |_, group| group.any? { |word| own.include?(word) } }
   end
 
+  MEASURED = %w[pic16f1788 pic18f4520 atmega328p cortex-m0 cortex-m4].freeze
+
   def self.all
-    CHIPS.reject { |chip| %w[pic16f684 attiny85].include?(chip.name) || chip.like || chip.kind == :riscv }.flat_map do |chip|
-      CALLED_MODULES.select { |called| called.on?(chip.kind) }.flat_map do |called|
+    MEASURED.map { |name| CHIPS.find { |chip| chip.name == name } }.flat_map do |chip|
+      CALLED_MODULES.select { |called| called.on?(chip) }.flat_map do |called|
         builds_of(called, chip).map { |build| new(called, chip, build) }
       end
     end
@@ -100,7 +104,7 @@ class ModuleMeter
     FileUtils.mkdir_p(@rows)
     if @called.columns
       File.write("#{@rows}/rows_#{@called.caller}.h",
-                 Host.output('ruby', 'test/chips/modules/rows.rb', "test/support/vectors/#{@called.caller}.csv"))
+                 Host.output('ruby', 'test/chips/modules/rows.rb', "test/support/vectors/#{@called.caller}.csv", *@called.rows&.to_s))
     end
     build
     text = run
@@ -169,8 +173,10 @@ class ModulePicMeter < ModuleMeter
   private
 
   def build
-    paths = %W[port port/pic port/pic/#{@subject.chip.name}].map { |folder| "-I#{folder}" }
-    Host.output('tools/lib/build/build_pic', @subject.chip.name, @path, '-DCALLS_SILENT', *flags, *paths, *program, *@called.files)
+    chip = @subject.chip
+    paths = %W[port port/pic #{chip.board}].map { |folder| "-I#{folder}" }
+    Host.output('tools/lib/build/build_pic', chip.name, @path, *chip.build_pic, *('--all-banks' if words?), '-DCALLS_SILENT', *flags,
+                *paths, *program, *@called.files)
   end
 
   def run
@@ -183,7 +189,11 @@ class ModulePicMeter < ModuleMeter
 
   def flash
     PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/\AS_fixpid_#{@called.id}_/) }
-           .sum(&:bytes)
+           .sum(&:bytes) / (words? ? 2 : 1)
+  end
+
+  def words?
+    @subject.chip.flash == 'words'
   end
 
   def instance
@@ -191,7 +201,7 @@ class ModulePicMeter < ModuleMeter
   end
 
   def code
-    @code ||= Pic18Code.new(@path)
+    @code ||= PicCode.of(@subject.chip.name).new(@path)
   end
 end
 

@@ -30,7 +30,7 @@ module Tables
           function = subject.called.functions.fetch(name)
           title = function == 'step' ? subject.called.id : "#{subject.called.id}, #{function}"
           [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most,
-           figures.bound || '-', in_cycles(figures), figures.flash,
+           figures.bound || '-', in_cycles(figures), subject.chip.flash == 'words' ? "#{figures.flash} words" : figures.flash,
            figures.instance]
         end
       end
