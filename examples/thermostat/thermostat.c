@@ -154,7 +154,11 @@ static void control(void)
         fixpid_pid_set_manual(&thermostat, 0);
         duty = 0;
     }
-    port_drive(sensed(measurement) ? duty : 0);
+    if (sensed(measurement)) {
+        port_drive(duty);
+    } else {
+        port_drive(0);
+    }
 }
 
 int main(void)

@@ -19,7 +19,7 @@ module Together
       path = "#{Host.folder}/#{key}.elf"
       sources = %w[pid guard table].flat_map { |name| Modules.sources(name, Host.root) }
       Host.output('avr-gcc', level, *FLAGS, "-DFIXPID_PID_FEATURES=#{FEATURES.fetch(features)}", *Harness::WARNINGS,
-                  'test/tools/cost/together.c', *sources, '-o', path)
+                  'test/tools/cost/bare_together.c', *sources, '-o', path)
       Host.output('avr-size', path).lines.last.split.first(SECTIONS.size).map { |size| Integer(size) }
     end
   end
