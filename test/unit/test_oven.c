@@ -166,7 +166,7 @@ void test_main_heater_that_does_not_warm_is_an_alarm_after_its_patience(void)
 void test_main_swings_do_not_switch_off(void)
 {
     port_init_Expect();
-    for (unsigned i = 0; i < 20; i++) {
+    for (unsigned i = 0; i < 7; i++) {
         expect_passes(1, 500, 510, 0);
         expect_passes(1, 500, 490, 40 / 8);
     }
