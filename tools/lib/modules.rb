@@ -25,7 +25,7 @@ module Modules
     },
     'tpo' => {
       title: 'Time-proportioned output', what: 'Time-proportioned output for relays and valves',
-      fuzz: [20_000, 256],
+      fuzz: [60_000, 256],
       rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
       calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }]
     },
