@@ -2,7 +2,6 @@
 // Operands for tests: the nasty ones in a table, the others pseudo-random.
 #ifndef NUMBERS_H
 #define NUMBERS_H
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -16,15 +15,6 @@ uint32_t numbers_next(void);
 
 // 0..count-1
 uint32_t numbers_below(uint32_t count);
-
-// True once in `count` times.
-bool numbers_one_in(uint32_t count);
-
-// Any uint32_t, each number of bits as often as another.
-uint32_t numbers_any_size(void);
-
-// As far as `most` below or above, and wraps.
-int16_t numbers_close_to(int16_t value, uint16_t most);
 
 // Any int16_t; every other one is a nasty one.
 int16_t numbers_int16(void);

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Random arguments of fixpid_slew, fixpid_tpo and fixpid_gains: legal ones,
-// their ends often, and a few that are not. Those of a larger module are a file
-// of their own, because SDCC links whole object files.
+// What the random arguments of the modules are made of. Those of each module
+// are a file of their own, because SDCC links whole object files.
 #ifndef NUMBERS_CONTROL_H
 #define NUMBERS_CONTROL_H
-#include "fixpid_gains.h"
-#include "fixpid_tpo.h"
+#include <stdbool.h>
+#include <stdint.h>
 
-// A rate of fixpid_slew.
-uint32_t numbers_slew_rate(void);
+// True once in `count` times.
+bool numbers_one_in(uint32_t count);
 
-void numbers_tpo_config(struct fixpid_tpo_config *config);
+// Any uint32_t, each number of bits as often as another.
+uint32_t numbers_any_size(void);
 
-// Duties of that configuration's range, its ends, and others.
-int16_t numbers_tpo_duty(int16_t full);
-
-void numbers_gains_milli(struct fixpid_gains_milli *milli);
-uint32_t numbers_gains_rate(void);
-uint8_t numbers_gains_filter(void);
+// As far as `most` below or above, and wraps.
+int16_t numbers_close_to(int16_t value, uint16_t most);
 
 #endif

@@ -2,6 +2,7 @@
 #include "fixpid_gains.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_gains.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "unity.h"

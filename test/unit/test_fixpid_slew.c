@@ -2,6 +2,7 @@
 #include "fixpid_slew.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_slew.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"

@@ -2,6 +2,7 @@
 #include "fixpid_tpo.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_tpo.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"

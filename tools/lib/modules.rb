@@ -25,7 +25,7 @@ module Modules
     },
     'tpo' => {
       title: 'Time-proportioned output', what: 'Time-proportioned output for relays and valves',
-      fuzz: [60_000, 256],
+      fuzz: [20_000, 256],
       rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
       calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }]
     },
@@ -38,7 +38,7 @@ module Modules
       calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] },
               # A PIC16 has no room for its pointers, and no bound where its code lies in pages.
               { object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, kinds: %i[pic16], pic: %w[object],
-                rows: 100, program: %w[test/support/numbers_guard.c], unbounded: %w[fixpid_guard_step] }]
+                rows: 100, unbounded: %w[fixpid_guard_step] }]
     },
     'gains' => {
       title: 'Gains', what: 'Gains of fixpid_pid from thousandths at run time, and back',
@@ -63,7 +63,7 @@ module Modules
               { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] },
               # A bank of a PIC16 holds fewer points, and it jumps to an address that it calculates.
               { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[pic16], rows: 100, flags: %w[-DPOINTS=16],
-                program: %w[test/support/numbers_table.c], unbounded: %w[fixpid_table_at] }]
+                unbounded: %w[fixpid_table_at] }]
     },
     'record' => {
       title: 'Record', what: 'A tuning of fixpid_pid as bytes for an EEPROM',
