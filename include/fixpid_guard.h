@@ -135,12 +135,21 @@ struct fixpid_guard {
 // Object mode, for firmware with one guard: compile the application and
 // fixpid_guard.c with -DFIXPID_GUARD_OBJECT=name, and define that object at
 // file scope, not static. Calls stay as they are; the pointer is ignored. On a
-// PIC18 under SDCC a third of the flash is saved.
+// PIC18 under SDCC a third of the flash is saved. FIXPID_GUARD_PLACE may put it
+// at an address.
 //
-// Sources that disagree about the object do not link: see FIXPID_MARKED.
+// Sources that disagree about the object or its place do not link: see
+// FIXPID_MARKED.
+#ifdef FIXPID_GUARD_PLACE
+#define FIXPID_GUARD_NAMED                                                     \
+    FIXPID_JOINED(FIXPID_GUARD_OBJECT, FIXPID_PLACE_MARK(FIXPID_GUARD_PLACE))
+#else
+#define FIXPID_GUARD_NAMED FIXPID_GUARD_OBJECT
+#define FIXPID_GUARD_PLACE
+#endif
 #ifdef FIXPID_GUARD_OBJECT
-extern FIXPID_DATA struct fixpid_guard FIXPID_GUARD_OBJECT;
-#define fixpid_guard_mark FIXPID_JOINED(, FIXPID_GUARD_OBJECT)
+extern FIXPID_DATA struct fixpid_guard FIXPID_GUARD_PLACE FIXPID_GUARD_OBJECT;
+#define fixpid_guard_mark FIXPID_JOINED(, FIXPID_GUARD_NAMED)
 #else
 #define fixpid_guard_mark
 #endif

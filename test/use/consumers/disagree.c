@@ -6,6 +6,7 @@
 #include "fixpid_an964.h"
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 
 #define CAT_(a, b) a##b
