@@ -134,9 +134,9 @@ struct fixpid_guard {
 
 // Object mode, for firmware with one guard: compile the application and
 // fixpid_guard.c with -DFIXPID_GUARD_OBJECT=name, and define that object at
-// file scope, not static. Calls stay as they are; the pointer is ignored. On a
-// PIC18 under SDCC a third of the flash is saved. FIXPID_GUARD_PLACE may put it
-// at an address.
+// file scope, not static. Calls stay as they are; the pointer is ignored.
+// FIXPID_GUARD_PLACE may put it at an address. docs/cost.md has what that
+// saves.
 //
 // Sources that disagree about the object or its place do not link: see
 // FIXPID_MARKED.

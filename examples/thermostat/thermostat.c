@@ -139,6 +139,7 @@ static bool alarm(int16_t setpoint, int16_t measurement, int16_t duty)
 static void control(void)
 {
     static int16_t duty = 0;
+    int16_t drive = 0;
 
     follow_selector();
     const int16_t setpoint = set_temperature();
@@ -149,16 +150,14 @@ static void control(void)
     }
     if (sensed(measurement)) {
         duty = heater_duty(fixpid_pid_step(&thermostat, setpoint, measurement));
+        drive = duty;
     }
     if (alarm(setpoint, measurement, duty)) {
         fixpid_pid_set_manual(&thermostat, 0);
         duty = 0;
+        drive = 0;
     }
-    if (sensed(measurement)) {
-        port_drive(duty);
-    } else {
-        port_drive(0);
-    }
+    port_drive(drive);
 }
 
 int main(void)

@@ -24,10 +24,6 @@ class CalledModule
   # Whether a machine has the same of the autotuner's record, too.
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
 
-  # The one object of its calls, of what is called in object mode, too. test/model/autotune
-  # calls the autotuner so.
-  OBJECTS = { 'guard' => 'guard' }.freeze
-
   # Where the calls of a module with its rows, each of its functions among them, need more
   # than 32 KB.
   CHIPS = %w[autotune guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
@@ -87,10 +83,10 @@ class CalledModule
     Target.noticed(/ different (?!0+$)/) { against_definition(folder) }
   end
 
-  # The same by the object's name.
+  # The same by the object's name, of what tools/cost meters in both modes.
   def by_name
-    object = OBJECTS[@name] or return {}
-    { 'pic18_object' => -> { pic18('-object', "-DFIXPID_#{@name.upcase}_OBJECT=#{object}") } }
+    metered = Modules.entry(@name)[:calls]&.find { |calls| calls[:pic] == %w[pointer object] } or return {}
+    { 'pic18_object' => -> { pic18('-object', "-DFIXPID_#{@name.upcase}_OBJECT=#{metered[:object]}") } }
   end
 
   def pic18(mode = '', *options)
