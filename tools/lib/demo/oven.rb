@@ -100,7 +100,7 @@ def draw_oven(p_only, pi, pid, wire)
       temperature_panel(plot, column, title,
                         [Plot.curve(run, 'temperature_c', settled, Plot::MEASUREMENT)])
     end
-  temperature_panel(plot, 3, 'PID: the sensor\'\'s wire breaks',
+  temperature_panel(plot, 3, "PID: the wire breaks, acknowledged at #{OVEN_UP_S.round} s",
                     [Plot.curve(wire, 'temperature_c', 'temperature', Plot::MEASUREMENT)])
   [p_only[64], pi, pid, wire].each_with_index do |run, column|
     oven_terms_panel(plot, column, run)
