@@ -70,6 +70,8 @@ struct Board {
     unsigned half_moved; // the first register of two that move the next tick
     std::vector<unsigned> duty; // registers that hold it, the last byte of each
     unsigned clock; // the register that doubles the clock after a reset, or 0
+    // The register and bit that start a conversion, and those of its channel.
+    std::pair<unsigned, unsigned> go, channel;
 };
 
 // CCPR1L and CCP1CON's low bits.
@@ -118,7 +120,9 @@ const Board pic16f684 = {
     {0x03, 0x27, 0, 1},
     0,
     {0x13, 0x15},
-    0x8F};
+    0x8F,
+    {0x1F, 0x02},
+    {0x1F, 0x1C}};
 
 const Board pic18f4520 = {8,
                           0xFF2,
@@ -153,7 +157,9 @@ const Board pic18f4520 = {8,
                           {0xFD8, 0x1F, 0xFE0, 16},
                           0xFBB,
                           {0xFBE, 0xFBD},
-                          0};
+                          0,
+                          {0xFC2, 0x02},
+                          {0xFC2, 0x3C}};
 
 // The same pins, of which ANSEL has the analog ones, and another Timer2. Of the
 // watchdog's postscaler gpsim takes the bits one place too low, 128 for 8.
@@ -201,7 +207,9 @@ const Board atmega328p = {14 * 4,
                           {0x5F, 0x7F, 0, 1},
                           0,
                           {0x88},
-                          0};
+                          0,
+                          {0x7A, 0x40},
+                          {0x7C, 0x0F}};
 
 const Board &board_of(const Chip &chip)
 {
@@ -246,6 +254,8 @@ class Port
     void half_moved();
     void readings();
     void read_is(unsigned channel, unsigned expected);
+    unsigned channel_bits() const;
+    void conversion_ends();
     void duties();
     void duty_is(int asked);
     void pins();
@@ -294,6 +304,8 @@ class Port
     bool trying = false, changed = false; // registers, at an interrupt
     Registers own = {}, tried = {}, given = {};
     std::function<void()> at_half; // when the next tick has moved by half
+    bool begun = false;            // a conversion, since port_read was called
+    unsigned begun_with = 0;       // its channel then
 };
 
 Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
@@ -321,6 +333,14 @@ Port::Port(const std::string &cod) : chip(cod), board(board_of(chip))
     }
     interrupt = &chip.meter_interrupt(board.vector);
     conversion = &chip.meter("port_read");
+    chip.on_write(board.go.first, [this](unsigned value) {
+        if ((value & board.go.second) != 0 && !begun) {
+            begun = true;
+            begun_with = channel_bits();
+        }
+    });
+    conversion->on_call = [this] { begun = false; };
+    conversion->on_return = [this](uint64_t) { conversion_ends(); };
     chip.on_execute(chip.code("main"), [this] { started = true; });
     chip.on_write(chip.data("turn"), [this](unsigned value) {
         if (started && value == 0) {
@@ -764,6 +784,22 @@ void Port::read_is(unsigned channel, unsigned expected)
     const unsigned got = chip.peek_u16(chip.data("reading"));
     if (got != expected) {
         wrong("channel %u reads %u at %u", channel, got, expected);
+    }
+}
+
+unsigned Port::channel_bits() const
+{
+    return chip.peek(board.channel.first) & board.channel.second;
+}
+
+// A chip converts the channel that was chosen when the conversion began; simavr
+// 1.6 and gpsim 0.31 accept a later choice.
+void Port::conversion_ends()
+{
+    if (channel_bits() != begun_with) {
+        wrong("a conversion began with channel bits 0x%02X, and they became "
+              "0x%02X while it ran",
+              begun_with, channel_bits());
     }
 }
 

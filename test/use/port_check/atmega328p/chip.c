@@ -56,15 +56,19 @@ static void pwm_moves(void)
 static void converter_moves(void)
 {
     static unsigned converting = 0;
+    static uint8_t channel = 0; // the chip takes ADMUX as a conversion begins
 
     if ((fake_adcsra & ADC_ON) != ADC_ON) {
         return;
     }
-    conversions += (converting == 0u) ? 1u : 0u;
+    if (converting == 0u) {
+        conversions++;
+        channel = fake_admux & CHANNEL;
+    }
     converting = (converting + 1u) % CONVERSION;
     if (converting == 0u) {
         fake_adcsra &= (uint8_t)~ADC_START;
-        fake_adc = (uint16_t)chip_inputs[fake_admux & CHANNEL];
+        fake_adc = (uint16_t)chip_inputs[channel];
     }
 }
 

@@ -59,18 +59,20 @@ static void pwm_moves(void)
 static void converter_moves(void)
 {
     static unsigned converting = 0;
+    static uint8_t channel = 0; // as most chips, it takes it as one begins
 
     if ((fake_adc_control & (ADC_ON | ADC_BUSY)) != (ADC_ON | ADC_BUSY)) {
         return;
     }
     if (converting == 0u) {
         conversions++;
+        channel = fake_adc_channel % FAKE_INPUTS;
     }
     converting++;
     if (converting == CONVERSION) {
         converting = 0;
         fake_adc_control = ADC_ON;
-        fake_adc_result = (uint16_t)chip_inputs[fake_adc_channel % FAKE_INPUTS];
+        fake_adc_result = (uint16_t)chip_inputs[channel];
     }
 }
 
