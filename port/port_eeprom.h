@@ -13,6 +13,7 @@ uint8_t port_eeprom_read(uint8_t address);
 // Writes a byte, unless it is there already, which spares the cell. Waits until
 // it is written, some 4 ms, without feeding the watchdog: one byte in a pass of
 // the loop. A byte that the supply leaves in the middle of it has any value.
+// Interrupts are masked for a few cycles, and then are as the caller had them.
 void port_eeprom_write(uint8_t address, uint8_t value);
 
 #endif

@@ -16,7 +16,7 @@ uint8_t port_eeprom_read(uint8_t address)
 }
 
 // The chip takes the three writes only one right after the other, so the
-// interrupt is masked for them.
+// interrupt is masked for them. A caller may have masked it before.
 void port_eeprom_write(uint8_t address, uint8_t value)
 {
     if (port_eeprom_read(address) == value) {
@@ -24,11 +24,12 @@ void port_eeprom_write(uint8_t address, uint8_t value)
     }
     EEDATA = value;
     EECON1 = EECON1_WREN;
+    const uint8_t enabled = (uint8_t)(INTCON & GIEH);
     INTCON &= (uint8_t)~GIEH;
     EECON2 = 0x55u;
     EECON2 = 0xAAu;
     EECON1 |= EECON1_WR;
-    INTCON |= GIEH;
+    INTCON |= enabled;
     while ((EECON1 & EECON1_WR) != 0u) {
     }
     EECON1 = 0u;

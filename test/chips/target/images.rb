@@ -108,6 +108,15 @@ module Images
             "#{board(ports, chip)}/port.c")
     end
 
+    # examples/kept with the port below `ports`; --all-banks is before the port's file.
+    def kept(chip, ports)
+      folder = board(ports, chip)
+      eeprom = [folder, "#{ports}/pic/pic18"].map { |place| "#{place}/port_eeprom.c" }.find { |file| File.exist?(file) }
+      build(chip, "fault-#{ports.split('/')[-2]}", ports, '-I.', *('-DFIXPID_PID_OBJECT=oven' unless chip == 'atmega328p'),
+            *library('pid', 'src'), 'src/record/fixpid_record.c', "#{ports}/port_wait_ticks.c", eeprom, 'examples/kept/kept.c',
+            '--all-banks', "#{folder}/port.c")
+    end
+
     # Any other program for a PIC18.
     def program(name, words, chip = 'pic18f4520')
       build(chip, name, 'port', '-Itest/support', *words)

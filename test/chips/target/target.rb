@@ -112,6 +112,7 @@ module Target
     # are the same.
     def port(image, chip, check = nil)
       return said('ruby', "#{HERE}/port_configuration.rb", chip, image.sub(/cod\z/, 'hex')) if check == 'configuration'
+      return on_simulator('kept', image) if check == 'kept'
       return said(Programs.of('port', 'simavr'), image, *check) if chip == 'atmega328p'
 
       image = written(image.sub(/cod\z/, 'as_4520.cod'), File.binread(image).gsub('18f4431', '18f4520')) if chip == 'pic18f4431'
@@ -360,7 +361,7 @@ class Table
       name, check = fault.words(1)
       chip = name[/\w+\z/]
       test('seeded', 'seeded_port', name) do
-        image = Images.port(chip, Broken.port(fault))
+        image = Images.public_send(check == 'kept' ? :kept : :port, chip, Broken.port(fault))
         Target.noticed(/^#{check}: /) { Target.port(image, chip, check) }
       end
     end
