@@ -19,6 +19,9 @@ FAULTS = [
   ['docs/scaling.md', /\z/, "\nCall `fixpid_pid_#{ABSENT}`, of `src/fixpid_#{ABSENT}.c`.\n",
    /no fixpid_pid_#{ABSENT}/, /no src.fixpid_#{ABSENT}.c/],
   ['docs/scaling.md', /\z/, "\n```c\nint16_t broken = fixpid_pid_step(;\n```\n", /docs.scaling.md, code block \d+, C$/],
+  # As a body it needs a declaration, so that C takes it.
+  ['docs/scaling.md', /\z/, "\n<!-- given: #include <stdlib.h> -->\n```c\nint *counts = malloc(4);\n(void)counts;\n```\n",
+   /docs.scaling.md, code block \d+, C\+\+$/],
   ['docs/scaling.md', /\z/, "\n```text\n7\n```\n", /blocks of ```text do not follow a program/],
   ['docs/scaling.md', /\z/, "\n    int hidden = 0;\n", /C outside of ```c: int hidden = 0;/],
   ['src/common/fixpid_bits.h', /\z/, "// at most 2 * 3 = 7\n", /src.common.fixpid_bits.h: 2 \* 3 = 7 is wrong/],
