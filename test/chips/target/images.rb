@@ -41,6 +41,11 @@ module Broken
       "#{with('losing', Faults.of('losing'))}/src"
     end
 
+    # src/ with a step that races with its tick.
+    def racing
+      "#{with('racing', Faults.of('racing'))}/src"
+    end
+
     # src/ with the first fault that fuzzing finds in one of the other modules.
     def module(name)
       "#{with("modules/#{name}", Faults.of("fuzz #{name}").first(1))}/src"

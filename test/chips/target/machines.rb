@@ -19,6 +19,17 @@ class Machine
     @run = run
   end
 
+  # Addresses of a program's instructions and their text, by function.
+  def instructions(program)
+    functions = Hash.new { |all, name| all[name] = {} }
+    name = nil
+    said(@compiler.first.sub(/gcc\z/, 'objdump'), '-d', program).each_line do |line|
+      name = Regexp.last_match(1) if line =~ /\A\h+ <(.+)>:/
+      functions[name][Regexp.last_match(1).hex] = Regexp.last_match(2) if line =~ /\A *(\h+):\t[\h ]+\t(\S.*)/
+    end
+    functions
+  end
+
   # A program of these words, which are sources and options.
   def program(name, words)
     output = "#{WORK}/#{name}.#{@name}.elf"
@@ -26,10 +37,10 @@ class Machine
     BUILT.command(output, compiler, *SHARED, *options, *words, '-o', output, *@after)
   end
 
-  # What it prints. Some answer may be wrong: then its exit status says so, and
-  # whoever compares sees it.
-  def printed(program)
-    Open3.capture2e('timeout', '600', *@run.call(program), stdin_data: '').first.lines.grep_v(/^Timer with period zero/).join
+  # What it prints, with more words for its simulator. Some answer may be wrong: then
+  # its exit status says so, and whoever compares sees it.
+  def printed(program, *words)
+    Open3.capture2e('timeout', '600', *@run.call(program), *words, stdin_data: '').first.lines.grep_v(/^Timer with period zero/).join
   end
 
   def self.qemu(name, compiler, folder, *system)
@@ -49,7 +60,9 @@ class Machine
   ALL = [
     arm('cortex-m0', 'microbit'), arm('cortex-m3', 'lm3s6965evb'), arm('cortex-m4', 'mps2-an386'),
     riscv('rv32imc', 'ilp32'), riscv('rv32ec', 'ilp32e', '-cpu', 'rv32,m=false'),
-    new('avr', %w[avr-gcc -mmcu=atmega2560], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program, 'atmega2560'] },
+    *{ 'avr' => 'atmega2560', 'atmega328p' => 'atmega328p' }.map do |name, chip|
+      new(name, ['avr-gcc', "-mmcu=#{chip}"], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program, chip] }
+    end,
     new('host', ['gcc', SHIM]) { |program| [program] },
     new('sanitized', ['gcc', '-fsanitize=undefined', '-fno-sanitize-recover=all', SHIM]) { |program| [program] }
   ].to_h { |machine| [machine.name, machine] }.freeze

@@ -5,6 +5,7 @@
 require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
 require_relative 'firmware_limits'
+require_relative 'interrupted'
 require_relative 'machines'
 
 ROOT = File.expand_path('../../..', __dir__)
@@ -273,6 +274,9 @@ class Table
       end
     end
     bad_interrupts
+    Interrupted::MACHINES.keys.product(BOTH, Interrupted::OPTIMISED.to_a) do |name, mode, (optimised, option)|
+      test('interrupts', 'interrupted', name, mode, optimised) { Interrupted.run(name, mode, option) }
+    end
   end
 
   # A port that loses ticks; and an interrupt that calls the controller a second time,
@@ -340,9 +344,22 @@ class Table
         Target.noticed(/changed [1-9]/) { Target.interrupts(image, TICKING.first, 'ticking') }
       end
     end
+    seeded_interrupted
     seeded_ports
     seeded_machines
     seeded_rows
+  end
+
+  # A step that races with its tick; and a run that does not come to every instruction.
+  def seeded_interrupted
+    Interrupted::MACHINES.each_key do |name|
+      test('seeded', 'seeded_interrupted', name) do
+        Target.noticed(/^step .* neither [1-9]/) { Interrupted.run(name, 'pointer', source: Broken.racing) }
+      end
+      test('seeded', 'seeded_uninterrupted', name) do
+        Target.noticed(/instructions were never interrupted/) { Interrupted.run(name, 'pointer', '-DSTATES=2u') }
+      end
+    end
   end
 
   def seeded_replays
