@@ -9,12 +9,16 @@ require 'open3'
 require_relative 'docs/assurance'
 require_relative 'docs/bounds'
 require_relative 'docs/code_blocks'
+require_relative 'docs/commands'
+require_relative 'docs/feature_comments'
 require_relative 'docs/names'
 require_relative 'docs/forms'
 require_relative 'docs/numbers'
 require_relative 'docs/other_chips'
 require_relative 'docs/packages'
+require_relative 'docs/prose_numbers'
 require_relative 'docs/recipes'
+require_relative 'docs/sums'
 
 Encoding.default_external = 'UTF-8'
 
@@ -98,26 +102,6 @@ def check_named_tests(path, text, tests)
   end
 end
 
-OPERATORS = { '=' => :==, '<' => :<, '<=' => :<= }.freeze
-NUMBER = /\(?\d+(?:\.\d+)?(?:\^\d+)?\)?/.freeze
-SUM = %r{#{NUMBER}(?: [-+*/] #{NUMBER})*}.freeze
-
-# `117 * 1023 / 16 = 7480 < 2^14` in a comment or a document: every sum that is
-# written out must be right. Integers, so a quotient is rounded toward zero; with
-# a decimal point anywhere, exactly.
-def check_sums(path, text)
-  text.scan(%r{(?<![\w.^(/]|[-+*/] )(?=(#{SUM}) (=|<=|<) (#{SUM}))}).each do |left, operator, right|
-    exact = "#{left}#{right}".include?('.')
-    # Only digits and operators passed the patterns above.
-    values = [left, right].map do |sum|
-      eval((exact ? sum.gsub(/(?<!\^)\b\d+(?:\.\d+)?/) { |number| "#{number}r" } : sum).gsub('^', '**'))
-    end
-    next if values[0].public_send(OPERATORS.fetch(operator), values[1])
-
-    @failures << "#{path}: #{left} #{operator} #{right} is wrong"
-  end
-end
-
 documents = Dir['docs/*.md', '*.md'] # README.md has numbers of docs/
 tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
 documents.each do |path|
@@ -131,12 +115,14 @@ documents.each do |path|
   end
   check_links(path, new_text)
   check_named_tests(path, new_text, tests)
-  check_sums(path, new_text)
+  @failures.concat(Sums.failures(path, new_text))
 end
 Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
-  check_sums(path, File.read(path).scan(%r{//(.*)}).join("\n")) # a slash would read as a quotient
+  comments = File.read(path).scan(%r{//(.*)}).join("\n") # a slash would read as a quotient
+  @failures.concat(Sums.failures(path, comments))
 end
-@failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures)
+@failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures + ProseNumbers.failures +
+                 FeatureComments.failures + Commands.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

@@ -6,6 +6,7 @@ require_relative '../../demo/plot'
 require_relative '../../demo/random_plants'
 require_relative '../../demo/faults'
 require_relative '../../faults/instructions'
+require_relative 'commands'
 
 # A claim; `how` is one of Assurance::HOW.
 Claim = Struct.new(:how, :what, :amount, :command)
@@ -13,6 +14,15 @@ Claim = Struct.new(:how, :what, :amount, :command)
 # All of them.
 module Assurance
   HOW = %w[proved exhausted tested measured argued].freeze
+
+  # What is proved of a module of whose header a part is only tested: test/proof/unproved.txt.
+  PARTLY = {
+    'autotune' => 'in part: init, progress and a record, as its header says; of a step only that it does nothing undefined and ' \
+                  'stays within the output range, whatever bytes the object holds',
+    'gains' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
+    'table' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
+    'tpo' => 'as its header says, the length of a pulse only in windows of at most 15 steps'
+  }.freeze
 
   module_function
 
@@ -24,23 +34,8 @@ module Assurance
 
   # The commands that do not exist.
   def failures
-    claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| known?(command) }
+    claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| Commands.known?(command) }
           .map { |command| "docs/assurance.md: no #{command}" }
-  end
-
-  def known?(command)
-    program, *words = command.split
-    return false unless File.executable?(program)
-
-    words.all? do |word|
-      next File.read(program).include?(word) if word.start_with?('--')
-
-      case program
-      when 'tools/test' then parts.key?(word)
-      when 'tools/prove' then groups.key?(word)
-      else File.read(program).match?(/\b#{word}\b/)
-      end
-    end
   end
 
   def claims
@@ -60,7 +55,7 @@ module Assurance
   end
 
   def beside_the_proofs
-    [Claim.new('proved', 'no assumption of a proof primitives out a place of what is proved', 'each form',
+    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
                '`tools/prove --coverage`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`')]
@@ -69,7 +64,8 @@ module Assurance
   def of_the_proofs(group, proofs)
     return "the proofs' machines are the ones meant" if group == 'model'
 
-    "`fixpid_#{group}`, as its header says: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
+    said = PARTLY.fetch(group) { "as its header says#{', with all features' if group == 'pid'}" }
+    "`fixpid_#{group}`, #{said}: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
   end
 
   def exhausted
@@ -105,10 +101,18 @@ module Assurance
   def of_the_chips
     [Claim.new('tested', 'the compiled library, and its assembly, the same on every chip as here',
                "#{parts['target'] + parts['families']} checks on simulated chips", '`tools/test target families`'),
-     Claim.new('tested', 'an interrupt before every instruction changes nothing', 'every instruction of a turn',
+     Claim.new('tested', "a tick's interrupt before every instruction changes nothing", interrupted,
                '`test/chips/target/run interrupts`'),
      Claim.new('tested', 'a port keeps its promises at its pins and registers',
                "#{Faults.of('port').size} faults noticed", '`test/chips/target/run port seeded`')]
+  end
+
+  # The chips whose interrupts are forced, and in what.
+  def interrupted
+    chips = File.read('tools/lib/measure/subjects.rb').scan(/pics: %w\[([^\]]+)\]/).flatten.flat_map(&:split).uniq.sort
+    others = File.read('test/chips/target/interrupted.rb')[/MACHINES = \{(.*?)\}/m, 1].scan(/'([\w-]+)' => \[/).flatten
+    "every instruction of a turn on a #{chips.map { |chip| "PIC#{chip.upcase.delete_prefix('PIC')}" }.join(' and a ')}, in gpsim; " \
+      "and of each function of `fixpid_an937` on #{others.map { |name| name.sub('atmega328p', 'an ATmega328P').sub('cortex-m', 'Cortex-M') }.join(', ')}"
   end
 
   def of_the_loops
@@ -117,8 +121,10 @@ module Assurance
     long = FAULT_LOOPS.values.sum(&:long_runs)
     [Claim.new('tested', 'the firmware controls its plant, each step the same as the definition',
                "#{parts['chip']} checks on simulated chips", '`tools/test chip`'),
-     Claim.new('tested', 'with a fault the drive stays inside its limits, and the loop is back in time or off',
-               "#{here} faults here, #{there} on simulated chips; #{long} here in [faults.md](faults.md#many-more)",
+     Claim.new('tested', "with a fault the drive stays inside its limits, and the loop is back in time or off; bits flip in the controller's " \
+                         'object only, not in registers, the stack or what else has RAM',
+               "#{here} faults here, #{there} on simulated chips; besides #{long} of an earlier version, by hand, in " \
+               '[faults.md](faults.md#many-more)',
                '`tools/demo faults faults_chip`')]
   end
 

@@ -3,7 +3,7 @@ require_relative '../../c_functions'
 
 # The bounds that stand in comments of the library's C, each with the line that it is
 # of: a comment behind the line, or above it within its function. Numbers and powers
-# in them are computed again by check_sums; the proofs show that nothing overflows.
+# in them are computed again by Sums; the proofs show that nothing overflows.
 module Bounds
   SOURCES = (Dir['src/*/*.[ch]'] - Dir['src/*/*_{arm,avr,pic14,pic18,sdcc}.[ch]']).sort.freeze
   STATED = /(?:<=?|\bwithin|\bat most|\bbelow) \S*\d/.freeze

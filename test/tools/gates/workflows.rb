@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+# frozen_string_literal: true
+
+# .github/workflows: each part of tools/test runs in one of them, those that run only by
+# name each week and before a release, with a log that says of what; and with a part
+# left out it is said.
+require_relative 'gate'
+require 'json'
+require 'yaml'
+
+PARTS = File.readlines("#{PROJECT}/test/parts.txt").grep(/^[a-z]/).map { |line| line.split.first }.freeze
+KEPT = 'tools/lib/test/kept'
+
+def workflow(name)
+  YAML.safe_load(File.read("#{PROJECT}/.github/workflows/#{name}.yml"))
+end
+
+def jobs(name)
+  workflow(name).fetch('jobs')
+end
+
+def commands(job)
+  job.fetch('steps').map { |step| step['run'] }.compact
+end
+
+# What the step that lists the parts hands on, in a folder with this tools/test.
+def listed(name)
+  command = commands(jobs(name).fetch('parts')).find { |line| line.include?('GITHUB_OUTPUT') }
+  Dir.chdir(PROJECT) do
+    Dir.mktmpdir do |folder|
+      Gate.run('env', "GITHUB_OUTPUT=#{folder}/output", 'sh', '-c', command)
+      JSON.parse(File.read("#{folder}/output")[/^parts=(.*)$/, 1])
+    end
+  end
+end
+
+# The jobs that run a part of a list.
+def run_each(name)
+  jobs(name).values.select { |job| job.dig('strategy', 'matrix', 'part') == '${{ fromJSON(needs.parts.outputs.parts) }}' }
+            .flat_map { |job| commands(job) }.grep(/tools\/test .*\$\{\{ matrix\.part \}\}|tools\/test \$\{\{ matrix\.part \}\}/)
+end
+
+# A project with these parts, of which `long` runs by name, and what a command says there.
+def toy(*lines)
+  files = [KEPT, 'tools/lib/pages/docs/packages.rb'].to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
+  files['tools/test'] = "#!/bin/sh\n[ \"$1\" != --by-name ] || exec echo long\necho ok a\n[ ! -e fault ]\n"
+  lambda do
+    Gate.tree(files) do
+      %w[tools/test tools/lib/test/kept].each { |path| File.chmod(0o755, path) }
+      git = 'git -c user.name=a -c user.email=a@b -c init.defaultBranch=main'
+      Gate.run('sh', '-c', "echo build >.gitignore; #{git} init -q . && #{git} add . && #{git} commit -qm a")
+      lines.map { |line| Gate.run('sh', '-c', line) }.last
+    end
+  end
+end
+
+Gate.expect('parts of the tests and of the week', -> { (listed('test') + listed('weekly')).sort }, PARTS.sort)
+Gate.expect('the tests run each part that they list', -> { run_each('test').size }, 1)
+Gate.expect('the week runs each part that it lists, and keeps the log', -> { run_each('weekly').grep(/\A#{KEPT} /).size }, 1)
+Gate.expect('the week proves the mutants that change nothing', -> { jobs('weekly').values.flat_map { |job| commands(job) }.grep(/tools\/prove --equivalents/).size }, 1)
+Gate.expect('a release waits for the week',
+            -> { [jobs('release').dig('weekly', 'uses'), jobs('release').dig('archives', 'needs')] }, ['./.github/workflows/weekly.yml', 'weekly'])
+Gate.expect('the week may be called', -> { workflow('weekly')[true].key?('workflow_call') }, true)
+
+again = "#{KEPT} long tools/test long"
+Gate.expect('a part without a log', -> { toy("#{KEPT} --missing").call.first }, "long\n")
+Gate.expect('one with a log', -> { toy(again, "#{KEPT} --missing").call.first }, '')
+Gate.expect('one that failed', -> { toy('touch fault', again, "#{KEPT} --missing").call.first }, "long\n")
+Gate.expect('one of another commit', -> { toy(again, 'git -c user.name=a -c user.email=a@b commit -q --allow-empty -m b', "#{KEPT} --missing").call.first }, "long\n")
+Gate.expect('one of a tree that was changed', -> { toy('echo b >new', again, "#{KEPT} --missing").call.first }, "long\n")
+Gate.refused('what failed fails', toy('touch fault', again), /^ok a$/, /^ended with 1$/)
+Gate.passed('what passed passes', toy(again))
+Gate.said('the log says of what', toy(again, 'cat build/kept/long.log'), /\Acommit: \h{40}$/, /^command: tools.test long$/, /^ruby \d/)
+Gate.finish
