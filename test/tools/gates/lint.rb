@@ -72,5 +72,14 @@ Gate.passed('a parameter changed with a reason', lint("value = 2u; // Deviation 
 Gate.refused('a parameter changed with a reason for another rule, and a clang-tidy that fails',
              lint("value = 2u; // Deviation 17.7: a reason\n", programs: { 'clang-tidy' => 'exit 1' }),
              /misra-c2012-17\.8/, /clang-tidy/)
+Gate.refused('a parameter changed where only SDCC sees it',
+             lint('', before: "#ifdef __SDCC\nuint8_t fixpid_toy_more(uint8_t value);\n" \
+                              "uint8_t fixpid_toy_more(uint8_t value)\n{\n    value = 2u;\n    return value;\n}\n#endif\n"),
+             /cppcheck src as of SDCC/, /misra-c2012-17\.8/)
+rules = { 'misra.rb' => File.read("#{PROJECT}/tools/lib/pages/docs/misra.rb") }
+{ "'8.13' => nil," => '', "'2.6' =>" => "'2.5' =>" }.each do |text, instead|
+  Gate.refused("another list of MISRA's rules, #{text} as #{instead}".inspect,
+               -> { Gate.tree(rules) { Gate.seed('misra.rb', text, instead) && Gate.run('ruby', 'misra.rb') } }, /has (?:no )?rule \d/)
+end
 Gate.refused('a cppcheck that fails', lint('', programs: { 'cppcheck' => 'echo out of order; exit 1' }), /out of order/)
 Gate.finish

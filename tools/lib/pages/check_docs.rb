@@ -8,9 +8,11 @@ require 'fileutils'
 require 'open3'
 require_relative 'docs/assurance'
 require_relative 'docs/bounds'
+require_relative 'docs/chip_choices'
 require_relative 'docs/code_blocks'
 require_relative 'docs/commands'
 require_relative 'docs/feature_comments'
+require_relative 'docs/misra'
 require_relative 'docs/names'
 require_relative 'docs/forms'
 require_relative 'docs/numbers'
@@ -76,7 +78,7 @@ def renewed(path, text)
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/assurance.md'
-    part(text, 'claims', Assurance.table)
+    part(part(text, 'claims', Assurance.table), 'misra', Misra.table)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
   when 'docs/ports.md'
@@ -122,7 +124,7 @@ Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   @failures.concat(Sums.failures(path, comments))
 end
 @failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures + ProseNumbers.failures +
-                 FeatureComments.failures + Commands.failures)
+                 FeatureComments.failures + Commands.failures + ChipChoices.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

@@ -5,9 +5,13 @@
 require_relative '../../prove/proofs'
 
 module Commands
-  DOCUMENTS = Dir['*.md', 'docs/*.md'].sort.freeze
+  DOCUMENTS = (Dir['*.md', 'docs/*.md'] - ['CHANGELOG.md']).sort.freeze
   CITED = /`((?:\S+\/)+\w+(?: [^`]+)?)`/.freeze
+  RUNS = %r{\A(?:tools/(?:test|prove|demo|cost|firmware)|test/\S+/run)\b}.freeze
   TARGETS = /\btargets? ((?:`\w+`(?:, | and )?)+)/.freeze
+  # Where the names of what a program runs stand, besides in itself.
+  NAMES = { 'tools/demo' => 'tools/lib/demo/*.rb', 'tools/cost' => 'tools/lib/{measure,code}/*', 'tools/firmware' => 'port/*/*/port_board.h' }.freeze
+  PLACE = /\A[A-Z]+\z|[.\/*=<]|\A\d+\z/.freeze # in a command, what the reader puts in
   FUZZ = 'test/fuzz/run'.freeze
 
   class << self
@@ -26,14 +30,20 @@ module Commands
       case program
       when 'tools/test' then (names - parts).empty?
       when 'tools/prove' then options.any? || proofs.any? { |proof| proof.matches?(names) }
-      else names.all? { |name| File.read(program).match?(/\b#{name}\b/) }
+      else names.all? { |name| name.match?(PLACE) || named?(program, name.delete("'")) }
       end
     end
 
     private
 
+    def named?(program, name)
+      files = Dir[NAMES.fetch(program, "#{File.dirname(program)}/**/*")].select { |path| File.file?(path) }
+      @texts ||= Hash.new { |texts, path| texts[path] = "#{path}\n#{File.binread(path)}" }
+      [program, *files].any? { |path| @texts[path].match?(/(?<![A-Za-z0-9])#{name}(?![A-Za-z0-9])/n) }
+    end
+
     def unknown(path, text)
-      cited = text.scan(CITED).flatten.uniq.select { |command| command.match?(%r{\Atools/(?:test|prove)\b}) }
+      cited = text.scan(CITED).flatten.map { |command| command.split.join(' ') }.uniq.grep(RUNS)
       targets = text.scan(TARGETS).flatten.flat_map { |names| names.scan(/`(?!test_)(\w+)`/).flatten }.uniq
       (cited.reject { |command| known?(command) } + (targets - fuzz_targets).map { |name| "#{FUZZ} #{name}" })
         .map { |command| "#{path}: no #{command}" }

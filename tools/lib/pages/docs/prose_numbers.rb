@@ -27,6 +27,11 @@ module ProseNumbers
     /^ *\d+\. /                                                 # an item of a list
   ].freeze
 
+  # A part that is said in words, and how far from it what is computed may be.
+  WORDS = { 'a quarter' => 1 / 4r, 'a third' => 1 / 3r, 'half' => 1 / 2r, 'two thirds' => 2 / 3r }.freeze
+  NEAR = 0.1
+  IN_WORDS = /\A"(.*)" (.*)\z/.freeze
+
   # A number of the prose; `as` is how it is known, nil if it is not.
   Found = Struct.new(:file, :section, :line, :text, :around, :as)
 
@@ -136,7 +141,7 @@ module ProseNumbers
     # A sentence of the table: `{...}` in it is what the document's number must be.
     def hold(sentence, entry, prose, covered)
       parts = sentence.split(/(\{[^}]*\})/)
-      pattern = parts.map { |part| part.start_with?('{') ? "(-?#{IN_TABLE})" : literal(part) }.join
+      pattern = parts.map { |part| part.start_with?('{') ? "(#{number_or_words(part)})" : literal(part) }.join
       seen = false
       prose.scan(/#{pattern}/) do
         match = Regexp.last_match
@@ -152,12 +157,25 @@ module ProseNumbers
       wrong << "#{TABLE}: #{entry.file} does not say \"#{sentence}\", with a number for each brace" unless seen
     end
 
+    def number_or_words(part)
+      words = part[1...-1][IN_WORDS, 1]
+      words ? WORDS.keys.map { |one| literal(one) }.join('|') : "-?#{IN_TABLE}"
+    end
+
     def literal(part)
       words = part.split(/(\s+)/)
       words.map { |word| word.match?(/\A\s+\z/) ? '\s+' : Regexp.escape(word) }.join
     end
 
+    def compare_words(file, around, expression, words)
+      value = Values.of(expression[IN_WORDS, 2])
+      said = WORDS.fetch(words.split.join(' '))
+      wrong << "#{file}: #{words} in \"#{around}\", but #{expression[IN_WORDS, 2]} is #{value.to_f.round(3)}" if ((value / said) - 1).abs > NEAR
+    end
+
     def compare(file, around, expression, number)
+      return compare_words(file, around, expression, number) if expression.match?(IN_WORDS)
+
       value = Values.of(expression)
       return if same?(number.delete(' '), value)
 
@@ -175,23 +193,30 @@ module ProseNumbers
 
     def excuse(file, found)
       entries.select { |entry| entry.file == file && entry.excused.any? }.each do |entry|
+        name = [file, entry.section].compact.join(' # ')
         open = found.select { |one| one.as.nil? && one.section == entry.section }
-        entry.excused.each do |text|
-          one = open.find { |candidate| candidate.text.delete(' ') == text && candidate.as.nil? }
-          if one
-            one.as = 'excused with a reason'
-          else
-            @surplus << "#{TABLE}: [#{[file, entry.section].compact.join(' # ')}] has no number #{text} that nothing else checks"
-          end
-        end
+        others = entry.excused.flatten.reject { |text| take(open, text) }
+        @surplus.concat(others.map { |text| "#{TABLE}: [#{name}] has no number #{text} that nothing else checks" })
+        @surplus << "#{TABLE}: [#{name}] has its numbers in another order" if others.empty? && entry.excused.size == 1 && moved?(open, entry)
       end
+    end
+
+    def take(open, text)
+      one = open.find { |candidate| candidate.text.delete(' ') == text && candidate.as.nil? }
+      one.as = 'excused with a reason' if one
+      one
+    end
+
+    # With one reason for all, a number that changes its place with another is seen.
+    def moved?(open, entry)
+      open.all?(&:as) && open.map { |one| one.text.delete(' ') } != entry.excused.first
     end
 
     def entries
       @entries ||= File.readlines(TABLE, chomp: true).grep_v(/\A(?:# |\s*\z)/).slice_before(/\A\[/).map do |head, *lines|
         file, section = head[1...-1].split(' # ', 2)
         reasons, sentences = lines.partition { |line| line.start_with?('- ') }
-        Entry.new(file, section, sentences, reasons.flat_map { |line| excused(line) })
+        Entry.new(file, section, sentences, reasons.map { |line| excused(line) })
       end
     end
 
@@ -250,6 +275,12 @@ module ProseNumbers
       def input(port, name)
         at = File.read("#{port}/port_board.h")[/^#define PORT_#{name} 0x(\h+)u/, 1] or abort "#{TABLE}: #{port} has no #{name}"
         (port.include?('/avr/') ? at.hex & 7 : at.hex >> 2 & 15).to_r
+      end
+
+      # The number of the highest bit in a mask that a file defines.
+      def bit(path, name)
+        mask = File.read(path)[/^#define #{name} 0x(\h+)u/, 1] or abort "#{TABLE}: #{path} has no #{name}"
+        (mask.hex.bit_length - 1).to_r
       end
 
       # Of all public headers, with all features.

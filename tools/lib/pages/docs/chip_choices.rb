@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+# Whether docs/choosing.md says "no" of a controller and a chip where a simulated one did in
+# docs/chips.md, and only there.
+module ChipChoices
+  CHOOSING = 'docs/choosing.md'.freeze
+  CHIPS = 'docs/chips.md'.freeze
+  CONTROLLERS = { '`fixpid_an937`' => 'AN937', '`fixpid_an964`' => 'AN964', '`fixpid_an964_8bit`' => 'AN964 8-bit', '`fixpid_pid`' => 'PID' }.freeze
+  # What the simulated ones are called, where they are others' names.
+  SIMULATED = { 'PIC16F684' => 'PIC14', 'PIC18F4520' => 'PIC18', 'AVR with a multiplier' => 'AVR', 'Cortex-M' => 'Cortex-M0',
+                'RISC-V' => 'RV32EC', '8051, small model' => '8051, small', '8051, large model' => '8051, large' }.freeze
+  SIZE = /, \d+ (?:words|bytes).*/.freeze
+
+  class << self
+    def failures
+      found = simulated
+      chosen.flat_map do |row|
+        names(row['chip']).flat_map { |name| wrong(row, name, found[SIMULATED.fetch(name, name)]) }
+      end
+    end
+
+    private
+
+    def names(cell)
+      name = cell.sub(SIZE, '')
+      SIMULATED.key?(name) ? [name] : name.split(', ')
+    end
+
+    def wrong(row, name, answers)
+      return ["#{CHOOSING}: #{CHIPS} has no #{name}"] unless answers
+
+      CONTROLLERS.reject { |controller, title| no?(row[controller]) == no?(answers[title]) }
+                 .map { |controller, title| "#{CHOOSING}: #{controller} on #{name}: #{row[controller]}, but #{CHIPS} says #{answers[title]}" }
+    end
+
+    def no?(cell)
+      cell.match?(/\Ano[t:]?\b/)
+    end
+
+    def chosen
+      table(File.read(CHOOSING)[/^\| chip \| .*?\n\n/m])
+    end
+
+    def simulated
+      text = File.read(CHIPS)
+      %w[exact families].flat_map { |name| table(text[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1]) }
+                        .to_h { |row| [row[''], row] }
+    end
+
+    def table(text)
+      head, _, *rows = text.lines.grep(/\A\|/).map { |line| line.split('|')[1...-1].map(&:strip) }
+      rows.map { |cells| head.zip(cells).to_h }
+    end
+  end
+end
