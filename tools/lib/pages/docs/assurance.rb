@@ -105,7 +105,11 @@ module Assurance
   def of_the_chips
     [Claim.new('tested', 'the compiled library, and its assembly, the same on every chip as here',
                "#{parts['target'] + parts['families']} checks on simulated chips", '`tools/test target families`'),
-     Claim.new('tested', 'an interrupt before every instruction changes nothing', 'every instruction of a turn',
+     Claim.new('tested', 'an interrupt before every instruction changes nothing',
+               'every instruction of a turn on a PIC16, a PIC18 and an AVR',
+               '`test/chips/target/run interrupts`'),
+     Claim.new('tested', '`fixpid_an937_tick` may interrupt each function of its controller before every instruction',
+               'of a step on a PIC18; of all functions on an AVR and on Cortex-M0, M3 and M4',
                '`test/chips/target/run interrupts`'),
      Claim.new('tested', 'a port keeps its promises at its pins and registers',
                "#{Faults.of('port').size} faults noticed", '`test/chips/target/run port seeded`')]
