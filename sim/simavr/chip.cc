@@ -482,7 +482,8 @@ void Chip::poke(unsigned address, unsigned value)
     self->avr->data[address] = (uint8_t)value;
 }
 
-// SREG; and flags of interrupts, which are raised as the hardware does it.
+// SREG; flags of interrupts, which are raised as the hardware does it; and what
+// a peripheral listens to.
 void Chip::write(unsigned address, unsigned value)
 {
     avr_t &avr = *self->avr;
@@ -493,6 +494,7 @@ void Chip::write(unsigned address, unsigned value)
         }
         return;
     }
+    bool flag = false;
     for (unsigned i = 0; i < avr.interrupts.vector_count; i++) {
         avr_int_vector_t *const vector = avr.interrupts.vector[i];
         if (vector->raised.reg == address &&
@@ -500,6 +502,12 @@ void Chip::write(unsigned address, unsigned value)
             ((avr.data[address] >> vector->raised.bit) & 1u) == 0) {
             (void)avr_raise_interrupt(&avr, vector);
         }
+        flag |= vector->raised.reg == address;
+    }
+    const unsigned io = AVR_DATA_TO_IO(address);
+    if (!flag && io < MAX_IOs && avr.io[io].w.c != nullptr) {
+        avr.io[io].w.c(&avr, (avr_io_addr_t)address, (uint8_t)value,
+                       avr.io[io].w.param);
     }
 }
 
@@ -559,6 +567,16 @@ unsigned Chip::data(const std::string &name) const
 unsigned Chip::code(const std::string &name) const
 {
     return self->symbol(name, false);
+}
+
+std::vector<unsigned> Chip::instructions() const
+{
+    std::vector<unsigned> all;
+
+    for (unsigned at = 0; at < self->firmware.flashsize; at += 2) {
+        all.push_back(at);
+    }
+    return all;
 }
 
 // ---- State ----

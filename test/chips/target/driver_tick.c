@@ -9,7 +9,7 @@ volatile uint8_t turn;
 // What port_ticks returned in this turn.
 volatile uint8_t TICKS_TOLD_PLACE ticks_told;
 
-void main(void)
+int main(void)
 {
     port_init();
     for (;;) {

@@ -91,8 +91,10 @@ def exact
   table(['', *TITLES.values], rows)
 end
 
+INTERRUPTED = PROCESSORS.merge('atmega328p' => 'AVR').freeze
+
 def pairs
-  PROCESSORS.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
+  INTERRUPTED.keys.product(TITLES.keys).reject { |chip, name| chip == 'pic16f684' && NOT_FOR_PIC14.include?(name) }
 end
 
 # The named numbers of all forms and modes, added up.
@@ -107,12 +109,18 @@ def interrupts
   rows = pairs.map do |chip, controller|
     good = all_interrupts('tick', controller, chip)
     racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
-    ["#{PROCESSORS[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
+    ["#{INTERRUPTED[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
   ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
-  rows << ['PIC18 AN937, `fixpid_an937_tick` in the interrupt', ticking['interrupts'], '-', ticking['changed'], '-']
+  rows << ["PIC18 #{TICKING}", ticking['interrupts'], '-', ticking['changed'], '-']
+  MACHINES.merge('atmega328p' => 'AVR').each do |machine, name|
+    calls = LOGS.names("interrupted-#{machine}-*").flat_map { |log| LOGS.read(log).scan(/interrupts (\d+) .* neither (\d+)/) }
+    rows << ["#{name} #{TICKING}", *[0, 1].map { |at| calls.sum { |call| call[at].to_i } }.insert(1, '-'), '-'] if calls.any?
+  end
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
+
+TICKING = 'AN937, `fixpid_an937_tick` in the interrupt'
 
 def title_of_chip(chip)
   chip == 'atmega328p' ? 'ATmega328P' : chip.upcase

@@ -158,7 +158,7 @@ module Images
     def asking(asks, chip, mode)
       case asks
       when :main then ["#{HERE}/driver_main.c"]
-      when :racy then ["#{HERE}/driver_tick.c", "#{HERE}/port_racy.c"]
+      when :racy then ["#{HERE}/driver_tick.c", "#{HERE}/port_racy#{'_avr' if chip == 'atmega328p'}.c"]
       else ["#{HERE}/driver_tick.c", port_with_ticks(chip, mode)]
       end
     end

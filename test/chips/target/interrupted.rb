@@ -25,11 +25,6 @@ module Interrupted
       judged(machine.printed(program, *words), machine.instructions(program))
     end
 
-    # Interrupts of a program that was well, and how many instructions they came before.
-    def counts(text)
-      [text.scan(/interrupts (\d+)/).flatten.sum(&:to_i), text[/^instructions (\d+)/, 1].to_i]
-    end
-
     private
 
     def judged(text, functions)

@@ -2,7 +2,7 @@
 // The tick's interrupt forced before every instruction of a turn of
 // driver_tick.c: of taking the ticks, of every call and of the step.
 //
-//   interrupts FIRMWARE.cod CONTROLLER
+//   interrupts FIRMWARE CONTROLLER
 //
 // No tick may be lost or told twice, and no answer may change: for the first
 // two questions of ten random sequences, or up to the first that is wrong. With
@@ -34,11 +34,21 @@ struct Registers {
     std::vector<std::pair<unsigned, unsigned>> quieten; // register, value
 };
 
-// TMR0IF, TMR1IF or CCP2IF, whichever the firmware enabled. Quiet: the chip's
-// own tick does not come; its timer is started again, or stopped on a PIC18.
+// TMR0IF, TMR1IF or CCP2IF, whichever the firmware enabled; OCF0A of an AVR.
+// Quiet: the chip's own tick does not come; its timer is started again, or
+// stopped on a PIC18 and an AVR.
 const Registers pic16 = {
     4, {{0x0B, 0x04}, {0x0C, 0x01}}, {{0x01, 0x20}, {0x0F, 0x00}}};
 const Registers pic18 = {8, {{0xFF2, 0x04}, {0xFA1, 0x01}}, {{0xFCD, 0x80}}};
+const Registers avr = {14 * 4, {{0x35, 0x02}}, {{0x45, 0x00}}};
+
+const Registers &registers_of(const Chip &chip)
+{
+    if (chip.processor().rfind("atmega", 0) == 0) {
+        return avr;
+    }
+    return chip.is_pic18() ? pic18 : pic16;
+}
 
 class Interrupts
 {
@@ -89,8 +99,7 @@ class Interrupts
 };
 
 Interrupts::Interrupts(const std::string &cod, const controller &which)
-    : tested(which), driver(cod, which),
-      registers(driver.chip.is_pic18() ? pic18 : pic16),
+    : tested(which), driver(cod, which), registers(registers_of(driver.chip)),
       ticks_told(driver.chip.data("ticks_told"))
 {
     for (const unsigned address : driver.chip.instructions()) {
@@ -322,8 +331,7 @@ int main(int argc, char *argv[])
         const bool ticking = argc == 4 && std::strcmp(argv[3], "ticking") == 0;
 
         if (argc != 3 && !ticking) {
-            throw ChipError(
-                "usage: interrupts FIRMWARE.cod CONTROLLER [ticking]");
+            throw ChipError("usage: interrupts FIRMWARE CONTROLLER [ticking]");
         }
         Interrupts interrupts(argv[1], find_controller(argv[2]));
         const bool good = ticking ? interrupts.run_ticking() : interrupts.run();

@@ -15,7 +15,9 @@ BOTH = MODES.reverse.freeze
 # Controller and chip of each firmware, and those with members at fixed addresses.
 ON_CHIPS = CONTROLLERS.flat_map { |one| [one.name].product(one.pics) }.uniq.freeze
 PLACED = [%w[an937 pic18f4520], %w[pid pic18f4520]].freeze
-TICKING = %w[an937 pic18f4520].freeze # whose tick an interrupt may call
+# Those whose ticks come from an interrupt; and whose tick an interrupt may call.
+INTERRUPTED = (ON_CHIPS + CONTROLLERS.map(&:name).uniq.product(%w[atmega328p])).freeze
+TICKING = %w[an937 pic18f4520].freeze
 PORTS = %w[pic16f684 pic18f4520 pic18f26k22 pic18f4431 atmega328p].freeze
 MACHINES = %w[cortex-m0 cortex-m3 cortex-m4 rv32imc rv32ec avr].freeze
 # Of fixpid_pid: none of its features, and all but one.
@@ -106,7 +108,7 @@ module Target
     end
 
     def interrupts(image, controller, *words)
-      said(Programs.of('interrupts'), image, controller, *words)
+      on_simulator('interrupts', image, controller, *words)
     end
 
     # gpsim has no PIC18F4431: a PIC18F4520 stands in, whose core, timers, PWM and ports
@@ -260,7 +262,7 @@ class Table
   end
 
   def interrupts
-    { '' => [ON_CHIPS, BOTH], 'plain' => [ON_CHIPS.select { |_, chip| chip.start_with?('pic18') }, %w[object]],
+    { '' => [INTERRUPTED, BOTH], 'plain' => [ON_CHIPS.select { |_, chip| chip.start_with?('pic18') }, %w[object]],
       'placed' => [PLACED, %w[object]] }.each do |form, (pairs, modes)|
       in_modes(modes, pairs) do |controller, chip, mode|
         test('interrupts', "interrupts_tick#{form}", controller, chip, mode) do
@@ -285,7 +287,7 @@ class Table
   def bad_interrupts
     { 'racy' => /lost [1-9]/,
       'replying' => /changed [1-9]|access outside the chip's RAM|stack overflow|SIGSEGV/ }.each do |name, pattern|
-      in_modes(%w[object]) do |controller, chip, mode|
+      in_modes(%w[object], INTERRUPTED) do |controller, chip, mode|
         test('interrupts', "interrupts_#{name}", controller, chip, mode) do
           image = Images.driver(controller, chip, mode, asks: :racy, calls: ("#{controller}_reply" if name == 'replying'))
           Target.noticed(pattern) { Target.interrupts(image, controller) }
@@ -417,7 +419,7 @@ class Table
   def figures
     FirmwareLimits::FAULTS.each_key { |fault| test('seeded', 'seeded_limit', fault) { FirmwareLimits.notice(fault) } }
     EXAMPLES.each_key { |name| test('figures', 'firmware', name) { Target.firmware(name) } }
-    needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|firmware)-/)
+    needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|interrupted|firmware)-/)
     test('figures', 'figures', needs: needs) do
       said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update)
     end
