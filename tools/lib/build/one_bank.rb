@@ -12,7 +12,8 @@ LinkedSymbol = Struct.new(:name, :address, :location, :storage, :file)
 
 # The linker's map.
 class LinkedMap
-  LINE = /^\s*(\S+)\s+0x(\h+)\s+(program|data)\s+(extern|static)\s+(\S+)\s*$/.freeze
+  # The name of a file may have spaces.
+  LINE = /^\s*(\S+)\s+0x(\h+)\s+(program|data)\s+(extern|static)\s+(\S.*?)\s*$/.freeze
   MARK = 'one_bank_file'
   USES = 'one_bank_uses'
 
