@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # What tools/prove runs: the proofs of test/proof/proofs.txt, and the breaks that they
 # must notice, of test/faults.txt and drawn by a machine. Prints a line for each.
+require_relative 'prove/assembly'
+require_relative 'prove/assembly/breaks'
 require_relative 'prove/cbmc'
 require_relative 'prove/choice'
 require_relative 'prove/coverage'
@@ -47,10 +49,10 @@ end
 
 # With what an answer is found: CBMC, of which a private one starts what is in its `root`, and
 # the compiler whose preprocessor it takes.
-def remembered
+def remembered(files = INPUTS, others = [])
   programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
   private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
-  Remembered.new('proofs', files: INPUTS, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.c_library])
+  Remembered.new('proofs', files: files, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.c_library, *others])
 end
 
 # Whether it is good, and its line, of a proof or a break by its name: remembered if it
@@ -112,11 +114,41 @@ def covered?(proofs, words)
   good && stale.empty? && !forms.empty?
 end
 
+# Whether the claims about assembly hold, what they are made by does what the chips'
+# simulators do, and breaks are noticed.
+def assembly_proved?(words)
+  chosen = Assembly.claims.select { |claim| claim.matches?(words) }
+  puts "FAILED no claim has these words in its name: #{words.join(' ')}" if chosen.empty?
+  sets = chosen.map { |claim| Assembly.set_of(claim.image) }.uniq
+  images = chosen.map(&:image).uniq.to_h { |image| [image, Assembly.image(image, BUILD)] }
+  good = all_good?(sets.map { |set| TableRun.new(set, BUILD) }, &:run)
+  good &= all_good?(chosen) { |claim| claim_answer(claim, ClaimText.new(claim, images.fetch(claim.image))) }
+  breaks = AssemblyBreaks.new(chosen, BUILD)
+  good &= all_good?(breaks.drawn) do |mutant, key|
+    answer_of(key, [chosen.map(&:name), mutant.source]) { breaks.judge(mutant, key) }
+  end
+  puts "#{chosen.size} claims about assembly, #{breaks.drawn.size} breaks"
+  good && !chosen.empty?
+end
+
+def claim_answer(claim, text)
+  answer_of(claim.name, [text.to_solve, text.to_try]) do
+    answer = ClaimRun.new(claim, text, "#{BUILD}/claim_#{claim.name.tr(' ', '_')}").run
+    figures = claim.how == 'trying' ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s'
+    good = answer.verdict == :proved
+    [good, "#{claim.name}: #{good ? format(figures, answer.to_h) : answer.why}"]
+  end
+end
+
 mode, *words = ARGV
 proofs = Proofs.all
 $stdout.sync = true
 exit(equivalent?(proofs, words) ? 0 : 1) if mode == 'equivalents'
 exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
+if mode == 'assembly'
+  REMEMBERED = remembered(Assembly::INPUTS, [*%w[avr-gcc avr-objdump gpdasm].flat_map { |name| Inputs.tool(name) }, *Inputs.sdcc])
+  exit(assembly_proved?(words) ? 0 : 1)
+end
 chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
 if chosen.empty?
   warn "prove: no proof has all of these in its name: #{words.join(' ')} (see --list)"

@@ -16,9 +16,10 @@ class Cbmc
               --undefined-shift-check --unwind 200 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
   TICKS = 100.0 # a second; the kernel's for /proc
 
-  def initialize(proof, build, tree = '.', seconds = nil)
+  def initialize(proof, build, tree = '.', seconds = nil, options = [])
     @proof = proof
     @tree = tree
+    @options = options
     @seconds_most = seconds || (proof.what == 'composed' ? COMPOSED_MOST : SECONDS_MOST)
     @folder = "#{build}/#{proof.name.tr(' ', '_')}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"
   end
@@ -89,7 +90,7 @@ class Cbmc
 
   def ask(program)
     output = "#{@folder}/output.txt"
-    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, in: File::NULL, %i[out err] => output,
+    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *@options, in: File::NULL, %i[out err] => output,
                             rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
     status = watch(process)
     judge(File.read(output), status)
