@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,15 @@ FILE *trace = nullptr;
 double trace_period_s = tick_s;
 bool faulty = false; // the loop is broken on purpose
 
+// Where a bit flips that is not the object's: bytes, or a stack's, which are
+// from above its pointer to its end.
+struct Place {
+    std::vector<unsigned> bytes;
+    unsigned pointer = 0;
+    unsigned end = 0;
+} place;
+constexpr unsigned working = 0xFFFF; // the address of a PIC16's W
+
 // The loop of the application: from the return of COSIM_WAIT, which is the
 // port's function that it calls for ticks, to its next call.
 struct Pass {
@@ -82,6 +92,7 @@ class Cosimulation
     void look();
     void obey(const fault_order &order);
     void flip(unsigned bit);
+    void flip_as_wanted();
     void hang();
     void stop_timer();
     void shift_ticks(double ticks);
@@ -118,12 +129,14 @@ class Cosimulation
     std::vector<unsigned> objects; // of the application, their addresses
 
     // What the chip is stopped for.
-    enum class Wanted { nothing, reset, hang } wanted = Wanted::nothing;
+    enum class Wanted { nothing, reset, hang, flip } wanted = Wanted::nothing;
     bool looking = false;
     bool resetting = false; // it is at the reset vector, or will be
     double dark_s = 0.0;
     bool random_ram = false;
     double share_of_pass = 0.0; // when a reset comes
+    double share_of_tick = 0.0; // when a bit of a place flips
+    unsigned bit_of_place = 0;
     double ticks_ahead = 0.0;
     uint64_t masked_until = 0; // the tick's interrupt; 0: it is not masked
 };
@@ -167,6 +180,13 @@ Cosimulation::Cosimulation() : chip(firmware, board.processor)
     for (size_t i = 0; i < probe_object_count; i++) {
         objects.push_back(chip.data(probe_objects[i].name));
     }
+    place.bytes.erase(std::remove_if(place.bytes.begin(), place.bytes.end(),
+                                     [this](unsigned at) {
+                                         return at >= objects[0] &&
+                                                at < objects[0] +
+                                                         probe_objects[0].size;
+                                     }),
+                      place.bytes.end());
     for (const std::string &name : metered) {
         meters.push_back(&chip.meter(name));
     }
@@ -326,6 +346,12 @@ void Cosimulation::obey(const fault_order &order)
     case FAULT_FLIP_BIT:
         flip(order.bit);
         break;
+    case FAULT_FLIP_BIT_OF_PLACE: // at an instruction boundary, too
+        wanted = Wanted::flip;
+        share_of_tick = order.share;
+        bit_of_place = order.bit;
+        chip.stop("a bit is to flip");
+        break;
     case FAULT_RESET_CHIP: // at an instruction boundary within the next pass
         wanted = Wanted::reset;
         dark_s = order.seconds;
@@ -350,6 +376,30 @@ void Cosimulation::flip(unsigned bit)
 {
     const unsigned address = objects[0] + bit / 8;
     chip.poke(address, chip.peek(address) ^ (1u << (bit % 8)));
+}
+
+void Cosimulation::flip_as_wanted()
+{
+    (void)chip.run((uint64_t)(share_of_tick * tick_s * cycles_per_second));
+    catch_up();
+    wanted = Wanted::nothing;
+    std::vector<unsigned> bytes = place.bytes;
+    if (place.pointer != 0) {
+        const unsigned top = chip.peek_u16(place.pointer);
+        for (unsigned at = std::min(top + 1, place.end); at <= place.end;
+             at++) {
+            bytes.push_back(at);
+        }
+    }
+    const unsigned at = bytes.at(bit_of_place / 8 % bytes.size());
+    const unsigned bit = 1u << (bit_of_place % 8);
+    if (at == working) {
+        chip.set_working(chip.working() ^ bit);
+        return;
+    }
+    const unsigned value = chip.peek(at) ^ bit;
+    chip.poke(at, value);
+    chip.write(at, value); // what the simulator derives from it
 }
 
 void Cosimulation::hang()
@@ -458,6 +508,8 @@ bool Cosimulation::goes_on()
     const bool watchdog = chip.reason().find("watchdog") != std::string::npos;
     if (wanted == Wanted::hang) {
         hang_here();
+    } else if (wanted == Wanted::flip) {
+        flip_as_wanted();
     } else if (wanted == Wanted::reset) {
         reset_as_wanted();
     } else if (vector && resetting) {
@@ -570,13 +622,37 @@ int Cosimulation::run()
 
 constexpr int exit_wrong_use = 2;
 
-// FIRMWARE --faults NAME FIRST COUNT [KIND]
+// "20-21,3a" or "stack:5d:8ff", in hexadecimal; without the object's bytes.
+void read_place(const std::string &text)
+{
+    if (std::sscanf(text.c_str(), "stack:%x:%x", &place.pointer, &place.end) ==
+        2) {
+        return;
+    }
+    std::istringstream ranges(text);
+    for (std::string range; std::getline(ranges, range, ',');) {
+        unsigned first = 0;
+        unsigned last = 0;
+        if (std::sscanf(range.c_str(), "%x-%x", &first, &last) < 2) {
+            last = first;
+        }
+        for (unsigned at = first; at <= last; at++) {
+            place.bytes.push_back(at);
+        }
+    }
+}
+
+// FIRMWARE --faults NAME FIRST COUNT [KIND | place BYTES]
 int break_loop(const std::vector<std::string> &words)
 {
     int kind = (int)FAULT_KINDS;
     if ((words.size() < 3) ||
-        ((words.size() > 3) && !faults_kind(words[3].c_str(), &kind))) {
+        ((words.size() > 3) && !faults_kind(words[3].c_str(), &kind)) ||
+        ((kind == (int)FAULT_FLIP_PLACE) != (words.size() == 5))) {
         return exit_wrong_use;
+    }
+    if (kind == (int)FAULT_FLIP_PLACE) {
+        read_place(words[4]);
     }
     faulty = true;
     faults_plan(words[0].c_str(), (unsigned)(8 * probe_objects[0].size),
@@ -592,8 +668,9 @@ void help(const char *program)
                 "Runs a firmware, .cod of a PIC or .elf of an AVR, on its "
                 "simulated chip, in its\nsimulated world.\n\n"
                 "  --meter ROUTINE   measure a routine's cycles\n"
-                "  --faults NAME FIRST COUNT [KIND]   alone: break the loop, "
-                "../faults/faults.h\n\n"
+                "  --faults NAME FIRST COUNT [KIND | place BYTES]   alone: "
+                "break the loop,\n"
+                "                    ../faults/faults.h\n\n"
                 "The other options, the seed's effect and the trace are those "
                 "of the host's program;\n"
                 "the trace has one more column, the cycles of the longest "

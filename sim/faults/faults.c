@@ -23,11 +23,11 @@
 #define BETWEEN_HANGS_S 20e-3
 
 static const char *const kind_names[FAULT_KINDS] = {
-    "none",       "flip",          "reset",       "brown_out",   "hang",
-    "hangs",      "dead_timer",    "stuck",       "shorted",     "open",
-    "noisy",      "clipped",       "input_low",   "input_high",  "input_moved",
-    "ticks_lost", "ticks_doubled", "ticks_late",  "stays_stuck", "stays_level",
-    "stays_off",  "stays_on",      "stays_turned"};
+    "none",       "flip",          "reset",        "brown_out",   "hang",
+    "hangs",      "dead_timer",    "stuck",        "shorted",     "open",
+    "noisy",      "clipped",       "input_low",    "input_high",  "input_moved",
+    "ticks_lost", "ticks_doubled", "ticks_late",   "stays_stuck", "stays_level",
+    "stays_off",  "stays_on",      "stays_turned", "place"};
 
 // What a sensor reads that stays at a level: so much of its full scale from the
 // set point, or an end.
@@ -206,6 +206,10 @@ static void draw_kind(long turn)
     case FAULT_FLIP:
         fault.bit = (unsigned)(turn % (long)plan.object_bits);
         break;
+    case FAULT_FLIP_PLACE:
+        fault.bit = faults_random() >> 8;
+        fault.value = drawn(0.0, 1.0);
+        break;
     case FAULT_RESET:
         // Each of the places once, in an order that spreads the first ones.
         fault.value = (double)((turn * 123L) % RESET_PLACES) / RESET_PLACES;
@@ -303,7 +307,7 @@ static void report(const char *how)
 
 static bool stays(void)
 {
-    return fault.kind >= FAULT_PASSING;
+    return (fault.kind >= FAULT_PASSING) && (fault.kind != FAULT_FLIP_PLACE);
 }
 
 static struct fault_order hang(void)
@@ -366,6 +370,11 @@ static struct fault_order strike(void)
         order.deed = FAULT_FLIP_BIT;
         order.bit = fault.bit;
         break;
+    case FAULT_FLIP_PLACE:
+        order.deed = FAULT_FLIP_BIT_OF_PLACE;
+        order.bit = fault.bit;
+        order.share = fault.value;
+        break;
     case FAULT_RESET:
         seen.resets++;
         order.deed = FAULT_RESET_CHIP;
@@ -404,7 +413,7 @@ static struct fault_order shift_ticks(double ticks)
 static struct fault_order shake_ticks(struct fault_order order)
 {
     const double ticks = floor(world_time_s() / TICK_S);
-    if ((fault.kind < FAULT_TICKS_LOST) || stays() ||
+    if ((fault.kind < FAULT_TICKS_LOST) || (fault.kind > FAULT_TICKS_LATE) ||
         (ticks <= seen.ticks_seen)) {
         return order;
     }

@@ -36,6 +36,7 @@ enum fault_kind {
     FAULT_STAYS_OFF,                   // the drive is off, whatever is asked
     FAULT_STAYS_ON,                    // it is full
     FAULT_STAYS_TURNED, // it is least for most and most for least
+    FAULT_FLIP_PLACE,   // a bit elsewhere in a chip, if named only; it passes
     FAULT_KINDS
 };
 
@@ -73,8 +74,9 @@ extern const struct fault_loop fault_loop;
 enum fault_deed {
     FAULT_GO_ON,
     FAULT_FLIP_BIT,
-    FAULT_RESET_CHIP, // without drive for `seconds`
-    FAULT_HANG_LOOP,  // until the watchdog comes, typically after `seconds`
+    FAULT_FLIP_BIT_OF_PLACE, // of as many as the place has
+    FAULT_RESET_CHIP,        // without drive for `seconds`
+    FAULT_HANG_LOOP, // until the watchdog comes, typically after `seconds`
     FAULT_STOP_TIMER,
     FAULT_BLIND_GUARD, // it says nothing any more
     FAULT_SHIFT_TICKS  // the same as host_shift_ticks
@@ -84,7 +86,8 @@ struct fault_order {
     enum fault_deed deed;
     unsigned bit; // of the object
     double seconds;
-    double share; // of a pass of the loop, after which a reset comes
+    double share; // of a pass of the loop, after which a reset comes, or of a
+                  // tick, after which a bit of a place flips
     double ticks;
     bool random_ram;
 };

@@ -195,6 +195,7 @@ int main(int count, char **arguments)
 
     const bool cut = (count == 6) && (strcmp(arguments[5], "cut") == 0);
     if ((count < 4) || ((count > 4) && !faults_kind(arguments[4], &kind)) ||
+        (kind == (int)FAULT_FLIP_PLACE) || // only a chip has places
         ((count > 5) && !cut)) {
         (void)fprintf(stderr,
                       "usage: %s APPLICATION.so FIRST COUNT [KIND [cut]]\n"

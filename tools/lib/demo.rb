@@ -25,6 +25,7 @@ require_relative 'demo/recipes'
 require_relative 'demo/guard'
 require_relative 'demo/chip'
 require_relative 'demo/faults'
+require_relative 'demo/fault_places'
 
 Encoding.default_external = 'UTF-8'
 
@@ -50,6 +51,8 @@ LOOPS = {
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time; in 15 for good: seen',
                        -> { run_faults(ENV.key?('DEMO_LONG')) }),
   'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('DEMO_LONG')) }),
+  'faults_places' => Loop.new('a bit flips in the port, the application, the registers or the stack of a chip',
+                              -> { run_faults_of_places(ENV.key?('DEMO_LONG')) }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
 

@@ -26,23 +26,28 @@ module Docs
   }.freeze
 
   # Made by tools/demo --long only, of these loops.
-  LONG = { 'docs/faults.md' => { 'long' => :long_faults },
+  LONG = { 'docs/faults.md' => { 'long' => :long_faults, 'places' => :fault_places },
            'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
                                 'study_refusals' => :study_refusals, 'study_peers' => :study_peers } }.freeze
-  LONG_LOOPS = { 'docs/faults.md' => %w[faults faults_chip], 'docs/tuning.md' => %w[random_plants] }.freeze
+  LONG_LOOPS = { long_faults: %w[faults faults_chip], fault_places: %w[faults_places] }.freeze
 
   class << self
     # True unless mode asks for a check that fails.
     def update(mode, root, loops)
       return true if %w[run renew].include?(mode)
 
-      parts = mode == 'long' ? LONG.select { |name, _| (LONG_LOOPS.fetch(name) - loops).empty? } : PARTS
+      parts = mode == 'long' ? long_parts(loops) : PARTS
       stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       stale.none?
     end
 
     private
+
+    # Those of which all loops were run.
+    def long_parts(loops)
+      LONG.transform_values { |tables| tables.select { |_, table| (LONG_LOOPS.fetch(table, %w[random_plants]) - loops).empty? } }
+    end
 
     # True where a document is stale and stays so.
     def renew(mode, path, parts)

@@ -168,6 +168,16 @@ module Tables
             end)
     end
 
+    # Of each chip, what came of the bits that flipped in each place.
+    def fault_places
+      table('a bit flips in', 'flips', 'back in time, by itself', 'back in time, after a reset', 'off in time', 'out of control',
+            'the simulator stopped', 'drive beyond its limits', FaultPlaces::CHIPS.flat_map do |name, title|
+              Report.numbers["faults_places #{name}"]['places'].map do |place, row|
+                ["#{title}: #{FaultPlaces::NAMES.fetch(place)}", *row.values_at('runs', 'back', 'reset', 'off', 'out', 'stopped', 'beyond')]
+              end
+            end)
+    end
+
     def cascade
       table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps',
             recipe_rows('%.0f', %w[cascade_NAME_peak cascade_NAME_settled], TRACKED))
