@@ -50,7 +50,7 @@ end
 def remembered
   programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
   private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
-  Remembered.new('proofs', files: INPUTS, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.c_library])
+  Remembered.new('proofs', files: INPUTS, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.tool('g++'), *Inputs.c_library])
 end
 
 # Whether it is good, and its line, of a proof or a break by its name: remembered if it
