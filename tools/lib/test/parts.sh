@@ -64,6 +64,7 @@ part_quick() {
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
+    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'seeded faults' ruby tools/lib/faults/seed.rb
     part_docs
 }
@@ -164,6 +165,7 @@ part_lint() {
         check "ruby -wc $file" ruby -wc "$file"
     done
     check 'warnings, tidy and MISRA' ruby tools/lib/lint.rb
+    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
 }
 
 part_consumers() {
