@@ -14,6 +14,9 @@ struct fixpid_an937_config nondet_an937_config(void);
 #include "an937/fixpid_an937_more.c"
 
 #define SUM_MAX 0xFFFFFF
+#define FLAGS                                                                  \
+    (FIXPID_AN937_SUM_SATURATED | FIXPID_AN937_ACCUMULATED_ERROR_LIMITED)
+#define BELOW_0 0x80u     // of `step_flags`: the sum was negative
 #define TERM_MAX 16711425 // 255 * 65535
 #define TIMES(gain, x) times((gain), (x), TERM_MAX)
 
@@ -59,8 +62,7 @@ static bool sound(const struct fixpid_an937 *x)
         !sound_number(&x->delta, 65535)) {
         return false;
     }
-    if ((x->step_flags & (uint8_t) ~(FIXPID_AN937_SUM_NEGATIVE | STEP_FLAGS)) !=
-        0u) {
+    if ((x->step_flags & (uint8_t) ~(BELOW_0 | FLAGS)) != 0u) {
         return false;
     }
     if (x->accumulated_error_limit == 0u) { // refused
@@ -265,7 +267,7 @@ void prove_setters(void)
     } else if (nondet_bool()) {
         fixpid_an937_clear_flags(&c);
         claim(fixpid_an937_flags(&c) == 0u);
-        was.step_flags &= FIXPID_AN937_SUM_NEGATIVE;
+        was.step_flags &= BELOW_0;
         was.tick_overrun = 0;
     } else {
         fixpid_an937_tick(&c);

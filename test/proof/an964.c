@@ -35,7 +35,7 @@ uint16_t fixpid_10x7_div16_contract(uint16_t gain, uint8_t magnitude)
 uint16_t fixpid_10x8_div32_contract(uint16_t gain, uint8_t magnitude,
                                     uint8_t round_up, uint8_t limit)
 {
-    pre(gain <= GAIN_MAX);
+    pre((gain <= GAIN_MAX) && (magnitude <= limit));
     pre((round_up == 0u) || (round_up == 0xFFu));
     return (uint16_t)clamp(
         floor_by(TIMES_BYTE(gain, (number)magnitude) + (round_up & 31u), 5), 0,

@@ -30,7 +30,7 @@ typedef uint16_t quotient;
 quotient fixpid_7x7_div4_contract(uint8_t gain, uint8_t magnitude,
                                   uint8_t round_up, uint8_t limit)
 {
-    pre((gain <= GAIN_MAX) && (magnitude <= 127u));
+    pre((gain <= GAIN_MAX) && (magnitude <= 127u) && (magnitude <= limit));
     pre((round_up == 0u) || (round_up == 0xFFu));
     return (quotient)clamp(
         floor_by(TIMES(gain, (number)magnitude) + (round_up & 3u), 2), 0,

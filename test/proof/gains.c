@@ -109,7 +109,7 @@ void prove_to_milli(void)
         const uint32_t kd = quotient(
             gains.kd_q8, (uint32_t)15625 << gains.derivative_filter, rate * 4u);
 
-        claim(accepted == ((ki != TOO_MUCH) && (kd != TOO_MUCH)));
+        claim(accepted == ((ki != UINT32_MAX) && (kd != UINT32_MAX)));
         if (accepted) {
             // kp / 256 * 1000, half up
             claim(milli.kp == floor_by(((number)gains.kp_q8 * 125) + 16, 5));

@@ -10,10 +10,13 @@ struct fixpid_guard_config nondet_guard_config(void);
 
 #include "guard/fixpid_guard.c"
 
+// Of the band around the setpoint.
+enum { WITHIN, LOWER, UPPER };
+
 // A guard as the rules speak of it.
 struct rules {
     number last, run, hold, count, mark, anchor, swings, strikes;
-    unsigned zone, end, outside; // INSIDE, BELOW or ABOVE
+    unsigned zone, end, outside; // WITHIN, LOWER or UPPER
     unsigned flags;
 };
 
@@ -84,7 +87,7 @@ static bool sound(const struct fixpid_guard *x)
     return legal_guard(x) && (at.zone != 3u) && (at.end != 3u) &&
            (at.outside != 3u) && (at.run < 2 * patience) && (at.swings < 12) &&
            (at.strikes < 4) &&
-           inside(at.count, (at.zone == INSIDE) ? 1 - patience : 0,
+           inside(at.count, (at.zone == WITHIN) ? 1 - patience : 0,
                   patience - 1);
 }
 
@@ -125,14 +128,14 @@ static void rule_frozen(struct rules *at, number y, number u)
 
 static void rule_swings(struct rules *at, number r)
 {
-    if (at->zone == INSIDE) {
+    if (at->zone == WITHIN) {
         return;
     }
     at->flags &= ~(unsigned)FIXPID_GUARD_SETTLED;
     if (apart(r, at->anchor) > c.band) {
         at->anchor = r;
         at->swings = 0;
-    } else if ((at->outside != INSIDE) && (at->outside != at->zone)) {
+    } else if ((at->outside != WITHIN) && (at->outside != at->zone)) {
         if (++at->swings == 12) {
             at->swings = 0;
             at->flags |= FIXPID_GUARD_OSCILLATING;
@@ -144,13 +147,13 @@ static void rule_swings(struct rules *at, number r)
 static void rule_zone(struct rules *at, number goal, number r, number y)
 {
     const number band =
-        (at->zone == INSIDE) ? (number)c.band : floor_by(c.band, 1);
-    unsigned zone = INSIDE;
+        (at->zone == WITHIN) ? (number)c.band : floor_by(c.band, 1);
+    unsigned zone = WITHIN;
 
     if (goal - y > band) {
-        zone = BELOW;
+        zone = LOWER;
     } else if (y - goal > band) {
-        zone = ABOVE;
+        zone = UPPER;
     }
     if (zone != at->zone) {
         at->zone = zone;
@@ -164,12 +167,12 @@ static void rule_alarm(struct rules *at, unsigned end)
 {
     at->count = 0;
     at->flags |=
-        (end == BELOW) ? FIXPID_GUARD_NOT_RISING : FIXPID_GUARD_NOT_FALLING;
+        (end == LOWER) ? FIXPID_GUARD_NOT_RISING : FIXPID_GUARD_NOT_FALLING;
 }
 
 static void rule_outside(struct rules *at, number y, unsigned end)
 {
-    const number nearer = (at->zone == BELOW) ? (y - at->mark) : (at->mark - y);
+    const number nearer = (at->zone == LOWER) ? (y - at->mark) : (at->mark - y);
 
     if (nearer >= c.band) {
         at->mark = y;
@@ -186,7 +189,7 @@ static void rule_outside(struct rules *at, number y, unsigned end)
 
 static void rule_inside(struct rules *at, unsigned end)
 {
-    if (end != INSIDE) {
+    if (end != WITHIN) {
         if ((at->count > 0) || (end != at->end)) {
             at->count = 0;
         }
@@ -197,7 +200,7 @@ static void rule_inside(struct rules *at, unsigned end)
     } else if (++at->count >= c.patience) {
         at->count = 0;
         at->swings = 0;
-        at->outside = INSIDE;
+        at->outside = WITHIN;
         at->flags |= FIXPID_GUARD_SETTLED;
     }
 }
@@ -207,12 +210,12 @@ static unsigned end_by_rule(number u)
     const bool reverse = (c.state & 0x80u) != 0u;
 
     if (u >= c.output_max) {
-        return reverse ? ABOVE : BELOW;
+        return reverse ? UPPER : LOWER;
     }
     if (u <= c.output_min) {
-        return reverse ? BELOW : ABOVE;
+        return reverse ? LOWER : UPPER;
     }
-    return INSIDE;
+    return WITHIN;
 }
 
 static void rule_step(struct rules *at, number r, number y, number u)
@@ -223,10 +226,10 @@ static void rule_step(struct rules *at, number r, number y, number u)
     rule_range(at, y);
     rule_frozen(at, y, u);
     rule_zone(at, goal, r, y);
-    if (at->zone != INSIDE) {
+    if (at->zone != WITHIN) {
         rule_outside(at, y, end);
     } else {
-        rule_inside(at, ((goal == r) && (goal != y)) ? end : INSIDE);
+        rule_inside(at, ((goal == r) && (goal != y)) ? end : WITHIN);
     }
 }
 

@@ -41,9 +41,23 @@ static struct signals any_signals(void)
     return signals;
 }
 
+// What the object's private bits mean. Without its feature a bit is none.
+#define HAS(feature, bits)                                                     \
+    ((((unsigned)FIXPID_PID_FEATURES & (feature)) != 0u) ? (bits) : 0u)
+#define FINE 0x80u                                  // ki has 24 fractional bits
+#define COARSE HAS(FIXPID_PID_HAS_COARSE_KI, 0x10u) // ki has 8
+#define FILTERED HAS(FIXPID_PID_HAS_FILTER, 0x07u)
+#define MIRRORED HAS(FIXPID_PID_HAS_REVERSE, 0x40u)
+#define BY_ERROR HAS(FIXPID_PID_HAS_DERIVATIVE_ON_ERROR, 0x20u)
+#define SCALED HAS(FIXPID_PID_HAS_WEIGHT, 0x08u)
+#define OF_STEP (MIRRORED | BY_ERROR | SCALED)
+#define HOLDING                                                                \
+    HAS(FIXPID_PID_HAS_MANUAL, FIXPID_PID_MANUAL | FIXPID_PID_SEEDED)
+#define UNSEEN ((PROOF_WORD == 16) ? 0 : 0x7FFF7FFF) // no `previous` yet
+
 #define COUNT 65536                // an output count in `integral`
 #define PART ((number)256 * COUNT) // and in 1/2^24
-#define D_MAX ((number)DERIVATIVE_MAX)
+#define D_MAX (((number)1 << 30) - ((number)1 << 24))
 #define TIMES(gain, x) times((gain), (x), (uint32_t)(gain) << 15) // |x| <= 2^15
 
 int32_t mul16_contract(uint16_t gain, signal_word x)
@@ -82,12 +96,14 @@ static bool sound_settings(const struct fixpid_pid *x)
     }
     return (x->kp <= FIXPID_PID_KP_MAX) && (x->ki <= 32767u) &&
            (x->kd <= FIXPID_PID_KD_MAX) &&
-           ((x->options & (KI_FINE | KI_COARSE)) != (KI_FINE | KI_COARSE));
+           ((x->options & (FINE | COARSE | FILTERED | OF_STEP)) ==
+            x->options) &&
+           (((x->options & FINE) == 0u) || ((x->options & COARSE) == 0u));
 }
 
 static bool sound_integral(const struct fixpid_pid *x)
 {
-    if ((x->status & HELD) != 0u) {
+    if ((x->status & HOLDING) != 0u) {
         return (((uint32_t)x->integral & 0xFFFFu) == 0u) &&
                inside(floor_by(x->integral, 16), x->output_min, x->output_max);
     }
@@ -98,7 +114,7 @@ static bool sound_integral(const struct fixpid_pid *x)
 static bool sound_previous(const struct fixpid_pid *x)
 {
     if ((x->status & FIXPID_PID_FIRST) != 0u) {
-        return x->previous == NO_PREVIOUS;
+        return x->previous == UNSEEN;
     }
     return inside(x->previous, INT16_MIN, INT16_MAX);
 }
@@ -140,12 +156,12 @@ static bool same(const struct fixpid_pid *a, const struct fixpid_pid *b)
 // sat16 of the difference, turned round in reverse.
 static number error_of(const struct fixpid_pid *x, number goal, number y)
 {
-    return ((x->options & REVERSE) != 0u) ? sat16(y - goal) : sat16(goal - y);
+    return ((x->options & MIRRORED) != 0u) ? sat16(y - goal) : sat16(goal - y);
 }
 
 static number weighted(const struct fixpid_pid *x, number r)
 {
-    if ((x->options & WEIGHTED) == 0u) {
+    if ((x->options & SCALED) == 0u) {
         return r;
     }
     return floor_by(TIMES(x->setpoint_weight, r) + 128, 8);
@@ -154,10 +170,10 @@ static number weighted(const struct fixpid_pid *x, number r)
 // What the derivative sees, which falls with the error.
 static number input_of(const struct fixpid_pid *x, number r, number y)
 {
-    if ((x->options & ON_ERROR) != 0u) {
+    if ((x->options & BY_ERROR) != 0u) {
         return -1 - error_of(x, r, y);
     }
-    return ((x->options & REVERSE) != 0u) ? (-1 - y) : y;
+    return ((x->options & MIRRORED) != 0u) ? (-1 - y) : y;
 }
 
 static number derivative_of(const struct fixpid_pid *x, number input)
@@ -166,11 +182,11 @@ static number derivative_of(const struct fixpid_pid *x, number input)
         ((x->status & FIXPID_PID_FIRST) != 0u) ? input : x->previous;
     const number d = TIMES(x->kd, sat16(previous - input));
 
-    if ((x->options & FILTER) == 0u) {
+    if ((x->options & FILTERED) == 0u) {
         return d;
     }
     return clamp(
-        d + (x->derivative - floor_by(x->derivative, x->options & FILTER)),
+        d + (x->derivative - floor_by(x->derivative, x->options & FILTERED)),
         -D_MAX, D_MAX);
 }
 
@@ -179,10 +195,10 @@ static number change_of(const struct fixpid_pid *x, number e)
 {
     const number change = TIMES(x->ki, e);
 
-    if ((x->options & KI_FINE) != 0u) {
+    if ((x->options & FINE) != 0u) {
         return change;
     }
-    return ((x->options & KI_COARSE) != 0u) ? (change * 65536) : (change * 256);
+    return ((x->options & COARSE) != 0u) ? (change * 65536) : (change * 256);
 }
 
 static number limited(const struct fixpid_pid *x, number integral)
@@ -441,21 +457,24 @@ void prove_composed(void)
     input = input_of(&was, setpoint, measurement);
     d = derivative_of(&was, input);
     // In the order of the step: a solver is slow at the associative law.
-    p_d_ff = (TIMES(was.kp, p_error) + ((number)was.feedforward * 256)) + d;
+    p_d_ff = (TIMES(was.kp, p_error) + (HAS(FIXPID_PID_HAS_FEEDFORWARD, 1u)
+                                            ? (number)was.feedforward * 256
+                                            : 0)) +
+             d;
     claim(c.proportional_error == p_error);
     claim(c.previous == input);
     claim(c.derivative == d);
-    claim(c.output == out);
+    claim(c.output == (HAS(FIXPID_PID_HAS_TRACK, 1u) ? out : was.output));
     claim(inside(out, c.output_min, c.output_max));
     claim(same_settings(&c, &was));
     claim(sound(&c));
-    if ((was.status & FIXPID_PID_MANUAL) != 0u) {
+    if ((was.status & HOLDING & FIXPID_PID_MANUAL) != 0u) {
         claim(out == floor_by(was.integral, 16));
         claim(whole(&c) == whole(&was));
         claim(c.status == FIXPID_PID_MANUAL);
         return;
     }
-    if ((was.status & FIXPID_PID_SEEDED) != 0u) {
+    if ((was.status & HOLDING) != 0u) {
         candidate = taken_over(&was, p_d_ff);
         e = 0;
     } else {
@@ -499,9 +518,14 @@ static bool legal_config(const struct fixpid_pid_config *config)
     const uint16_t b = config->setpoint_weight_q8;
 
     if (config->proportional_on_measurement) {
-        if (b != 0u) {
+        if ((b != 0u) || (SCALED == 0u)) {
             return false;
         }
+    }
+    if ((config->reverse && (MIRRORED == 0u)) ||
+        (config->derivative_on_error && (BY_ERROR == 0u)) ||
+        ((b != 0u) && (b != 256u) && (SCALED == 0u))) {
+        return false;
     }
     return legal_gains(&config->gains) &&
            (config->output_min < config->output_max) &&
@@ -509,28 +533,31 @@ static bool legal_config(const struct fixpid_pid_config *config)
            (b <= 256u);
 }
 
-// What is kept of ki is within 0.4 % of it, and exact up to 32767.
+// 15 bits of ki are kept: with 24 fractional bits, with 16 up to what rounds to
+// 32767 of them, or with 8; to the nearest, half up. That is within 0.4 % of
+// it.
 static void claim_gains(const struct fixpid_pid_gains *gains)
 {
     const number given = gains->ki_q24;
-    const number kept = ((c.options & KI_FINE) != 0u)     ? c.ki
-                        : ((c.options & KI_COARSE) != 0u) ? (number)c.ki << 16
-                                                          : (number)c.ki << 8;
+    const bool fine = given <= 32767;
+    const bool coarse = given >= ((number)32767 * 256) + 128;
+    const number kept = (number)c.ki << (fine ? 0 : coarse ? 16 : 8);
 
     claim(c.kp == gains->kp_q8);
     claim(c.kd == gains->kd_q8);
-    claim((c.options & FILTER) == gains->derivative_filter);
-    claim((given > 32767) || (kept == given));
-    claim(((c.options & KI_COARSE) != 0u) ||
-          inside(kept - given, -128, 128)); // to the nearest
-    claim(inside(kept - given, -32768, 32768));
+    claim((c.options & FILTERED) == gains->derivative_filter);
+    claim(((c.options & FINE) != 0u) == fine);
+    claim(((c.options & COARSE) != 0u) == coarse);
+    claim(c.ki == (fine     ? given
+                   : coarse ? floor_by(given + 32768, 16)
+                            : floor_by(given + 128, 8)));
     claim(inside((kept - given) * 250, -given, given));
 }
 
 static bool at_rest(const struct fixpid_pid *x)
 {
     return (whole(x) == limited(x, 0)) && (x->derivative == 0) &&
-           (x->previous == NO_PREVIOUS) && (x->proportional_error == 0) &&
+           (x->previous == UNSEEN) && (x->proportional_error == 0) &&
            (x->feedforward == 0) && (x->output == 0) &&
            (x->status == FIXPID_PID_FIRST);
 }
@@ -556,12 +583,12 @@ void prove_init(void)
               range_low(config.integral_min, config.integral_max));
         claim(c.integral_max ==
               range_high(config.integral_min, config.integral_max));
-        claim(((c.options & REVERSE) != 0u) == config.reverse);
-        claim(((c.options & ON_ERROR) != 0u) == config.derivative_on_error);
+        claim(((c.options & MIRRORED) != 0u) == config.reverse);
+        claim(((c.options & BY_ERROR) != 0u) == config.derivative_on_error);
         // b = 1 needs no product, and 0 is said by the bool.
-        claim(((c.options & WEIGHTED) != 0u) ==
+        claim(((c.options & SCALED) != 0u) ==
               (config.proportional_on_measurement || ((b & 0xFFu) != 0u)));
-        claim(((c.options & WEIGHTED) == 0u) || (c.setpoint_weight == b));
+        claim(((c.options & SCALED) == 0u) || (c.setpoint_weight == b));
     }
 }
 
@@ -607,7 +634,7 @@ void prove_set_gains(void)
         was.kp = c.kp;
         was.ki = c.ki;
         was.kd = c.kd;
-        claim((c.options & SPECIAL) == (was.options & SPECIAL));
+        claim((c.options & OF_STEP) == (was.options & OF_STEP));
         was.options = c.options;
     }
     claim(same(&c, &was));
@@ -630,7 +657,7 @@ void prove_set_limits(void)
     if (legal) {
         was.output_min = low;
         was.output_max = high;
-        if ((was.status & HELD) != 0u) {
+        if ((was.status & HOLDING) != 0u) {
             claim(c.integral ==
                   clamp(floor_by(was.integral, 16), low, high) * COUNT);
         } else {
@@ -666,7 +693,7 @@ void prove_set_integral_limits(void)
     if (legal) {
         was.integral_min = (int16_t)range_low(low, high);
         was.integral_max = (int16_t)range_high(low, high);
-        if ((was.status & HELD) == 0u) {
+        if ((was.status & HOLDING) == 0u) {
             claim(whole(&c) == limited(&was, whole(&was)));
             was.integral = c.integral;
             was.integral_fraction = c.integral_fraction;
@@ -676,6 +703,7 @@ void prove_set_integral_limits(void)
     claim(sound(&c));
 }
 
+#if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
 void prove_modes(void)
 {
     const int16_t value = nondet_int16();
@@ -712,6 +740,7 @@ void prove_modes(void)
     claim(same(&c, &was));
     claim(sound(&c));
 }
+#endif
 
 void prove_reset(void)
 {
@@ -728,6 +757,7 @@ void prove_reset(void)
     claim(sound(&c));
 }
 
+#if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
 // (applied - output) / 2^shift counts, toward minus infinity in 1/2^16.
 void prove_track(void)
 {
@@ -743,7 +773,7 @@ void prove_track(void)
         const number apart = sat16((number)applied - was.output);
 
         was.output = applied;
-        if ((was.status & HELD) == 0u) {
+        if ((was.status & HOLDING) == 0u) {
             claim(whole(&c) ==
                   limited(&was,
                           whole(&was) + (floor_by(apart * COUNT,
@@ -757,6 +787,7 @@ void prove_track(void)
     claim(same(&c, &was));
     claim(sound(&c));
 }
+#endif
 
 // What the step is given in the place of setpoint and measurement, and what the
 // object holds then.
@@ -788,7 +819,7 @@ static number seen_by(const struct fixpid_pid *x)
     if ((x->status & FIXPID_PID_FIRST) != 0u) {
         return 0;
     }
-    return ((x->options & REVERSE) != 0u) ? (-1 - x->previous) : x->previous;
+    return ((x->options & MIRRORED) != 0u) ? (-1 - x->previous) : x->previous;
 }
 
 // The derivative's input in the step, and where it falls from.
@@ -815,11 +846,11 @@ void prove_step_error(void)
     e = error_of(&was, error, 0);
     input = input_of(&given.object, given.setpoint, given.measurement);
     claim(error_of(&given.object, given.setpoint, given.measurement) == e);
-    claim((given.object.options & (REVERSE | WEIGHTED)) == 0u);
-    claim((given.object.options | REVERSE | WEIGHTED) ==
-          (was.options | REVERSE | WEIGHTED));
+    claim((given.object.options & (MIRRORED | SCALED)) == 0u);
+    claim((given.object.options | MIRRORED | SCALED) ==
+          (was.options | MIRRORED | SCALED));
     claim(sound_previous(&given.object));
-    if ((was.options & ON_ERROR) != 0u) {
+    if ((was.options & BY_ERROR) != 0u) {
         claim(fall_of(&given.object, input) == fall_of(&was, -1 - e));
         was.previous = (int16_t)(-1 - e);
     } else {
@@ -828,7 +859,7 @@ void prove_step_error(void)
         claim(((was.status & FIXPID_PID_FIRST) != 0u) ||
               (fall_of(&given.object, input) == error_of(&was, 0, rise)));
         was.previous =
-            (int16_t)(((was.options & REVERSE) != 0u) ? (-1 - sees) : sees);
+            (int16_t)(((was.options & MIRRORED) != 0u) ? (-1 - sees) : sees);
     }
     was.status &= (uint8_t)~FIXPID_PID_FIRST;
     claim(same(&c, &was));
@@ -860,6 +891,7 @@ void prove_step_exact(void)
     claim(c.options == was.options);
 }
 
+#if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
 // By contract: mul16.
 void prove_read(void)
 {
@@ -877,6 +909,7 @@ void prove_read(void)
           (refused(&c) ? (c.status | FIXPID_PID_REFUSED) : c.status));
     claim(same(&c, &was));
 }
+#endif
 
 void prove_refused(void)
 {
@@ -909,6 +942,7 @@ void prove_total_error(void)
     claim_output(fixpid_pid_step_error(&c, nondet_int32(), nondet_int32()));
 }
 
+#if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
 void prove_total_rest(void)
 {
     const struct fixpid_pid_gains gains = nondet_pid_gains();
@@ -927,3 +961,4 @@ void prove_total_rest(void)
     (void)fixpid_pid_proportional(&c);
     fixpid_pid_reset(&c);
 }
+#endif

@@ -8,15 +8,33 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#ifdef PRIMITIVES_INT_16 // the form for an int of 16 bits
-#undef INT_MAX
-#define INT_MAX 32767
+#ifdef PRIMITIVES_INT_16 // compiled as C++
+#include "int16.hh"
+namespace int16
+{
 #endif
 
 #include "an937/fixpid_an937_arith.h"
 #include "an964/fixpid_an964_arith.h"
 #include "an964_8bit/fixpid_an964_8bit_arith.h"
 #include "common/fixpid_signed.h"
+
+#ifdef PRIMITIVES_INT_16
+} // namespace int16
+using int16::add32_sat;
+using int16::fixpid_10x14_div1024;
+using int16::fixpid_10x7_div16;
+using int16::fixpid_10x8_div32;
+using int16::fixpid_7x7_div32;
+using int16::fixpid_7x7_div4;
+using int16::fixpid_7x7_div8;
+using int16::fixpid_an937_number;
+using int16::fixpid_error_term;
+using int16::fixpid_number_term;
+using int16::fixpid_sum_with_term;
+using int16::mul16;
+using int16::sub16_sat;
+#endif
 
 static uint64_t cases;
 
@@ -36,24 +54,21 @@ static uint32_t at_most(uint32_t limit, uint32_t x)
     return (x > limit) ? limit : x;
 }
 
-// x * k / 2^n, rounded down and up, for the limits at both ends and between.
+// x * k / 2^n, rounded down and up. The quotient's limit is the magnitude's,
+// too.
 static void bytes_times_bytes(void)
 {
-    static const uint8_t limits[] = {1, 30, 126, 127};
+    const uint32_t most = FIXPID_AN964_8BIT_TERM_LIMIT;
 
     for (uint32_t x = 0; x < 128u; x++) {
         for (uint32_t k = 0; k < 128u; k++) {
-            for (unsigned i = 0; i < 4u; i++) {
-                const uint8_t limit = limits[i];
-
-                if (k > limit) { // the change is limited, too
-                    continue;
-                }
+            for (uint32_t limit = k; limit <= most; limit++) {
                 same("7x7_div4", x, k,
-                     fixpid_7x7_div4((uint8_t)x, (uint8_t)k, 0, limit),
+                     fixpid_7x7_div4((uint8_t)x, (uint8_t)k, 0, (uint8_t)limit),
                      at_most(limit, x * k / 4u));
                 same("7x7_div4 up", x, k,
-                     fixpid_7x7_div4((uint8_t)x, (uint8_t)k, 0xFF, limit),
+                     fixpid_7x7_div4((uint8_t)x, (uint8_t)k, 0xFF,
+                                     (uint8_t)limit),
                      at_most(limit, (x * k + 3u) / 4u));
             }
             same("7x7_div8", x, k, fixpid_7x7_div8((uint8_t)x, (uint8_t)k),
@@ -66,9 +81,11 @@ static void bytes_times_bytes(void)
 
 static void bytes_times_words(void)
 {
+    const uint32_t most = FIXPID_AN964_TERM_LIMIT;
+
     for (uint32_t x = 0; x < 1024u; x++) {
-        for (uint32_t k = 0; k < 256u; k++) {
-            for (uint32_t limit = k; limit < 256u; limit += 15u) {
+        for (uint32_t k = 0; k <= most; k++) {
+            for (uint32_t limit = k; limit <= most; limit++) {
                 same("10x8_div32", x, k,
                      fixpid_10x8_div32((uint16_t)x, (uint8_t)k, 0,
                                        (uint8_t)limit),
@@ -165,7 +182,9 @@ static void differences(void)
 // Sums around 0 and around both ends, with and without an overflow.
 static void sums(void)
 {
-    static const int32_t middles[] = {INT32_MIN, -65536, 0, 65536, INT32_MAX};
+    const int64_t least = -2147483647 - 1;
+    const int64_t most = 2147483647;
+    const int64_t middles[] = {least, -65536, 0, 65536, most};
 
     for (unsigned i = 0; i < 25u; i++) {
         for (int64_t a = -300; a <= 300; a++) {
@@ -174,14 +193,15 @@ static void sums(void)
                 const int64_t right = middles[i / 5u] + b;
                 const int64_t sum = left + right;
 
-                if ((left != (int32_t)left) || (right != (int32_t)right)) {
+                if ((left < least) || (left > most) || (right < least) ||
+                    (right > most)) {
                     continue;
                 }
                 same("add32_sat", left, right,
                      add32_sat((int32_t)left, (int32_t)right),
-                     (sum > INT32_MAX)   ? INT32_MAX
-                     : (sum < INT32_MIN) ? INT32_MIN
-                                         : sum);
+                     (sum > most)    ? most
+                     : (sum < least) ? least
+                                     : sum);
             }
         }
     }

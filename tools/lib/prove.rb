@@ -52,7 +52,7 @@ end
 def remembered(files = INPUTS, others = [])
   programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
   private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
-  Remembered.new('proofs', files: files, what: 'proofs', tools: [*programs, *private_ones, *Inputs.tool('gcc'), *Inputs.tool('cc'), *Inputs.c_library, *others])
+  Remembered.new('proofs', files: files, what: 'proofs', tools: [*programs, *private_ones, *%w[gcc cc g++].flat_map { |name| Inputs.tool(name) }, *Inputs.c_library, *others])
 end
 
 # Whether it is good, and its line, of a proof or a break by its name: remembered if it

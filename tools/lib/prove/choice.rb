@@ -107,7 +107,7 @@ class Choice
   def reaches(proof)
     return Cbmc.new(proof, @build).functions unless proof.exhausted?
 
-    text, = Open3.capture2('cc', '-std=c99', '-E', '-P', *proof.options, '-Iinclude', '-Isrc', proof.harness)
+    text, = Open3.capture2(*proof.compiler, '-E', '-P', *proof.options, '-Iinclude', '-Isrc', proof.harness)
     text.scan(/(\w+)\(/).flatten.uniq
   end
 

@@ -15,7 +15,7 @@ class Exhaustion
   end
 
   def run
-    said, status = Open3.capture2e('cc', '-std=c99', '-O2', '-w', *@proof.options, "-I#{@tree}/include",
+    said, status = Open3.capture2e(*@proof.compiler, '-O2', '-w', *@proof.options, "-I#{@tree}/include",
                                    "-I#{@tree}/src", @proof.harness, '-o', @program)
     return Answer.new(:none, "it does not compile\n#{said}") unless status.success?
 
@@ -28,7 +28,7 @@ class Exhaustion
 
   # What is tried, with the sources of the tree.
   def instructions
-    Open3.capture2('cc', '-std=c99', '-E', '-P', *@proof.options, "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness).first
+    Open3.capture2(*@proof.compiler, '-E', '-P', *@proof.options, "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness).first
   end
 
   private

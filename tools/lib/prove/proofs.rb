@@ -7,6 +7,7 @@ FOLDER = 'test/proof'.freeze
 WORDS = [16, 32, 64].freeze
 PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this machine
 HOST = 64
+INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16.hh
 SLOW = %w[composed differentiate].freeze # they take more than ten seconds
 
 # One function of a harness, in one form, for one machine.
@@ -26,6 +27,11 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
 
   def exhausted?
     group == PRIMITIVES
+  end
+
+  # What compiles one that is tried: where an int has 16 bits, its integers are classes.
+  def compiler
+    options.include?(INT_16) ? %w[g++ -std=c++20 -xc++] : %w[cc -std=c99]
   end
 
   def harness
@@ -57,7 +63,7 @@ module Proofs
   def sources(proof)
     @sources ||= {}
     @sources[[proof.harness, proof.options]] ||=
-      Open3.capture2('cc', '-MM', *proof.options, "-I#{FOLDER}", '-Iinclude', '-Isrc', proof.harness).first.split
+      Open3.capture2(*proof.compiler, '-MM', *proof.options, "-I#{FOLDER}", '-Iinclude', '-Isrc', proof.harness).first.split
            .map { |file| Pathname(file).cleanpath.to_s } # of src/pid/../common/
   end
 

@@ -64,6 +64,7 @@ part_quick() {
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
+    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'seeded faults' ruby tools/lib/faults/seed.rb
     part_docs
 }
@@ -165,6 +166,7 @@ part_lint() {
     done
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
     count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' ruby tools/lib/lint.rb
+    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
 }
 
 part_consumers() {
