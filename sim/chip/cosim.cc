@@ -57,8 +57,8 @@ FILE *trace = nullptr;
 double trace_period_s = tick_s;
 bool faulty = false; // the loop is broken on purpose
 
-// The loop of the application: from the return of COSIM_WAIT, which is the
-// port's function that it calls for ticks, to its next call.
+// The loop of the application: from the return of the port's function
+// that it calls for ticks to its next call.
 struct Pass {
     bool begun = false;
     double ready_s = -1.0; // when the first of them was called
@@ -235,7 +235,7 @@ void Cosimulation::take_drive()
 
 void Cosimulation::watch_loop()
 {
-    Meter &wait = chip.meter(COSIM_WAIT);
+    Meter &wait = chip.meter(probe_wait);
     wait.on_return = [this](uint64_t) { wait_ends(); };
     wait.on_call = [this] { wait_begins(); };
 }
