@@ -128,7 +128,7 @@ part_avr() {
     # shellcheck disable=SC2046 # a list of files
     ruby test/chips/avr/vectors_table.rb build/avr/*_firmware.csv \
         $(find test/support/vectors -name '*.csv' ! -name '*_firmware.csv' ! -name 'autotune*.csv') \
-        >build/avr/vectors/vectors_table.c
+        >build/avr/vectors/vectors.c
     # Its own form in both modes; the narrow one, in plain C, in one.
     run_mode avr pointer wide test/chips/avr/avr.yml
     run_mode avr object wide test/chips/avr/avr.yml
