@@ -146,9 +146,8 @@ part_sanitize() {
 check_formats() {
     sources=$(find include src port sim examples test tools -name '*.[ch]')
     simulators=$(find sim test tools -name '*.cc' -o -name '*.hh')
-    for file in $sources $simulators; do
-        check "clang-format $file" clang-format --dry-run -Werror "$file"
-    done
+    check_files clang-format "$sources $simulators" \
+        clang-format --dry-run -Werror
 }
 
 part_lint() {
@@ -156,9 +155,7 @@ part_lint() {
         shellcheck ruby avr-gcc:gcc-avr :avr-libc
     check_formats
     scripts=$(grep -rlE '^(#!/bin/sh|# shellcheck shell=sh)' tools test .ci)
-    for file in $scripts; do
-        check "shellcheck $file" shellcheck -x "$file"
-    done
+    check_files shellcheck "$scripts" shellcheck -x
     rubies=$(find tools test -name '*.rb')
     for file in $rubies; do
         check "ruby -wc $file" ruby -wc "$file"
