@@ -67,8 +67,8 @@ struct Place {
 } place;
 constexpr unsigned working = 0xFFFF; // the address of a PIC16's W
 
-// The loop of the application: from the return of COSIM_WAIT, which is the
-// port's function that it calls for ticks, to its next call.
+// The loop of the application: from the return of the port's function
+// that it calls for ticks to its next call.
 struct Pass {
     bool begun = false;
     double ready_s = -1.0; // when the first of them was called
@@ -255,7 +255,7 @@ void Cosimulation::take_drive()
 
 void Cosimulation::watch_loop()
 {
-    Meter &wait = chip.meter(COSIM_WAIT);
+    Meter &wait = chip.meter(probe_wait);
     wait.on_return = [this](uint64_t) { wait_ends(); };
     wait.on_call = [this] { wait_begins(); };
 }

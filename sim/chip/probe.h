@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The application's objects as the co-simulation sees them: bytes to copy from
-// the chip's RAM before host_probe() and host_report() look at them.
+// The application as the co-simulation sees it: its objects, which are bytes to
+// copy from the chip's RAM before host_probe() and host_report() look at them,
+// and its loop.
 #ifndef PROBE_H
 #define PROBE_H
 #include <stddef.h>
@@ -14,5 +15,8 @@ struct probe_object {
 // Deviation 8.11: each application has its own number of them.
 extern const struct probe_object probe_objects[];
 extern const size_t probe_object_count;
+
+// The port's function that its loop calls for ticks.
+extern const char *const probe_wait;
 
 #endif

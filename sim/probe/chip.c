@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A home for the application's objects where there is no application: the
 // co-simulation fills them from the chip's RAM. The build names the controller,
-// as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964, and where
-// there is one, the configuration whose gains the application has found:
-// -DPROBE_CONFIG=name.
+// as in -DPROBE_HEADER="fixpid_an964.h" -DPROBE_TYPE=fixpid_an964, the port's
+// function that the application's loop calls for ticks, -DPROBE_WAIT="name",
+// and where there is one, the configuration whose gains the application has
+// found: -DPROBE_CONFIG=name.
 //
 // They have no pointer, and the build leaves no room between their members, so
 // they have the same bytes here and under SDCC, on any machine that stores the
@@ -14,6 +15,7 @@
 #ifndef PROBE_HEADER
 #define PROBE_HEADER "fixpid_an964.h"
 #define PROBE_TYPE fixpid_an964
+#define PROBE_WAIT "port_wait_tick"
 #endif
 
 #include PROBE_HEADER
@@ -45,3 +47,4 @@ const struct probe_object probe_objects[] = {
 };
 const size_t probe_object_count =
     sizeof(probe_objects) / sizeof(probe_objects[0]);
+const char *const probe_wait = PROBE_WAIT;

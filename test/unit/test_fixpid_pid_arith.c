@@ -3,6 +3,9 @@
 #include "pid_arith_checks.h"
 #include "unity.h"
 
+TEST_SOURCE_FILE("test/support/numbers.c")
+TEST_SOURCE_FILE("test/support/reference.c")
+
 void setUp(void)
 {
 }

@@ -16,6 +16,7 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_error.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
+TEST_SOURCE_FILE("test/support/reference.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 20000

@@ -10,6 +10,7 @@
 
 TEST_SOURCE_FILE("src/table/fixpid_table.c")
 TEST_SOURCE_FILE("src/table/fixpid_table_avr.c")
+TEST_SOURCE_FILE("test/support/reference.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000

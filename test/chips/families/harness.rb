@@ -16,7 +16,7 @@ end
 # Questions for all families, as files.
 class Questions
   SOURCES = %w[test/chips/families/questions.c test/chips/target/cases.c test/support/reference.c test/support/reference_pid.c
-               test/support/numbers.c test/support/numbers_pid.c test/support/vectors_file.c].freeze
+               test/support/numbers.c test/support/numbers_pid.c test/support/vectors.c].freeze
   FLAGS = %w[-std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Itest/support
              -Itest/chips/target -Itest/tools/cost/host].freeze
   # A set of questions: its files, and what is in them.

@@ -58,7 +58,7 @@ class Needles
     def harness
       @harness ||= begin
         drivers = CONTROLLERS.map { |one| "test/chips/target/driver_#{one.name}.c" }.uniq
-        [*Harness::SHARED, 'test/support/vectors_file.c', *drivers].map { |file| compile(file, '', '-O2') }
+        [*Harness::SHARED, 'test/support/vectors.c', *drivers].map { |file| compile(file, '', '-O2') }
       end
     end
 

@@ -21,6 +21,7 @@ REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
 UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
+OF_LIBRARY = '/test_fixpid'.freeze # and of no example or port
 LINKER = (system('ld.gold', '--version', out: File::NULL, err: File::NULL) ? %w[-fuse-ld=gold] : []).freeze # it is faster
 LINKING = Mutex.new
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
@@ -28,6 +29,7 @@ NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
 OF_CHIPS = 'src/*/*_{arm,avr,pic14,pic18,sdcc}.[ch]'.freeze
 FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Itest/tools/cost -Itest/model/autotune].freeze
+CONDITION = /\A[ \t]*#[ \t]*(?:if|el|endif)/.freeze
 COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definition of /.freeze
 
 # fixpid_an964_8bit of fixpid_an964_8bit_more: what has a header.
@@ -121,9 +123,12 @@ end
 
 def build_objects
   FileUtils.mkdir_p('build/test')
+  objects = "#{ROOT}/ceedling/test/out"
+  # Those of another project.yml may be of files that are gone.
+  FileUtils.rm_rf(objects) if File.exist?(objects) && File.mtime(objects) < File.mtime('project.yml')
   File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
              ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - UNITY_USE_FLUSH_STDOUT\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
-  system('ceedling', '--mixin=build/test/mutants.yml', 'test:all', out: File::NULL, err: File::NULL) or
+  system('ceedling', '--mixin=build/test/mutants.yml', "test:pattern[#{OF_LIBRARY}]", out: File::NULL, err: File::NULL) or
     abort 'FAILED the unit tests do not pass before anything is broken'
   FileUtils.rm_rf("#{ROOT}/rest")
 end
@@ -211,16 +216,36 @@ end
 
 def notice(mutant, worker)
   tree = "#{ROOT}/#{worker}"
+  runs = RUNS.fetch(mutant.file).select { |run| REACHED.fetch([mutant.file, run])[mutant.line - 1] }
+  return :not_compiled if runs.empty?
+
   broken(tree, mutant.file, mutant.source) do
     caught = nil
-    RUNS.fetch(mutant.file).each { |run| caught ||= notice_in(run, tree) }
-    caught ||= :not_compiled if same_for_the_compiler?(mutant, tree)
+    runs.each { |run| caught ||= notice_in(run, tree) }
+    caught ||= (:not_compiled if same_for_the_compiler?(mutant, tree))
     caught.is_a?(Array) ? caught.first : caught
   end
 end
 
 def preprocessed(file, tree)
-  RUNS.fetch(file).map { |run| Open3.capture3(*compiler(run, tree, '-E', '-P')).first }
+  RUNS.fetch(file).map { |run| text_of(run, tree) }
+end
+
+def text_of(run, tree)
+  Open3.capture3(*compiler(run, tree, '-E', '-P')).first
+end
+
+# For each line of a file whether a run's preprocessor reaches it: whether a mark below
+# the last condition above it is in what it makes.
+def reached_lines(file, run, tree)
+  mark = 0
+  marks = []
+  text = File.readlines(file).slice_when { |line, _| !line.end_with?("\\\n") }.flat_map do |lines|
+    marks.concat([mark] * lines.size)
+    lines.first.match?(CONDITION) ? [*lines, "MARK_OF_MUTANTS_#{mark += 1}\n"] : lines
+  end
+  found = broken(tree, file, "MARK_OF_MUTANTS_0\n#{text.join}") { text_of(run, tree).scan(/\bMARK_OF_MUTANTS_(\d+)\b/).flatten.map(&:to_i).uniq }
+  marks.map { |one| found.include?(one) }
 end
 
 # Whether it is in what no run compiles: it makes no difference after the
@@ -268,6 +293,8 @@ def verdict_of(file, equivalents)
   prepare
   RUNS[file].each { |run| try_unbroken(run) }
   UNBROKEN[file] = preprocessed(file, "#{ROOT}/0")
+  RUNS[file].each { |run| REACHED[[file, run]] = reached_lines(file, run, "#{ROOT}/0") }
+  RUNS[file].any? { |run| REACHED[[file, run]].any? } or abort "FAILED no test of #{file} reads it"
   mutants = Breaks.of(file)
   results = results_of(mutants)
   ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught || :nobody }.transform_values(&:size)
@@ -348,6 +375,7 @@ REMEMBERED = Remembered.new('mutants', files: %w[project.yml test/support/vector
 PASSED = [] # without a break, and :objects once they are made
 TOLD = []
 UNBROKEN = {}
+REACHED = {} # by file and run
 RUNS = Hash.new { |runs, file| runs[file] = runs_of(file) }
 equivalents = EquivalentMutants.new(EQUIVALENT)
 FileUtils.mkdir_p(File.dirname(REPORT))

@@ -97,7 +97,7 @@ module Harness
     private
 
     def host_objects
-      @host_objects ||= (SHARED + %W[test/support/vectors_file.c #{Host.folder}/kept.c]).map { |file| compile(file) }
+      @host_objects ||= (SHARED + %W[test/support/vectors.c #{Host.folder}/kept.c]).map { |file| compile(file) }
     end
 
     def compile(file)

@@ -19,6 +19,22 @@ check() {
     fi
 }
 
+# check_files NAME FILES COMMAND...: a check for each file, with one command for all of
+# them; only where that fails is each judged alone.
+check_files() {
+    what=$1 files=$2
+    shift 2
+    # shellcheck disable=SC2086 # a list of files
+    if "$@" $files >"$log" 2>&1 </dev/null; then
+        # shellcheck disable=SC2086 # a list of files
+        passed=$((passed + $(printf '%s\n' $files | wc -l)))
+        return
+    fi
+    for file in $files; do
+        check "$what $file" "$@" "$file"
+    done
+}
+
 # count NAME GOOD BAD COMMAND...: a runner that prints a line for each thing it
 # checked, like GOOD or BAD, or `skipped NAME: why`.
 count() {

@@ -129,7 +129,7 @@ part_avr() {
     # shellcheck disable=SC2046 # a list of files
     ruby test/chips/avr/vectors_table.rb build/avr/*_firmware.csv \
         $(find test/support/vectors -name '*.csv' ! -name '*_firmware.csv' ! -name 'autotune*.csv') \
-        >build/avr/vectors/vectors_table.c
+        >build/avr/vectors/vectors.c
     # Its own form in both modes; the narrow one, in plain C, in one.
     run_mode avr pointer wide test/chips/avr/avr.yml
     run_mode avr object wide test/chips/avr/avr.yml
@@ -147,9 +147,8 @@ part_sanitize() {
 check_formats() {
     sources=$(find include src port sim examples test tools -name '*.[ch]')
     simulators=$(find sim test tools -name '*.cc' -o -name '*.hh')
-    for file in $sources $simulators; do
-        check "clang-format $file" clang-format --dry-run -Werror "$file"
-    done
+    check_files clang-format "$sources $simulators" \
+        clang-format --dry-run -Werror
 }
 
 part_lint() {
@@ -157,9 +156,7 @@ part_lint() {
         shellcheck ruby avr-gcc:gcc-avr :avr-libc
     check_formats
     scripts=$(grep -rlE '^(#!/bin/sh|# shellcheck shell=sh)' tools test .ci)
-    for file in $scripts; do
-        check "shellcheck $file" shellcheck -x "$file"
-    done
+    check_files shellcheck "$scripts" shellcheck -x
     rubies=$(find tools test -name '*.rb')
     for file in $rubies; do
         check "ruby -wc $file" ruby -wc "$file"

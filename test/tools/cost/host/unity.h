@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What test/support/vectors_file.c uses of Unity, in a program that is no unit
+// What test/support/vectors.c uses of Unity, in a program that is no unit
 // test: what is wrong with a recording ends it.
 #ifndef UNITY_H
 #define UNITY_H
