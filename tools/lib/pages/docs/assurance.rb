@@ -64,7 +64,7 @@ module Assurance
   def of_the_proofs(group, proofs)
     return "the proofs' machines are the ones meant" if group == 'model'
 
-    said = PARTLY.fetch(group)('as its header says')
+    said = PARTLY.fetch(group, 'as its header says')
     "`fixpid_#{group}`, #{said}: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
   end
 
