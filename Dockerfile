@@ -22,7 +22,7 @@ RUN apt-get update && \
         qemu-system-arm qemu-system-misc ruby sdcc sdcc-libraries sdcc-ucsim \
         shellcheck simavr util-linux xz-utils zlib1g-dev \
     && rm -rf /var/lib/apt/lists/*
-RUN gem install --no-document ceedling -v '>= 1.0.1, < 2'
+RUN gem install --no-document ceedling -v 1.2.1
 COPY tools/lib/setup.sh /tmp/fixpid/
 COPY tools/lib/build/build_sdcc /tmp/fixpid/build/
 RUN /tmp/fixpid/build/build_sdcc /opt/fixpid/sdcc && \

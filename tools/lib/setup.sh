@@ -145,6 +145,14 @@ need() {
     [ -z "$missing" ] || die "installed, and still not usable:$missing"
 }
 
+# expect_digest FILE SHA256: or dies, and FILE is not to be used.
+expect_digest() {
+    digest_found=$(sha256sum <"$1")
+    [ "${digest_found%% *}" = "$2" ] ||
+        die "${1##*/} has the SHA-256 ${digest_found%% *}, expected $2:" \
+            "it is not used"
+}
+
 # The Ceedling gem, in the system's or in the user's own gem folder. It asks for
 # gcc, whatever compiles the tests.
 need_ceedling() {
@@ -153,12 +161,25 @@ need_ceedling() {
     command -v ceedling >/dev/null 2>&1 && return 0
     where=
     [ "$(id -u)" -eq 0 ] || where=--user-install
-    gem="gem install --no-document --conservative $where ceedling -v '>= 1.0.1, < 2'"
+    gem="gem install --no-document --conservative $where ceedling -v 1.2.1"
     announce "installing ceedling (Ruby gem)"
-    if ! printed=$(eval "$gem" 2>&1 </dev/null); then
-        printf '%s\n' "$printed" | tail -n 5 >&2
-        die "could not install ceedling; is there a network? By hand: $gem"
-    fi
+    gems=$(mktemp -d) || die "cannot make a temporary folder"
+    fetched=$gems/cache/ceedling-1.2.1.gem
+    # It is unpacked there, and nothing of it is run.
+    printed=$(gem install --no-document --ignore-dependencies --install-dir \
+        "$gems" ceedling -v 1.2.1 2>&1 </dev/null) || no_ceedling
+    expect_digest "$fetched" \
+        928095286b7a25777a2d520b9da6b6ee8255e17689910ddf60b12ec996ec115e
+    # What it needs comes from the registry by its name.
+    printed=$(eval "${gem% ceedling*} '$fetched'" 2>&1 </dev/null) ||
+        no_ceedling
+    rm -rf "$gems"
     command -v ceedling >/dev/null 2>&1 ||
         die "ceedling was installed, but it is in no folder of PATH"
+}
+
+no_ceedling() {
+    printf '%s\n' "$printed" | tail -n 5 >&2
+    rm -rf "$gems"
+    die "could not install ceedling; is there a network? By hand: $gem"
 }

@@ -222,7 +222,7 @@ part_cost() {
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip
+    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip faults_places
     count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/build/cosim_check
 }
 
