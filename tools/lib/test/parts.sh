@@ -65,6 +65,7 @@ part_quick() {
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
     check 'seeded faults' ruby tools/lib/faults/seed.rb
+    check 'each unit test asserts' ruby tools/lib/test/asserts.rb
     part_docs
 }
 
@@ -163,6 +164,7 @@ part_lint() {
     for file in $rubies; do
         check "ruby -wc $file" ruby -wc "$file"
     done
+    check 'each unit test asserts' ruby tools/lib/test/asserts.rb
     check 'warnings, tidy and MISRA' ruby tools/lib/lint.rb
 }
 
