@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# tools/lib/lint.rb on a library of one function, clean and with faults.
+# tools/lib/lint.rb on a library of one function, clean and with faults; and what else
+# part lint asks of the sources.
 require_relative 'gate'
 
 def header(inline = '')
@@ -82,4 +83,30 @@ rules = { 'misra.rb' => File.read("#{PROJECT}/tools/lib/pages/docs/misra.rb") }
                -> { Gate.tree(rules) { Gate.seed('misra.rb', text, instead) && Gate.run('ruby', 'misra.rb') } }, /has (?:no )?rule \d/)
 end
 Gate.refused('a cppcheck that fails', lint('', programs: { 'cppcheck' => 'echo out of order; exit 1' }), /out of order/)
+
+# tools/lib/test/asserts.rb, on a test that asserts through a helper, a shared function
+# that gets it as an argument, and a macro.
+ASSERTING = "#include \"each.h\"\n\n#define SAME(a, b) \\\n    TEST_ASSERT_EQUAL(a, b)\n\n" \
+            "static void is_even(unsigned n)\n{\n    if ((n % 2u) != 0u) {\n        TEST_FAIL();\n    }\n}\n\n" \
+            "static void fill(unsigned n)\n{\n    is_even(n);\n}\n\n" \
+            "void test_toy_called(void)\n{\n    fill(2);\n}\n\n" \
+            "void test_toy_handed_on(void)\n{\n    each(1, fill);\n}\n\n" \
+            "void test_toy_macro(void)\n{\n    SAME(1, 1);\n}\n"
+EACH = "void each(unsigned n, void (*call)(unsigned))\n{\n    call(n);\n}\n"
+
+def asserts(text)
+  Gate.tree('test/unit/test_fixpid_toy.c' => text, 'test/support/each.c' => EACH) do
+    Gate.run('ruby', "#{PROJECT}/tools/lib/test/asserts.rb")
+  end
+end
+
+Gate.passed('unit tests that assert', asserts(ASSERTING))
+{ 'called' => 'fill(2);', 'handed_on' => 'each(1, fill);', 'macro' => 'SAME(1, 1);' }.each do |name, body|
+  ['', '(void)fill;', '// TEST_ASSERT_TRUE(true);'].each do |instead|
+    Gate.refused("a unit test #{name} with #{instead.empty? ? 'nothing' : instead} for a body", asserts(ASSERTING.sub(body, instead)),
+                 /test_fixpid_toy\.c: test_toy_#{name} reaches no TEST_ASSERT/)
+  end
+end
+Gate.refused('a helper that asserts no more', asserts(ASSERTING.sub('TEST_FAIL();', 'n = 0;')), /test_toy_called/, /test_toy_handed_on/)
+Gate.refused('no unit tests', Gate.tree('x' => '') { Gate.run('ruby', "#{PROJECT}/tools/lib/test/asserts.rb") }, /no unit tests/)
 Gate.finish

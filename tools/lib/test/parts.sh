@@ -66,6 +66,7 @@ part_quick() {
     check 'warnings of src' ruby tools/lib/lint.rb --quick
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'seeded faults' ruby tools/lib/faults/seed.rb
+    check 'each unit test asserts' ruby tools/lib/test/asserts.rb
     part_docs
 }
 
@@ -164,6 +165,7 @@ part_lint() {
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
     count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' ruby tools/lib/lint.rb
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
+    check 'each unit test asserts' ruby tools/lib/test/asserts.rb
 }
 
 part_consumers() {
