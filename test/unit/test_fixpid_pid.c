@@ -1000,6 +1000,26 @@ void test_step_every_term_at_its_end_gives_the_limit(void)
 
 // ---- Modes and live changes ----
 
+// Each product takes a ki of 15 bits at most, also where an exponent ends and
+// the next one has the same number.
+void test_set_gains_ki_is_kept_in_15_bits_with_the_finest_exponent(void)
+{
+    static const struct {
+        uint32_t ki_q24;
+        uint16_t kept;
+    } rows[] = {{32767, 32767},
+                {32768, 128},
+                {8388479, 32767},
+                {8388480, 128},
+                {FIXPID_PID_KI_MAX, 32767}};
+
+    for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        config.gains.ki_q24 = rows[n].ki_q24;
+        TEST_ASSERT_TRUE(set_gains());
+        TEST_ASSERT_EQUAL_UINT16(rows[n].kept, pid_controller.ki);
+    }
+}
+
 void test_set_gains_refuses_field_by_field_and_changes_nothing(void)
 {
     static const struct fixpid_pid_gains others = {300, 70000, 200, 2};
