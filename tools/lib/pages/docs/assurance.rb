@@ -22,6 +22,14 @@ module Assurance
     "| | claim | of how much | command |\n|---|---|---|---|\n#{rows.join}"
   end
 
+  # The sentences that stand above the theorems' proofs.
+  def theorems
+    rows = groups.fetch(THEOREMS).uniq { |proof| [proof.form, proof.what] }.map do |proof|
+      "| `fixpid_#{proof.form}` | #{proof.sentence} | #{proof.assumed} | `tools/prove #{THEOREMS} #{proof.what}` |\n"
+    end
+    "| | theorem | beside a state that the functions make, it assumes | command |\n|---|---|---|---|\n#{rows.join}"
+  end
+
   # The commands that do not exist.
   def failures
     claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| known?(command) }
@@ -52,7 +60,7 @@ module Assurance
     groups.except(PRIMITIVES).map do |group, proofs|
       drawn = Seeded.long_functions.count { |place| place.first.split('/')[1] == group && !Seeded.unproved?(*place) }
       noticed = breaks.count { |broken| broken.proof.group == group } + (drawn * Seeded::BREAKS)
-      forms = proofs.map(&:form).uniq - ['any']
+      forms = group == THEOREMS ? [] : proofs.map(&:form).uniq - ['any']
       Claim.new('proved', of_the_proofs(group, proofs),
                 "#{proofs.size} proofs#{", in the forms #{forms.join(', ')}" if forms.any?}; #{noticed} breaks refuted",
                 "`tools/prove #{group}`")
@@ -60,7 +68,7 @@ module Assurance
   end
 
   def beside_the_proofs
-    [Claim.new('proved', 'no assumption of a proof primitives out a place of what is proved', 'each form',
+    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
                '`tools/prove --coverage`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`')]
@@ -68,6 +76,7 @@ module Assurance
 
   def of_the_proofs(group, proofs)
     return "the proofs' machines are the ones meant" if group == 'model'
+    return "[the theorems](#theorems): #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}" if group == THEOREMS
 
     "`fixpid_#{group}`, as its header says: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
   end
