@@ -179,8 +179,9 @@ void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self);
 //                where it was, or, of a noisy sensor, any;
 //   not rising   outside the band around the setpoint: steps at the end of the
 //   not falling  output that pushes the reading to it; steps not at an end do
-//                not count, nor do they begin the count anew. Inside: steps in
-//                a row at an end, while the reading is not the setpoint itself;
+//                not count, nor do they begin the count anew. Inside: steps at
+//                an end, while the reading is not the setpoint itself, of which
+//                every other step takes one back, and the other end all;
 //   oscillating  changes from one side of the band to the other, while the
 //                setpoint does not move by more than a band and the loop does
 //                not settle.

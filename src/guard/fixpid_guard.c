@@ -335,7 +335,7 @@ static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
     }
 }
 
-// At an end, inside: steps in a row count downward from 0.
+// At an end, inside: steps count downward from 0, and watch_rest upward again.
 static void watch_end(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 {
     const uint8_t state =

@@ -71,6 +71,9 @@ def prove(proof)
   answer = judge_of(proof).new(proof, BUILD).run
   return [false, "#{proof.name}: #{answer.why}"] unless answer.verdict == :proved
 
+  idle = proof.theorem? && proof.word == WORDS.first ? Cbmc.new(proof, BUILD).idle_claims : []
+  return [false, "#{proof.name}: #{idle ? "nothing comes to #{idle.join(', ')}" : 'no answer about its claims'}"] if idle != []
+
   figures = proof.exhausted? ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s, %<megabytes>d MB'
   [true, "#{proof.name}: #{format(figures, answer.to_h)}"]
 end

@@ -78,7 +78,7 @@ def renewed(path, text)
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/assurance.md'
-    part(part(text, 'claims', Assurance.table), 'misra', Misra.table)
+    part(part(part(text, 'claims', Assurance.table), 'misra', Misra.table), 'theorems', Assurance.theorems)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
   when 'docs/ports.md'

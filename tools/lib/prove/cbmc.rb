@@ -44,21 +44,34 @@ class Cbmc
     @said.lines.grep_v(%r{^\s*//|^Reading GOTO program}).join
   end
 
+  # The claims of its harness that no values come to, which say nothing; nil without an answer.
+  def idle_claims
+    program = compile or return
+    said = cover(program, 'assertion') or return
+
+    said.scan(%r{^\[prove_\S+\] file (?:\./)?#{FOLDER}/\S+ line (\d+) .*: FAILED$}).flatten.map { |line| "#{@proof.harness}:#{line}" }
+  end
+
   # [file, line, function, block] of each place of src/ => whether some values
   # come to it; nil without an answer.
   def places
     program = compile or return
-    output = "#{@folder}/places.txt"
-    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', 'location', '--unwind', '200', '--drop-unused-functions',
-           in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
-    said = File.read(output)
-    return unless said.match?(/^\*\* \d+ of \d+ covered/)
+    said = cover(program, 'location') or return
 
     said.scan(%r{^\[\S+\] file (?:\./)?(src/\S+) line (\d+) function (\w+) (block \d+) .*: (SATISFIED|FAILED)$})
         .to_h { |*place, found| [place, found == 'SATISFIED'] }
   end
 
   private
+
+  # What CBMC says of each place or assertion, if it says something.
+  def cover(program, what)
+    output = "#{@folder}/#{what}.txt"
+    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', what, '--unwind', '200', '--drop-unused-functions',
+           in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
+    said = File.read(output)
+    said if said.match?(/^\*\* \d+ of \d+ covered/)
+  end
 
   # What stands behind the names of a module's functions: FIXPID_MARKED in
   # include/fixpid.h.

@@ -20,7 +20,7 @@ class Choice
 
   def initialize(proofs, chosen, build)
     @build = build
-    @proofs = proofs.select { |proof| proof.exhausted? || proof.word == WORD }
+    @proofs = proofs.select { |proof| proof.exhausted? || (proof.word == WORD && !proof.theorem?) }
     @places = Seeded.long_functions.select { |file, _| whole?(file, proofs, chosen) }
     files = @places.map(&:first).uniq
     asked = @proofs.select { |proof| (Proofs.sources(proof) & files).any? }

@@ -8,7 +8,8 @@ WORDS = [16, 32, 64].freeze
 PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this machine
 HOST = 64
 INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16.hh
-SLOW = %w[composed differentiate].freeze # they take more than ten seconds
+THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
+SLOW = %w[composed differentiate bumpless tpo_exact].freeze # they take more than ten seconds
 
 # One function of a harness, in one form, for one machine.
 Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
@@ -20,7 +21,7 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
     words.all? { |word| name.split.include?(word) }
   end
 
-  # The first form with words of 16 bits.
+  # The first form of a harness with words of 16 bits.
   def quick?
     first && word == WORDS.first && !SLOW.include?(what)
   end
@@ -34,8 +35,12 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
     options.include?(INT_16) ? %w[g++ -std=c++20 -xc++] : %w[cc -std=c99]
   end
 
+  def theorem?
+    group == THEOREMS
+  end
+
   def harness
-    "#{FOLDER}/#{group}.c"
+    theorem? ? "#{FOLDER}/#{THEOREMS}/#{form}.c" : "#{FOLDER}/#{group}.c"
   end
 
   def function
@@ -45,8 +50,23 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
   # The functions that stand for what is proved of them elsewhere: the line
   # `By contract: a, b.` of the comment above the proof.
   def contracts
-    comment = Proofs.text(harness)[%r{((?://.*\n)+)void #{function}\(void\)$}, 1].to_s
-    comment.gsub(%r{\n// }, ' ')[/By contract: ([\w, ]+)\./, 1].to_s.split(', ')
+    comment[/By contract: ([\w, ]+)\./, 1].to_s.split(', ')
+  end
+
+  # What the comment above says after `Theorem: `, up to the next word with a colon.
+  def sentence
+    comment[/Theorem: (.*?)(?= By contract:| Assumed:|\z)/, 1]
+  end
+
+  # And after `Assumed: `, or nil.
+  def assumed
+    comment[/Assumed: (.*?)(?= By contract:|\z)/, 1]
+  end
+
+  private
+
+  def comment
+    Proofs.text(harness)[%r{((?://.*\n)+)void #{function}\(void\)$}, 1].to_s.gsub(%r{^// }, '').tr("\n", ' ').strip
   end
 end
 
@@ -72,7 +92,7 @@ module Proofs
     groups = []
     rows.flat_map do |left, right|
       group, form, *options = left.split
-      first = !groups.include?(group)
+      first = group == THEOREMS || !groups.include?(group)
       groups << group
       words = group == PRIMITIVES ? [HOST] : WORDS
       right.split.flat_map { |what| words.map { |word| Proof.new(group, form, options, what, word, first) } }
@@ -91,7 +111,7 @@ module Proofs
   # What a harness proves and nobody runs, and the other way round.
   def complaints(proofs)
     named = proofs.reject(&:exhausted?).map { |proof| [proof.harness, proof.what] }.uniq
-    there = Dir["#{FOLDER}/*.c"].sort.flat_map do |harness|
+    there = Dir["#{FOLDER}/{,#{THEOREMS}/}*.c"].sort.flat_map do |harness|
       text(harness).scan(/^void prove_(\w+)\(void\)$/).flatten.map { |what| [harness, what] }
     end
     (there - named).map { |harness, what| "#{harness}: #{FOLDER}/proofs.txt does not name #{what}" } +

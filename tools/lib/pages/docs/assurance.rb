@@ -33,6 +33,14 @@ module Assurance
     "| | claim | of how much | command |\n|---|---|---|---|\n#{rows.join}"
   end
 
+  # The sentences that stand above the theorems' proofs.
+  def theorems
+    rows = groups.fetch(THEOREMS).uniq { |proof| [proof.form, proof.what] }.map do |proof|
+      "| `fixpid_#{proof.form}` | #{proof.sentence} | #{proof.assumed} | `tools/prove #{THEOREMS} #{proof.what}` |\n"
+    end
+    "| | theorem | beside a state that the functions make, it assumes | command |\n|---|---|---|---|\n#{rows.join}"
+  end
+
   # The commands that do not exist.
   def failures
     claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| Commands.known?(command) }
@@ -48,7 +56,7 @@ module Assurance
     groups.except(PRIMITIVES).map do |group, proofs|
       drawn = Seeded.long_functions.count { |place| place.first.split('/')[1] == group && !Seeded.unproved?(*place) }
       noticed = breaks.count { |broken| broken.proof.group == group } + (drawn * Seeded::BREAKS)
-      forms = proofs.map(&:form).uniq - ['any']
+      forms = group == THEOREMS ? [] : proofs.map(&:form).uniq - ['any']
       Claim.new('proved', of_the_proofs(group, proofs),
                 "#{proofs.size} proofs#{", in the forms #{forms.join(', ')}" if forms.any?}; #{noticed} breaks refuted",
                 "`tools/prove #{group}`")
@@ -64,6 +72,7 @@ module Assurance
 
   def of_the_proofs(group, proofs)
     return "the proofs' machines are the ones meant" if group == 'model'
+    return "[the theorems](#theorems): #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}" if group == THEOREMS
 
     said = PARTLY.fetch(group, 'as its header says')
     "`fixpid_#{group}`, #{said}: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// What a user may rely on of fixpid_pid, each in one sentence. The parts of a
+// step stand here for what test/proof/pid.c proves of them.
+#include "../pid.c"
+
+// Where the integral is one, and not an output held.
+static bool within_limits(const struct fixpid_pid *x)
+{
+    return inside(whole(x), x->integral_min * PART, x->integral_max * PART);
+}
+
+static bool is_held(const struct fixpid_pid *x)
+{
+    return (fixpid_pid_flags(x) & (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL)) !=
+           0u;
+}
+
+// Theorem: After fixpid_pid_seed, and after fixpid_pid_set_auto in manual, the
+// next step returns exactly the output held, if the integral that this takes is
+// within its limits.
+// By contract: mul16, special_errors, differentiate, integrate, take_over,
+// limit_and_remember.
+void prove_bumpless(void)
+{
+    const int16_t value = nondet_int16();
+    number held;
+    number needed;
+    number out;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    if (nondet_bool()) {
+        assume((c.status & FIXPID_PID_MANUAL) == 0u);
+        held = clamp(value, c.output_min, c.output_max);
+        fixpid_pid_seed(&c, value);
+    } else {
+        assume((c.status & FIXPID_PID_MANUAL) != 0u);
+        held = floor_by(fixpid_pid_integral(&c), 16);
+        fixpid_pid_set_auto(&c);
+    }
+    out = fixpid_pid_step(&c, nondet_int16(), nondet_int16());
+    // In the order of the step: a solver is slow at the associative law.
+    needed = (held * 256) -
+             ((fixpid_pid_proportional(&c) + ((number)c.feedforward * 256)) +
+              fixpid_pid_derivative(&c));
+    if (inside(needed, c.integral_min * (number)256,
+               c.integral_max * (number)256)) {
+        claim(out == held);
+        claim((fixpid_pid_flags(&c) & 7u) == 0u);
+    }
+}
+
+// Theorem: In automatic, but for the step that takes over an output held, the
+// integral does not rise in a step that is limited at output_max, and does not
+// fall in one that is limited at output_min. By contract: mul16,
+// special_errors, differentiate, integrate, take_over.
+void prove_windup(void)
+{
+    struct fixpid_pid was;
+    uint8_t flags;
+
+    c = nondet_pid();
+    assume(sound(&c) && !is_held(&c));
+    was = c;
+    (void)fixpid_pid_step(&c, nondet_int16(), nondet_int16());
+    flags = fixpid_pid_flags(&c);
+    if ((flags & FIXPID_PID_AT_MAX) != 0u) {
+        claim(whole(&c) <= whole(&was));
+    }
+    if ((flags & FIXPID_PID_AT_MIN) != 0u) {
+        claim(whole(&c) >= whole(&was));
+    }
+}
+
+// Theorem: Whatever is called, in any order, the integral stays within its
+// limits, unless an output is held in its place. By contract: mul16,
+// special_errors, differentiate, integrate, take_over, limit_and_remember.
+void prove_integral_inside(void)
+{
+    const struct fixpid_pid_config config = any_config();
+    const struct fixpid_pid_gains gains = nondet_pid_gains();
+    const int16_t a = nondet_int16();
+    const int16_t b = nondet_int16();
+
+    c = nondet_pid();
+    if (nondet_bool()) {
+        (void)fixpid_pid_init(&c, &config);
+    } else {
+        assume(sound(&c));
+        switch (nondet_uint8()) {
+        case 0:
+            (void)fixpid_pid_step(&c, a, b);
+            break;
+        case 1:
+            (void)fixpid_pid_step_error(&c, nondet_int32(), nondet_int32());
+            break;
+        case 2:
+            (void)fixpid_pid_set_gains(&c, &gains);
+            break;
+        case 3:
+            (void)fixpid_pid_set_limits(&c, a, b);
+            break;
+        case 4:
+            (void)fixpid_pid_set_integral_limits(&c, a, b);
+            break;
+        case 5:
+            fixpid_pid_set_feedforward(&c, a);
+            break;
+        case 6:
+            fixpid_pid_set_manual(&c, a);
+            break;
+        case 7:
+            fixpid_pid_set_auto(&c);
+            break;
+        case 8:
+            fixpid_pid_seed(&c, a);
+            break;
+        case 9:
+            fixpid_pid_track(&c, a, nondet_uint8());
+            break;
+        default:
+            fixpid_pid_reset(&c);
+            break;
+        }
+    }
+    claim(sound(&c));
+    if (!is_held(&c)) {
+        claim(within_limits(&c));
+    }
+}
+
+static int16_t mirrored(int16_t x)
+{
+    return (int16_t)(-1 - x);
+}
+
+// Theorem: Without a setpoint weight, a step with `reverse` sees of r and y
+// exactly the errors and the derivative's input that a direct one sees of -1 -
+// r and -1 - y.
+void prove_mirror(void)
+{
+    struct signals of_reverse = any_signals();
+    struct signals of_direct = of_reverse;
+    signal_word error;
+
+    of_direct.setpoint = mirrored(of_reverse.setpoint);
+    of_direct.derivative_input = mirrored((int16_t)of_reverse.derivative_input);
+    c = nondet_pid();
+    assume((c.options & (REVERSE | WEIGHTED)) == 0u);
+    error = special_errors(&c, &of_direct);
+    c.options |= REVERSE;
+    claim(special_errors(&c, &of_reverse) == error);
+    claim(of_reverse.error == of_direct.error);
+    claim(of_reverse.derivative_input == of_direct.derivative_input);
+}
