@@ -95,16 +95,17 @@ bool same(const instruction &one, const std::string &what, unsigned here,
     return here == there;
 }
 
-// gpsim 0.31 has OV wrong after additions: it does not look at one of the signs.
+// gpsim 0.31 has OV wrong after additions: it does not look at one of the
+// signs.
 bool agree(const Chip &chip, const instruction &one)
 {
     const bool adds = std::strncmp(one.name, "add", 3) == 0 ||
                       std::strncmp(one.name, "incf_", 5) == 0 ||
                       std::strncmp(one.name, "decf_", 5) == 0;
     const unsigned known = adds ? all_flags & ~overflow : all_flags;
-    bool good = same(one, "W", W, chip.working()) &&
-                same(one, "STATUS", STATUS & known,
-                     chip.peek(status_at) & known);
+    bool good =
+        same(one, "W", W, chip.working()) &&
+        same(one, "STATUS", STATUS & known, chip.peek(status_at) & known);
 
     for (const unsigned at : operands()) {
         good = good && same(one, std::to_string(at), BYTE(at), chip.peek(at));
@@ -132,7 +133,9 @@ int compare(const std::string &program)
             good = good && agree(chip, one);
         });
     }
-    const unsigned all = (unsigned)(sizeof instructions / sizeof instructions[0]) * cases_of_each;
+    const unsigned all =
+        (unsigned)(sizeof instructions / sizeof instructions[0]) *
+        cases_of_each;
     while (good && (cases < all) && (chip.stopped() == Stop::none)) {
         chip.run(cycles_of_a_round);
     }

@@ -6,6 +6,11 @@
 #include "compiler.h"
 #include "configuration.h"
 
+#ifdef FIXPID_AN937_OBJECT
+#include "fixpid_an937.h"
+FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
+#endif
+
 // With EXAMPLES it runs each example of an instruction in turn.
 #ifdef EXAMPLES
 extern void examples(void);

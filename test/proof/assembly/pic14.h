@@ -27,7 +27,8 @@ static int may_change(uint16_t address); // the operands of a claim
 
 static uint8_t get(const struct cpu *cpu, uint8_t f)
 {
-    must((f == 3u) || (f == 0x0Au) || (f >= 0x70u), "it reads what all banks share");
+    must((f == 3u) || (f == 0x0Au) || (f >= 0x70u),
+         "it reads what all banks share");
     return BYTE(f);
 }
 

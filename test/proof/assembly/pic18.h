@@ -15,9 +15,9 @@ struct cpu {
 };
 
 #define PLACE(address)                                                         \
-    (((address) & 0xFFu) | ((address) >= 0xF00u   ? 0x100u                     \
-                            : (address) >= 0x200u ? 0x200u                     \
-                                                  : 0u))
+    (((address)&0xFFu) | ((address) >= 0xF00u   ? 0x100u                       \
+                          : (address) >= 0x200u ? 0x200u                       \
+                                                : 0u))
 #define BYTE(address) cpu->memory[PLACE(address)]
 #define W BYTE(0xFE8u)
 #define STATUS BYTE(0xFD8u)
@@ -73,7 +73,8 @@ static uint16_t pointed(struct cpu *cpu, uint16_t address)
     }
 }
 
-// The address of an operand, in the bank or, if it is not banked, in access RAM.
+// The address of an operand, in the bank or, if it is not banked, in access
+// RAM.
 static uint16_t where(struct cpu *cpu, uint8_t f, uint8_t banked)
 {
     const uint16_t access = (f < 0x80u) ? f : (0xF00u | f);

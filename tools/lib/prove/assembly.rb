@@ -74,6 +74,11 @@ module Assembly
     SETS.find { |set| set.images.include?(image) } or abort "prove: #{CLAIMS}: no image #{image}"
   end
 
+  # In documents.
+  def family(image)
+    set_of(image)::NAME
+  end
+
   # The program of an image, translated.
   def image(name, build, tree = '.')
     folder = "#{build}/assembly_#{name}#{tree == '.' ? '' : "_#{File.basename(tree)}"}"

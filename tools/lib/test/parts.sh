@@ -286,4 +286,5 @@ part_prove() {
     need ruby cc:gcc
     count 'tools/prove' '^ok ' '^FAILED ' tools/prove
     count 'tools/prove --eva' '^ok ' '^FAILED ' tools/prove --eva
+    count 'tools/prove --assembly' '^ok ' '^FAILED ' tools/prove --assembly
 }

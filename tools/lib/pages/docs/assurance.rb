@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The table of docs/assurance.md: what is claimed, how it is known, of how much, and
 # the command that shows it. What can be counted is counted here.
+require_relative '../../prove/assembly'
 require_relative '../../prove/seeded'
 require_relative '../../demo/plot'
 require_relative '../../demo/random_plants'
@@ -67,7 +68,16 @@ module Assurance
     [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
                '`tools/prove --coverage`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
-               'alarms that are listed with their reasons', '`tools/prove --eva`')]
+               'alarms that are listed with their reasons', '`tools/prove --eva`'),
+     by_model]
+  end
+
+  # How much of the assembly is proved or tried by what its instructions do.
+  def by_model
+    functions = Assembly.claims.map { |claim| [Assembly.family(claim.image), claim.function] }.uniq
+    families = functions.map(&:first).tally.map { |family, count| "#{count} of #{family}" }
+    Claim.new('proved', 'the assembly, as it is linked, equals the C that it replaces, for all operands',
+              "#{families[0..-2].join(', ')} and #{families.last}; but for what is [named below](#the-assembly)", '`tools/prove --assembly`')
   end
 
   def of_the_proofs(group, proofs)

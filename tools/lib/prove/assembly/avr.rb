@@ -50,6 +50,7 @@ class AvrTranslation < Translation
   CALLS = %w[rcall call].freeze
   RETURNS = { 'ret' => '' }.freeze
   MODEL = 'avr.h'
+  NAME = 'an AVR'
   COMPILE = %w[cc -std=c99].freeze
   SIMULATOR = %w[test/proof/assembly/simavr.c -lsimavr].freeze
   # What an instruction is compared with the simulator in. One behind it may be left out,

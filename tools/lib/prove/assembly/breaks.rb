@@ -15,7 +15,7 @@ class AssemblyBreaks
 
   attr_reader :drawn
 
-  # Of the images all of whose claims are chosen.
+  # Of the files whose code is only in images all of whose claims are chosen.
   def initialize(chosen, build)
     @build = build
     @asked = Assembly.claims.group_by(&:image).select { |_, claims| (claims - chosen).empty? }
@@ -37,6 +37,8 @@ class AssemblyBreaks
       end
     end
     [false, "#{key}: nobody noticed"]
+  rescue Translation::Refused
+    [true, "#{key}: refused by the assembler"]
   rescue Translation::Unknown => e
     [false, "#{key}: #{e.message}"]
   end
@@ -44,7 +46,7 @@ class AssemblyBreaks
   private
 
   def files
-    Instructions.files.select { |file| @asked.keys.any? { |image| Assembly.set_of(image).sources.match?(file) } }
+    Instructions.files.select { |file| Assembly::SETS.any? { |set| set.sources.match?(file) && (set.images - @asked.keys).empty? } }
   end
 
   # The claims' programs by claim.

@@ -30,6 +30,7 @@ class Pic14Translation < PicTranslation
   CALLS = %w[call].freeze
   RETURNS = { 'return' => '', 'retlw' => 'W = $1;' }.freeze
   MODEL = 'pic14.h'
+  NAME = 'a PIC16'
   FAMILY = 'pic14'
   CHIP = 'pic16f684'
   UNIT = 1

@@ -46,6 +46,7 @@ class Pic18Translation < PicTranslation
   CALLS = %w[rcall call].freeze
   RETURNS = { 'return' => '', 'retlw' => 'W = $1;' }.freeze
   MODEL = 'pic18.h'
+  NAME = 'a PIC18'
   FAMILY = 'pic18'
   CHIP = 'pic18f4520'
   UNIT = 2

@@ -20,6 +20,9 @@ class Translation
   # What cannot be translated, and why.
   class Unknown < StandardError; end
 
+  # What a compiler or an assembler does not take.
+  class Refused < Unknown; end
+
   SKIPS = {}.freeze
   CALLS = [].freeze
   JUMPS = [].freeze
@@ -142,7 +145,7 @@ class Translation
   # What a program prints.
   def self.said(*command)
     output, status = Open3.capture2e(*command)
-    status.success? or raise Unknown, "#{command.join(' ')}\n#{output}"
+    status.success? or raise Refused, "#{command.join(' ')}\n#{output}"
     output
   end
 end
