@@ -18,7 +18,7 @@ class Coverage
 
   # Those forms with all these words in their names.
   def self.chosen(proofs, words)
-    asked = proofs.reject { |proof| proof.exhausted? || proof.word != WORD || NOT_ASKED.include?(proof.what) }
+    asked = proofs.reject { |proof| proof.exhausted? || proof.theorem? || proof.word != WORD || NOT_ASKED.include?(proof.what) }
     forms = asked.group_by { |proof| [proof.group, proof.form] }
     forms.select { |name, _| (words - name).empty? }.map { |name, of_form| new(name.join(' '), of_form) }
   end
