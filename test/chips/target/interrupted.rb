@@ -6,7 +6,7 @@ require_relative 'machines'
 # fixpid_an937_tick from an interrupt before every instruction of its controller:
 # interrupted.c on an AVR and on Cortex-M.
 module Interrupted
-  AVR = ["#{HERE}/../avr/interrupted.c"].freeze
+  AVR = ["#{HERE}/avr/interrupted.c"].freeze
   ARM = ["#{HERE}/arm/interrupted.c"].freeze
   # A machine's interrupt, and the words with which its simulator's time is the
   # instructions: simavr's is the cycles anyway.

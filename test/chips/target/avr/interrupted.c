@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Timer1 of an AVR, whose count is a cycle.
-#include "../target/interrupted.h"
+#include "../interrupted.h"
 
 #include <avr/interrupt.h>
 #include <avr/io.h>
