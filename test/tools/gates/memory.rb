@@ -161,6 +161,7 @@ Gate.tree(files) do |folder|
   Gate.expect('a record with another value', anew_after('') { records.each { |path| File.write(path, File.read(path).sub('42', '43')) } }, 1)
   Gate.expect('a record that is no record', anew_after('') { records.each { |path| File.write(path, '[]') } }, 1)
   Gate.expect('a source of the same size and time', anew_after('src/pid/fixpid_pid.c') { |path| same_size_and_time(path) }, 1)
+  Gate.expect('a compiler of the same size and time', anew_after('gcc/cc1') { |path| same_size_and_time(path) }, 1)
   Gate.expect('a record of the future, or older than a month', [-31, 1].sum { |days| anew_after('') { at_another_time(days) } }, 2)
   ENV['FIXPID_FRESH'] = 'yes'
   Gate.expect('what is asked for anew', anew_after('') {}, 1)
