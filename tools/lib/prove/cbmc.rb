@@ -14,6 +14,7 @@ class Cbmc
   MEGABYTES_MOST = 1024
   CHECKS = %w[--bounds-check --pointer-check --pointer-overflow-check --signed-overflow-check --div-by-zero-check
               --undefined-shift-check --unwind 200 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
+  ITS_END = 'its end'.freeze
   TICKS = 100.0 # a second; the kernel's for /proc
 
   def initialize(proof, build, tree = '.', seconds = nil, options = [])
@@ -44,12 +45,17 @@ class Cbmc
     @said.lines.grep_v(%r{^\s*//|^Reading GOTO program}).join
   end
 
-  # The claims of its harness that no values come to, which say nothing; nil without an answer.
-  def idle_claims
-    program = compile or return
-    said = cover(program, 'assertion') or return
+  # [place, condition] of each claim of its harness, and ITS_END => whether some values
+  # come to it; nil without an answer. A contract's precondition is no claim.
+  def claims
+    program = compile(to_its_end: true) or return
+    said = cover(program, 'assertion', '--no-standard-checks') or return
 
-    said.scan(%r{^\[prove_\S+\] file (?:\./)?#{FOLDER}/\S+ line (\d+) .*: FAILED$}).flatten.map { |line| "#{@proof.harness}:#{line}" }
+    found = Hash.new(true)
+    said.scan(%r{^\[\S+\] file (?:\./)?(\S+) line (\d+) function \w+ (?!pre: )(.*): (SATISFIED|FAILED)$}) do |file, line, condition, answer|
+      found[condition == ITS_END ? ITS_END : ["#{Pathname(file).cleanpath}:#{line}", condition]] &= answer == 'SATISFIED'
+    end
+    found if found.key?(ITS_END)
   end
 
   # [file, line, function, block] of each place of src/ => whether some values
@@ -64,10 +70,25 @@ class Cbmc
 
   private
 
+  # The harness, with a claim behind its end.
+  def ended
+    harness = "#{@folder}/ended.c"
+    File.write(harness, <<~C)
+      #include "#{@proof.harness.delete_prefix("#{FOLDER}/")}"
+
+      void to_its_end(void)
+      {
+          #{@proof.function}();
+          __CPROVER_assert(true, "#{ITS_END}");
+      }
+    C
+    [harness, '--function', 'to_its_end']
+  end
+
   # What CBMC says of each place or assertion, if it says something.
-  def cover(program, what)
+  def cover(program, what, *options)
     output = "#{@folder}/#{what}.txt"
-    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', what, '--unwind', '200', '--drop-unused-functions',
+    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', what, *options, '--unwind', '200', '--drop-unused-functions',
            in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
     said = File.read(output)
     said if said.match?(/^\*\* \d+ of \d+ covered/)
@@ -86,12 +107,12 @@ class Cbmc
   end
 
   # Gives the program, or nil.
-  def compile
+  def compile(to_its_end: false)
     FileUtils.rm_rf(@folder)
     FileUtils.mkdir_p(@folder)
     program = "#{@folder}/program"
     tool('goto-cc', "--#{@proof.word}", "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}",
-         "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness, '--function', @proof.function,
+         "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", *(to_its_end ? ended : [@proof.harness, '--function', @proof.function]),
          '-o', program) or return nil
     @proof.contracts.each do |function|
       replaced = "#{program}-#{function}"

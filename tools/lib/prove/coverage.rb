@@ -13,12 +13,15 @@ class Coverage
   # The first assume nothing or too much on purpose; the parts of the last have
   # proofs of their own.
   NOT_ASKED = %w[total total_rest refused composed].freeze
+  # Nothing comes to the places of a feature that a form has not.
+  FEATURES = /\A-DFIXPID_PID_FEATURES=/.freeze
 
   attr_reader :unreached
 
   # Those forms with all these words in their names.
   def self.chosen(proofs, words)
     asked = proofs.reject { |proof| proof.exhausted? || proof.theorem? || proof.word != WORD || NOT_ASKED.include?(proof.what) }
+    asked = asked.reject { |proof| proof.options.grep(FEATURES).any? }
     forms = asked.group_by { |proof| [proof.group, proof.form] }
     forms.select { |name, _| (words - name).empty? }.map { |name, of_form| new(name.join(' '), of_form) }
   end

@@ -65,7 +65,7 @@ module Assurance
   end
 
   def beside_the_proofs
-    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved', 'each form',
+    [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved, a claim or an end', 'each form with all features; claims and ends in all',
                '`tools/prove --coverage`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`'),
