@@ -44,7 +44,7 @@ def fetched(folder, home)
 end
 
 def unpinned(text)
-  text.scan(/^.*uses: .*$/).grep_v(/uses: [\w-]+\/[\w-]+@\h{40} # v\d+\.\d+\.\d+$/)
+  text.scan(/^.*uses: (?!\.\/).*$/).grep_v(/uses: [\w-]+\/[\w-]+@\h{40} # v\d+\.\d+\.\d+$/)
 end
 
 Dir.mktmpdir do |folder|

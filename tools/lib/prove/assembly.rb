@@ -223,6 +223,10 @@ Written = Struct.new(:name, :harness, :options) do
     'proof'
   end
 
+  def compiler
+    %w[cc -std=c99]
+  end
+
   def what
     'assembly'
   end
