@@ -44,6 +44,8 @@ FAMILIES = [
             linker: %w[--iram-size 256 --xram-size 0xff00], limits: {}, **S51),
   Msp430.new(name: 'msp430', title: 'MSP430', modes: ALL, refused: {}, options: %w[-Os],
              limits: { 'an937' => 1440, 'an964' => 485, 'an964_8bit' => 395, 'pid' => 3200 }),
+  # The forms for multipliers of 16 bits where int has 16, as on a dsPIC.
+  Msp430.new(name: 'msp430-wide', title: 'MSP430, wide forms', modes: ALL, refused: {}, options: %w[-Os -U__MSP430__], limits: {}),
   Ucsim.new(name: 'z80', title: 'Z80', modes: ALL, refused: {}, compiler: %w[-mz80],
             linker: %w[--data-loc 0x8000 --code-loc 0x200], simulator: %w[sz80 -X 1M], order: 'little',
             interface: 'rom[0x7fff]', memory: 'rom', cycle_ns: 1000.0, limits: {}),
@@ -168,6 +170,7 @@ class Families
 
   def break_library
     copy = "#{@folder}/broken"
+    FileUtils.mkdir_p(@folder)
     FileUtils.cp_r(%w[include src], @folder) # the one looks for the other beside it
     (Faults.of('forms both') + Faults.of('forms families')).each { |fault| fault.seed(@folder) }
     File.rename("#{@folder}/src", copy)
@@ -251,7 +254,7 @@ class Document
   end
 
   def costs
-    metered = @results.select { |(family, _, _), result| result.worst && FAMILIES.none? { |one| one.name == family && one.in_cost? } }
+    metered = @results.select { |(family, _, _), result| result.worst && FAMILIES.any? { |one| one.name == family && one.costs_listed? } }
     rows = FAMILIES.flat_map do |family|
       TITLES.keys.product(BOTH.reverse).filter_map do |controller, mode|
         result = metered[[family.name, controller, mode]] or next

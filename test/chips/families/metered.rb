@@ -7,8 +7,8 @@ require_relative 'harness'
 # A chip that tools/cost measures, too, by its meter, whose random steps are its
 # own: the same in both modes.
 MeteredChip = Struct.new(:name, :title, :run, :modes, :refused, :limits, keyword_init: true) do
-  def in_cost?
-    true
+  def costs_listed?
+    false
   end
 end
 

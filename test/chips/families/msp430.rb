@@ -9,8 +9,9 @@ Msp430 = Struct.new(:name, :title, :modes, :refused, :limits, :options, keyword_
     Msp430Run
   end
 
-  def in_cost?
-    false
+  # What a form costs that no MSP430 takes is of no use.
+  def costs_listed?
+    !options.include?('-U__MSP430__')
   end
 
   def order

@@ -12,8 +12,8 @@ Ucsim = Struct.new(:name, :title, :modes, :refused, :limits, :compiler, :linker,
     UcsimRun
   end
 
-  def in_cost?
-    false
+  def costs_listed?
+    true
   end
 end
 

@@ -10,7 +10,7 @@ module Outside
   ARGUMENTS = {
     'tools/release' => %w[v0.1.0], 'tools/test' => %w[docs],
     'tools/lib/build/build_avr' => %w[atmega328p build/none none.c], 'tools/lib/build/build_pic' => %w[pic18f4520 build/none none.c],
-    'tools/lib/build/build_sdcc' => %w[build/none], 'tools/lib/build/fetch_cbmc' => %w[build/none],
+    'tools/lib/build/build_sdcc' => %w[build/none],
     'tools/lib/test/kept' => %w[none true], 'tools/lib/build/one_bank' => %w[check build/none]
   }.freeze
   # `announce` as it was: where descriptor 8 is closed, dash ends with the script.

@@ -42,7 +42,7 @@ end
 
 # A project with these parts, of which `long` runs by name, and what a command says there.
 def toy(*lines)
-  files = [KEPT, 'tools/lib/pages/docs/packages.rb'].to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
+  files = [KEPT, 'tools/lib/setup.sh', 'tools/lib/pages/docs/packages.rb'].to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
   files['tools/test'] = "#!/bin/sh\n[ \"$1\" != --by-name ] || exec echo long\necho ok a\n[ ! -e fault ]\n"
   lambda do
     Gate.tree(files) do

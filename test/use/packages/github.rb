@@ -22,6 +22,10 @@ workflows.each do |path, workflow|
   expect("#{path} has a name, an event and jobs", workflow.key?('name') && workflow.key?(true) && workflow['jobs'].any?) # `on` is true in YAML
   workflow['jobs'].each do |name, job|
     expect("#{path}, #{name}: needs what is there", Array(job['needs']).all? { |needed| workflow['jobs'].key?(needed) })
+    if job.key?('uses') # another workflow's jobs
+      expect("#{path}, #{name}: #{job['uses']} may be called", workflows.dig(job['uses'].delete_prefix('./'), true)&.key?('workflow_call'))
+      next
+    end
     expect("#{path}, #{name}: a machine", job['runs-on'].is_a?(String))
     job['steps'].each do |step|
       expect("#{path}, #{name}: a step runs or uses", step.key?('run') ^ step.key?('uses'))
