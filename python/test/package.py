@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import traceback
 
 import numpy
 
@@ -21,6 +22,12 @@ from sensors import ntc, type_k, type_k_mv
 
 INCLUDE, README = sys.argv[1:]
 CONFIG = {"gains": fixpid.pid_gains(kp=2, ki=0.5, kd=1.5, rate=10, filter=2), "output_max": 255}
+
+
+def same(found, expected):
+    """They are equal, or both are said."""
+    if not found == expected:
+        raise AssertionError(f"{found!r}, expected {expected!r}")
 
 
 def refuses(what, call, *arguments, **fields):
@@ -65,14 +72,14 @@ def steps_are_those_of_step():
     measurements = numpy.random.default_rng(1).integers(-32768, 32768, (40, 50))
     outputs = many.steps(numpy.int16(300), measurements)
     assert outputs.dtype == numpy.int16 and outputs.shape == (40, 50)
-    assert outputs.ravel().tolist() == [one.step(300, int(y)) for y in measurements.ravel()]
-    assert fixpid.Tpo(full=10, window=4).steps(numpy.full(8, 5)).dtype == bool
-    assert fixpid.An937(accumulated_error_limit=1, derivative_period_ticks=1).steps(
-        [1, 2]).dtype == numpy.int32
+    same(outputs.ravel().tolist(), [one.step(300, int(y)) for y in measurements.ravel()])
+    same(fixpid.Tpo(full=10, window=4).steps(numpy.full(8, 5)).dtype, bool)
+    same(fixpid.An937(accumulated_error_limit=1, derivative_period_ticks=1).steps(
+        [1, 2]).dtype, numpy.int32)
 
 
 def what_does_not_fit_is_refused():
-    assert (fixpid.sat16(60000), fixpid.sat16(-60000), fixpid.sat16(5)) == (32767, -32768, 5)
+    same((fixpid.sat16(60000), fixpid.sat16(-60000), fixpid.sat16(5)), (32767, -32768, 5))
     pid = fixpid.Pid(**CONFIG)
     assert refuses(TypeError, pid.step, 1.0, 0)
     assert refuses(TypeError, pid.step, numpy.float32(1), 0)
@@ -87,8 +94,8 @@ def what_does_not_fit_is_refused():
 
 def what_is_refused_is_named():
     assert fixpid.Pid.check(output_max=1) is None
-    assert fixpid.Pid.check(output_max=1, setpoint_weight_q8=257) == "setpoint_weight_q8"
-    assert fixpid.Pid.check(gains={"kd_q8": 32256}) == "kd_q8"
+    same(fixpid.Pid.check(output_max=1, setpoint_weight_q8=257), "setpoint_weight_q8")
+    same(fixpid.Pid.check(gains={"kd_q8": 32256}), "kd_q8")
     try:
         fixpid.Pid(output_max=1, integral_min=-32768)
     except ValueError as error:
@@ -105,20 +112,20 @@ HEATER = {"gain_q8": round(700 / 255 * 256), "lag_q4": 1200 * 16, "dead_q4": 60 
 
 def guard_is_chosen_by_its_rule():
     config = fixpid.guard_config(HEATER, 0, 255, measurement_min=1, measurement_max=1022)
-    assert config == {"band": 8, "patience": 395, "noisy": False, "output_min": 0,
-                      "output_max": 255, "measurement_min": 1, "measurement_max": 1022}, config
-    assert fixpid.Guard(**config).flags() == 0
+    same(config, {"band": 8, "patience": 395, "noisy": False, "output_min": 0,
+                      "output_max": 255, "measurement_min": 1, "measurement_max": 1022})
+    same(fixpid.Guard(**config).flags(), 0)
     steep = {**HEATER, "gain_q8": 9 * 256}
-    assert fixpid.guard_config(steep, 0, 255)["band"] == 18  # 2 K
+    same(fixpid.guard_config(steep, 0, 255)["band"], 18)  # 2 K
     integrating = {**steep, "gain_q8": fixpid.AUTOTUNE_INTEGRATING}
-    assert fixpid.guard_config(integrating, 0, 255)["band"] == 8
+    same(fixpid.guard_config(integrating, 0, 255)["band"], 8)
     noisy = {**HEATER, "noise_q4": 17}  # ceil(8 * 17 / 16 + 4), and 120 + 445.7
-    assert fixpid.guard_config(noisy, 0, 255) == {
-        "band": 13, "patience": 566, "noisy": True, "output_min": 0, "output_max": 255}
+    same(fixpid.guard_config(noisy, 0, 255), {
+        "band": 13, "patience": 566, "noisy": True, "output_min": 0, "output_max": 255})
     quick = {**noisy, "dead_q4": 16, "slope_q24": 2**24}
-    assert fixpid.guard_config(quick, 0, 255)["patience"] == 4
+    same(fixpid.guard_config(quick, 0, 255)["patience"], 4)
     assert not fixpid.guard_config(quick, 0, 255)["noisy"]  # of 16 steps and more
-    assert fixpid.guard_config(noisy, 0, 255, patience=5, noisy=True)["patience"] == 5
+    same(fixpid.guard_config(noisy, 0, 255, patience=5, noisy=True)["patience"], 5)
     assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 0}, 0, 255)
     assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 10}, 0, 255)
     assert refuses(ValueError, fixpid.guard_config, HEATER, 255, 255)
@@ -128,17 +135,17 @@ def guard_is_chosen_by_its_rule():
 def guard_sees_a_heater_that_does_not_heat():
     guard = fixpid.Guard(**fixpid.guard_config(HEATER, 0, 255))
     flags = guard.steps(500, numpy.full(395, 100), 255)
-    assert flags.dtype == numpy.uint8
+    same(flags.dtype, numpy.uint8)
     assert flags[:-1].max() == 0 and flags[-1] == fixpid.GUARD_NOT_RISING
     guard.acknowledge()
-    assert guard.flags() == 0
+    same(guard.flags(), 0)
 
 
 def table_has_the_lines_of_its_points():
     table = fixpid.Table([(0, 0), (2, -1), (3, 50)])
-    assert [table.at(x) for x in (-9, 0, 1, 2, 3, 9)] == [0, 0, 0, -1, 50, 50]
-    assert table.at(numpy.array([[1, 2], [3, 4]])).tolist() == [[0, -1], [50, 50]]
-    assert table.points == ((0, 0), (2, -1), (3, 50))
+    same([table.at(x) for x in (-9, 0, 1, 2, 3, 9)], [0, 0, 0, -1, 50, 50])
+    same(table.at(numpy.array([[1, 2], [3, 4]])).tolist(), [[0, -1], [50, 50]])
+    same(table.points, ((0, 0), (2, -1), (3, 50)))
     assert refuses(ValueError, fixpid.Table, [])
     assert refuses(ValueError, fixpid.Table, [(0, 0)])
     assert refuses(ValueError, fixpid.Table, [(0, 0), (0, 1)])
@@ -163,7 +170,7 @@ def value(points, x):
 
 
 def tables_follow_sensors():
-    assert [round(type_k_mv(celsius), 4) for celsius in (100, 1000)] == [4.0962, 41.2756]
+    same([round(type_k_mv(celsius), 4) for celsius in (100, 1000)], [4.0962, 41.2756])
     for (function, first, last), most in SENSORS:
         for points, error in zip((8, 16, 24), most):
             found = fixpid.table(function, first, last, points=points)
@@ -179,12 +186,12 @@ def tables_follow_sensors():
 def tables_of_few_points():
     line = fixpid.table(lambda x: 3 * x - 7, -100, 100)
     assert line.points[0] == (-100, -307) and line.points[-1] == (100, 293) and line.error == 0
-    assert len(fixpid.table(lambda x: 3 * x - 7, -100, 100, error=0).points) == 2
+    same(len(fixpid.table(lambda x: 3 * x - 7, -100, 100, error=0).points), 2)
     jump = fixpid.table(lambda x: 500 if x > 3 else -500, -32768, 32767, error=0)
-    assert jump.points == ((-32768, -500), (3, -500), (4, 500), (32767, 500)), jump.points
+    same(jump.points, ((-32768, -500), (3, -500), (4, 500), (32767, 500)))
     whole = fixpid.table(lambda x: x, -32768, 32767, points=2)
     assert whole.points == ((-32768, -32768), (32767, 32767)) and whole.error == 0
-    assert len(fixpid.table(lambda x: x * x, 0, 100).points) == 16  # if nothing else is said
+    same(len(fixpid.table(lambda x: x * x, 0, 100).points), 16)  # if nothing else is said
     ends = fixpid.table(lambda x: 32767.4, 0, 1, points=2)
     assert ends.points == ((0, 32767), (1, 32767)) and abs(ends.error - 0.4) < 1e-9
     for wrong in ({"points": 1}, {"points": 256}, {"error": -1}, {"error": math.nan},
@@ -205,7 +212,7 @@ def tables_in_c():
     body = [f"for (int x = 0; x <= {last}; x++) {{",
             'printf("%d\\n", fixpid_table_at(&ntc, (int16_t)x)); }']
     printed = compiled([f'#include "{INCLUDE}/../src/table/fixpid_table.c"', text], body)
-    assert printed.split() == [str(found.at(x)) for x in range(last + 1)]
+    same(printed.split(), [str(found.at(x)) for x in range(last + 1)])
 
 
 def records_come_back():
@@ -232,7 +239,7 @@ def experiment():
 def autotune_finds_gains():
     tuner, progress = experiment()
     assert tuner.status() is fixpid.AutotuneState.DONE == fixpid.AUTOTUNE_DONE
-    assert [at["phase"] for at in (progress[0], progress[-1])] == [0, 6]
+    same([at["phase"] for at in (progress[0], progress[-1])], [0, 6])
     assert all(at["done"] < at["expected"] == 13 for at in progress[:-1]), progress
     assert progress[-1]["done"] == 13 and progress[-1]["period"] > 20
     # 1 / 8 count per count and step
@@ -252,7 +259,7 @@ def autotune_says_what_to_do():
     assert tuner.reason(fixpid.AUTOTUNE_PI, 65) is fixpid.AutotuneCause.NOT_LEGAL
     tuner.reset()
     assert tuner.model() is None and tuner.reason(0) is fixpid.AutotuneCause.NOT_DONE
-    assert tuner.status().advice == "Keep stepping."
+    same(tuner.status().advice, "Keep stepping.")
     for causes, count in (fixpid.AutotuneState, 9), (fixpid.AutotuneCause, 8):
         assert len(causes) == len({cause.advice for cause in causes}) == count
         assert all(re.fullmatch("[A-Zk].*[.]", cause.advice) for cause in causes)
@@ -262,7 +269,7 @@ def autotune_says_what_to_do():
 def experiments_come_back():
     tuner, progress = experiment()
     record = tuner.pack()
-    assert len(record) == fixpid.AUTOTUNE_RECORD_SIZE
+    same(len(record), fixpid.AUTOTUNE_RECORD_SIZE)
     text = "".join(f"{byte:02X}" + "  \n"[at % 4:at % 4 + 1] for at, byte in enumerate(record))
     for packed in record, bytearray(record), text, f"\t{record.hex()}\n":
         again = fixpid.Autotune.unpack(packed)
@@ -312,7 +319,7 @@ def rates_are_those_of_the_macro():
         if folded is None:
             assert refuses(ValueError, fixpid.slew_rate, *rate), rate
         else:
-            assert fixpid.slew_rate(*rate) == int(folded), rate
+            same(fixpid.slew_rate(*rate), int(folded))
 
 
 def code_of_the_page_runs():
@@ -339,5 +346,6 @@ for test in TESTS:
         print(f"ok {test.__name__}")
     except Exception as why:  # pylint: disable=broad-except
         failed = 1
-        print(f"FAILED {test.__name__}: {why!r}")
+        where = [at for at in traceback.extract_tb(why.__traceback__) if at.name != "same"][-1]
+        print(f"FAILED {test.__name__}: {why}, in line {where.lineno}: {where.line}")
 sys.exit(failed)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <stdio.h>
+
 #include "fixpid_gains.h"
 #include "numbers.h"
 #include "numbers_control.h"
@@ -54,18 +56,39 @@ static bool same_gains(const struct fixpid_pid_gains *a,
            a->kd_q8 == b->kd_q8 && a->derivative_filter == b->derivative_filter;
 }
 
+static void fail(const char *what, const uint32_t in[4], const uint32_t is[4],
+                 const uint32_t defined[4])
+{
+    char text[240];
+
+    snprintf(text, sizeof text,
+             "%s of %lu, %lu, %lu at a rate of %lu / 1000: "
+             "%lu with %lu, %lu, %lu; defined %lu with %lu, %lu, %lu",
+             what, (unsigned long)in[0], (unsigned long)in[1],
+             (unsigned long)in[2], (unsigned long)in[3], (unsigned long)is[0],
+             (unsigned long)is[1], (unsigned long)is[2], (unsigned long)is[3],
+             (unsigned long)defined[0], (unsigned long)defined[1],
+             (unsigned long)defined[2], (unsigned long)defined[3]);
+    TEST_FAIL_MESSAGE(text);
+}
+
 static bool from(uint32_t kp, uint32_t ki, uint32_t kd, uint32_t rate_milli,
                  uint8_t filter)
 {
     const struct fixpid_gains_milli milli = {kp, ki, kd};
     struct fixpid_pid_gains defined = gains;
-    const bool accepted =
+    const bool expected =
         reference_gains_from_milli(&defined, &milli, rate_milli, filter);
+    const bool accepted =
+        fixpid_gains_from_milli(&gains, &milli, rate_milli, filter);
 
-    if (fixpid_gains_from_milli(&gains, &milli, rate_milli, filter) !=
-            accepted ||
-        !same_gains(&defined, &gains)) {
-        TEST_FAIL_MESSAGE("not as defined");
+    if (accepted != expected || !same_gains(&defined, &gains)) {
+        const uint32_t in[4] = {kp, ki, kd, rate_milli};
+        const uint32_t is[4] = {accepted, gains.kp_q8, gains.ki_q24,
+                                gains.kd_q8};
+        const uint32_t meant[4] = {expected, defined.kp_q8, defined.ki_q24,
+                                   defined.kd_q8};
+        fail("from thousandths", in, is, meant);
     }
     return accepted;
 }
@@ -73,13 +96,18 @@ static bool from(uint32_t kp, uint32_t ki, uint32_t kd, uint32_t rate_milli,
 static bool to(uint32_t rate_milli)
 {
     struct fixpid_gains_milli defined = back;
-    const bool accepted =
+    const bool expected =
         reference_gains_to_milli(&defined, &gains, rate_milli);
+    const bool accepted = fixpid_gains_to_milli(&back, &gains, rate_milli);
 
-    if (fixpid_gains_to_milli(&back, &gains, rate_milli) != accepted ||
-        defined.kp != back.kp || defined.ki != back.ki ||
-        defined.kd != back.kd) {
-        TEST_FAIL_MESSAGE("not as defined");
+    if (accepted != expected || defined.kp != back.kp ||
+        defined.ki != back.ki || defined.kd != back.kd) {
+        const uint32_t in[4] = {gains.kp_q8, gains.ki_q24, gains.kd_q8,
+                                rate_milli};
+        const uint32_t is[4] = {accepted, back.kp, back.ki, back.kd};
+        const uint32_t meant[4] = {expected, defined.kp, defined.ki,
+                                   defined.kd};
+        fail("to thousandths", in, is, meant);
     }
     return accepted;
 }

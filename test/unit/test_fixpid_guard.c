@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <stdio.h>
+
 #include "fixpid_guard.h"
 #include "numbers.h"
 #include "numbers_control.h"
@@ -103,10 +105,17 @@ static uint8_t step(int16_t measurement, int16_t output)
     const uint8_t flags =
         fixpid_guard_step(&guard_controller, setpoint, measurement, output);
 
-    if (flags !=
-            reference_guard_step(&reference, setpoint, measurement, output) ||
-        flags != fixpid_guard_flags(&guard_controller)) {
-        TEST_FAIL_MESSAGE("not as defined");
+    const unsigned defined =
+        reference_guard_step(&reference, setpoint, measurement, output);
+
+    if (flags != defined || flags != fixpid_guard_flags(&guard_controller)) {
+        char text[100];
+        snprintf(text, sizeof text,
+                 "setpoint %d, measurement %d, output %d: "
+                 "flags 0x%x, kept as 0x%x, 0x%x defined",
+                 setpoint, measurement, output, flags,
+                 fixpid_guard_flags(&guard_controller), defined);
+        TEST_FAIL_MESSAGE(text);
     }
     return flags;
 }

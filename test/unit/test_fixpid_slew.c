@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <stdio.h>
+
 #include "fixpid_slew.h"
 #include "numbers.h"
 #include "numbers_control.h"
@@ -213,9 +215,18 @@ static int16_t step(int16_t target)
 {
     const int16_t output = fixpid_slew_step(&slew, target);
 
-    if (output != reference_slew_step(&reference, target) ||
-        fixpid_slew_value(&slew) != reference.value) {
-        TEST_FAIL_MESSAGE("not as defined");
+    const int16_t defined = (int16_t)reference_slew_step(&reference, target);
+
+    if (output != defined || fixpid_slew_value(&slew) != reference.value) {
+        char text[120];
+        snprintf(text, sizeof text,
+                 "target %d, rise %lu, fall %lu: output %d, value %ld; "
+                 "defined %d, %ld",
+                 target, (unsigned long)reference.rise,
+                 (unsigned long)reference.fall, output,
+                 (long)fixpid_slew_value(&slew), defined,
+                 (long)reference.value);
+        TEST_FAIL_MESSAGE(text);
     }
     return output;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <stdio.h>
+
 #include "fixpid_tpo.h"
 #include "numbers.h"
 #include "numbers_control.h"
@@ -66,7 +68,13 @@ static bool step(int16_t duty)
     const bool on = fixpid_tpo_step(&tpo, duty);
 
     if (on != reference_tpo_step(&reference, duty)) {
-        TEST_FAIL_MESSAGE("not as defined");
+        char text[100];
+        snprintf(text, sizeof text,
+                 "duty %d of %d, window %u, minimum on %u, off %u: "
+                 "%s, and the other is defined",
+                 duty, config.full, config.window, config.minimum_on,
+                 config.minimum_off, on ? "on" : "off");
+        TEST_FAIL_MESSAGE(text);
     }
     return on;
 }

@@ -153,6 +153,21 @@ expect_digest() {
             "it is not used"
 }
 
+# seal FOLDER: keeps the digests of all its files in it.
+seal() {
+    (cd "$1" && find . -type f ! -path ./SHA256SUMS -exec sha256sum {} + >SHA256SUMS)
+}
+
+# sealed FOLDER: whether they are as they were then.
+sealed() {
+    [ -d "$1" ] || return 1
+    (cd "$1" && sha256sum --check --quiet --strict SHA256SUMS) >/dev/null 2>&1 ||
+        {
+            say "$1 is not as it was put there: it is not used"
+            return 1
+        }
+}
+
 # The Ceedling gem, in the system's or in the user's own gem folder. It asks for
 # gcc, whatever compiles the tests.
 need_ceedling() {

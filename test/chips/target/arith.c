@@ -3,18 +3,23 @@
 
 #if defined(__SDCC)
 #include "compiler.h"
-#define TELL(result)
 #else
 #define PORT_CLEAR_WATCHDOG()
-#define TELL(result) tell(result)
-void (*arith_told)(uint32_t result);
+#endif
 
-static void tell(uint32_t result)
+#ifdef arith_add
+void (*arith_told)(void);
+int32_t arith_operands[2];
+const char *arith_text;
+
+static void tell(void)
 {
     if (arith_told != 0) {
-        arith_told(result);
+        arith_told();
     }
 }
+#else
+#define tell()
 #endif
 
 uint16_t arith_row;
@@ -30,10 +35,10 @@ void arith_begin(void)
 
 // A sum of sums, which tells one order from another. It turns, for what is
 // wrong by the same each time would vanish from 256 sums.
-void arith_add(uint32_t result)
+void(arith_add)(uint32_t result)
 {
     PORT_CLEAR_WATCHDOG();
     sum = ((sum << 1) | (sum >> 31)) + result;
     arith_digest += sum;
-    TELL(result);
+    tell();
 }

@@ -10,12 +10,20 @@
 extern uint16_t arith_row;    // one operand: which is said at each function
 extern uint32_t arith_digest; // of the row, after the function
 
-#ifndef __SDCC
-extern void (*arith_told)(uint32_t result); // after each, or null
-#endif
-
 void arith_begin(void);
 void arith_add(uint32_t result);
+
+// Before results: of what they are. Nothing on a chip.
+#if defined(__SDCC) || defined(__AVR__)
+#define ARITH_OPERANDS(a, b)
+#else
+extern void (*arith_told)(void);  // after each, or null
+extern int32_t arith_operands[2]; // of the last one
+extern const char *arith_text;    // its expression
+#define ARITH_OPERANDS(a, b)                                                   \
+    (arith_operands[0] = (int32_t)(a), arith_operands[1] = (int32_t)(b))
+#define arith_add(result) (arith_text = #result, arith_add(result))
+#endif
 
 void an937_arith(void);      // a gain, and 256 for all magnitudes: 0..511
 void an964_arith(void);      // a gain: 0..1023

@@ -22,6 +22,8 @@ static uint8_t flags;
 static void add_sum(void)
 {
     flags = 0;
+    ARITH_OPERANDS(fixpid_number_value(&TESTED.error),
+                   fixpid_number_value(&TESTED.accumulated_error));
     SELECT_ANOTHER_BANK();
     arith_add((uint32_t)fixpid_an937_output(&TESTED, &flags));
     arith_add(flags);
@@ -133,6 +135,7 @@ static void add_mixed(uint8_t times)
 static void add_numbers(uint16_t magnitude, uint16_t limit)
 {
     flags = 0;
+    ARITH_OPERANDS(magnitude, limit);
     fixpid_number_set(&TESTED.error, (int16_t)magnitude);
     arith_add((uint32_t)fixpid_number_value(&TESTED.error));
     fixpid_number_add(&TESTED.error, &TESTED.delta, magnitude, &flags);

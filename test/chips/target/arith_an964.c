@@ -11,16 +11,19 @@
 // in assembly, and loses a quotient that is rounded by a constant.
 static void add_10x7(uint16_t x, uint8_t k)
 {
+    ARITH_OPERANDS(x, k);
     arith_add(fixpid_10x7_div16(x, k));
 }
 
 static void add_10x8(uint16_t x, uint8_t k, uint8_t round_up, uint8_t limit)
 {
+    ARITH_OPERANDS(x, k);
     arith_add(fixpid_10x8_div32(x, k, round_up, limit));
 }
 
 static void add_10x14(uint16_t x, uint16_t k)
 {
+    ARITH_OPERANDS(k, x);
     arith_add(fixpid_10x14_div1024(k, x));
 }
 

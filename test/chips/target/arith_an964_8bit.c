@@ -21,6 +21,7 @@ static void add_7x7(uint8_t x, uint8_t k)
 {
     uint16_t quotient;
 
+    ARITH_OPERANDS(x, k);
     arith_add(fixpid_7x7_div4(x, k, 0, 127));
     arith_add(fixpid_7x7_div4(x, k, 0xFF, (uint8_t)(127u - k)));
     leave_carry(x, k);

@@ -48,6 +48,7 @@ static volatile int16_t nothing;
 
 static void add_16(int16_t a, int16_t b)
 {
+    ARITH_OPERANDS(a, b);
     arith_add((uint32_t)(int32_t)sub16_sat(a, b));
     arith_add((uint32_t)mul16((uint16_t)a & 0x7FFFu, b));
     arith_add((uint32_t)mul16((uint16_t)a & 0x7FFFu, (int16_t)(b - nothing)));
@@ -55,12 +56,14 @@ static void add_16(int16_t a, int16_t b)
 
 static void add_32(int32_t a, int32_t b)
 {
+    ARITH_OPERANDS(a, b);
     arith_add((uint32_t)add32_sat(a, b));
     arith_add((uint32_t)add32_sat(b, a));
 }
 
 static void add_shifts(int32_t x, uint8_t options)
 {
+    ARITH_OPERANDS(x, options);
     arith_add((uint32_t)shift_right_floor(x, 8));
     arith_add((uint32_t)shift_right_floor(x, 16));
     arith_add((uint32_t)shift_right_by(x, options));

@@ -6,7 +6,8 @@
 // with a firmware of the controller's arith_CONTROLLER.c; every STRIDEth row,
 // and the last, and then, unless short, those that take longer, of which a
 // STRIDE above 1 leaves the last. It ends where five differ, and prints how
-// many did, and unless short the first result of the first such row that does.
+// many did, and unless short the first result of the first such row that does,
+// with its expression and operands.
 // Exit status: 0 no digest differs, 1 some do, 2 the run could not be made.
 #include <cstdio>
 #include <cstdlib>
@@ -118,6 +119,17 @@ std::vector<uint32_t> Digests::within_row(unsigned row)
 
 std::vector<uint32_t> digests_here;
 
+// What the results are of, without the first digest, which is 0.
+std::vector<std::string> sources_here;
+
+void keep_result()
+{
+    digests_here.push_back(arith_digest);
+    sources_here.push_back(std::string(arith_text) + " of " +
+                           std::to_string(arith_operands[0]) + " and " +
+                           std::to_string(arith_operands[1]));
+}
+
 // What was added to a digest's sum, from the digests around it.
 uint32_t result_at(const std::vector<uint32_t> &digests, size_t at)
 {
@@ -130,7 +142,8 @@ uint32_t result_at(const std::vector<uint32_t> &digests, size_t at)
 void explain(Digests &digests, const Arithmetic &tested, unsigned row)
 {
     digests_here = {0};
-    arith_told = [](uint32_t) { digests_here.push_back(arith_digest); };
+    sources_here.clear();
+    arith_told = keep_result;
     tested.digest();
     arith_told = nullptr;
     const std::vector<uint32_t> there = digests.within_row(row);
@@ -140,9 +153,10 @@ void explain(Digests &digests, const Arithmetic &tested, unsigned row)
         at++;
     }
     if (at < there.size() && at < digests_here.size()) {
-        std::printf("row %u: result %zu of arith_%s.c is 0x%08x on the chip, "
-                    "0x%08x expected\n",
-                    row, at, tested.controller.c_str(), result_at(there, at),
+        std::printf("row %u: result %zu of arith_%s.c, %s, is 0x%08x on the "
+                    "chip, 0x%08x expected\n",
+                    row, at, tested.controller.c_str(),
+                    sources_here[at - 1].c_str(), result_at(there, at),
                     result_at(digests_here, at));
     } else {
         std::printf("row %u: %zu results, %zu expected\n", row,

@@ -43,6 +43,16 @@ def fetched(folder, home)
   Gate.run('env', "FOUND=#{folder}/found", "#{PROJECT}/tools/lib/build/fetch_cbmc", home, programs: folder)
 end
 
+# A private CBMC in this cache, after this command, and one more fetched where it is not
+# taken.
+def private_cbmc(folder, command)
+  home = "#{folder}/cache/fixpid/cbmc-6"
+  %w[cbmc goto-cc goto-instrument].each { |name| Gate.write("#{home}/#{name}", "#!/bin/sh\necho 6.6.0\n") }
+  Gate.write("#{folder}/tools/lib/build/fetch_cbmc", "#!/bin/sh\necho fetched\nexit 1\n")
+  script = ". tools/lib/setup.sh; . tools/lib/build/cbmc.sh; root=#{folder}; cd #{home}; #{command}; need_cbmc; echo $CBMC"
+  Gate.run('env', '-u', 'CBMC', "XDG_CACHE_HOME=#{folder}/cache", 'PATH=/usr/bin:/bin', 'sh', '-c', "cd #{PROJECT}; #{script}")
+end
+
 def unpinned(text)
   text.scan(/^.*uses: (?!\.\/).*$/).grep_v(/uses: [\w-]+\/[\w-]+@\h{40} # v\d+\.\d+\.\d+$/)
 end
@@ -57,6 +67,13 @@ Dir.mktmpdir do |folder|
   Gate.expect('nothing is left of a refused one', Dir["#{home}*"], ["#{home}.lock"])
   Gate.refused('another gem', ceedling(programs("#{folder}/gem")), /ceedling-1\.2\.1\.gem has the SHA-256 #{OTHER}, expected 9280\h+: it is not used/)
   Gate.expect('it is not installed', File.exist?("#{folder}/gem/found"), false)
+end
+Dir.mktmpdir { |folder| Gate.passed('a private one as it was put there', private_cbmc(folder, 'seal .')) }
+{ 'a byte of it is another' => 'seal .; echo >>goto-cc', 'a file of it is gone' => 'seal .; rm goto-cc',
+  'it has no digests' => ':' }.each do |what, command|
+  Dir.mktmpdir do |folder|
+    Gate.refused(what, private_cbmc(folder, command), /cbmc-6 is not as it was put there: it is not used/, /^fetched$/)
+  end
 end
 Dir["#{PROJECT}/.github/workflows/*.yml"].sort.each do |path|
   Gate.expect("the actions of #{File.basename(path)} are commits", unpinned(File.read(path)), [])

@@ -51,7 +51,7 @@ module Gate
     # [what it said, whether it succeeded]; with these programs before all others.
     def run(*command, programs: nil)
       environment = programs ? { 'PATH' => "#{programs}:#{ENV.fetch('PATH')}" } : {}
-      output, status = Open3.capture2e(environment, *command)
+      output, status = Open3.capture2e(environment, *command, close_others: true)
       [output, status.success?]
     end
 

@@ -45,10 +45,10 @@ end
 PROJECT_FILE = ":project:\n  :build_root: build/ceedling\n  :use_mocks: FALSE\n:paths:\n  :test: [test/unit/**]\n" \
                "  :source: [src/**]\n  :include: [include/**]\n  :support: [test/support]\n"
 
-def mutants(low: LOW, high: HIGH, equivalents: SAME, faults: FAULT, programs: {})
+def mutants(low: LOW, high: HIGH, equivalents: SAME, faults: FAULT, programs: {}, more: {})
   files = { 'project.yml' => PROJECT_FILE, 'include/fixpid_toy.h' => HEADER, 'src/toy/fixpid_toy.c' => SOURCE,
             'test/unit/test_fixpid_toy.c' => test(low, high), 'test/support/nothing.h' => '',
-            'test/tools/mutants/equivalent.txt' => equivalents.map { |line| "#{line}\n" }.join, 'test/faults.txt' => faults }
+            'test/tools/mutants/equivalent.txt' => equivalents.map { |line| "#{line}\n" }.join, 'test/faults.txt' => faults, **more }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
   lambda do
     Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/faults/mutants.rb", programs: "#{folder}/bin") }
@@ -73,7 +73,10 @@ Gate.refused('a fault that no test notices', mutants(faults: FAULT.sub('x == 10'
 Gate.refused('a fault whose text is gone', mutants(faults: FAULT.sub('value > 9', 'value > 10')),
              /^FAILED test.faults.txt:1: `value > 10` stands 0 times in fixpid_toy_high .* nearest is src.toy.fixpid_toy.c:17: `if .value > 9. \{`$/)
 Gate.refused('a fault whose text is there twice', mutants(faults: FAULT.sub('`value > 9`', '`value`')), /stands 4 times in fixpid_toy_high/)
-Gate.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/)
+Gate.refused('a test that fails before anything is broken', mutants(high: 'TEST_FAIL();'), /do not pass before/, /test_fixpid_toy\.c:\d+:test_high:FAIL/)
+Gate.refused('a test that does not compile', mutants(high: 'nothing;'), /do not pass before/, /test_fixpid_toy\.c:\d+:\d+: error: .nothing. undeclared/)
+Gate.refused('a source without a test', mutants(more: { 'src/toy/fixpid_more.c' => "int fixpid_more(int x);\nint fixpid_more(int x)\n{\n    return x + 1;\n}\n" }),
+             %r{^FAILED src/toy/fixpid_more\.c has no test/unit/test_fixpid_more\.c$})
 Gate.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
   case $* in
   *program*) echo 'ld: No space left on device: error: nothing' >&2; exit 1 ;;

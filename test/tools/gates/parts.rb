@@ -56,6 +56,11 @@ three = 'echo ok a; echo ok b; echo ok c'
 Gate.passed('a part with as many checks as it has', toy(three))
 Gate.passed('a part with more', toy("#{three}; echo ok d"))
 Gate.refused('a part with fewer', toy('echo ok a; echo ok b'), /FAILED toy: 2 checks ran, of at least 3/, /2 passed, 1 failed/)
+# The count was right with three tests in a file of the commit.
+Gate.said('a test file that is gone', parts('mkdir test/unit; printf "1\n2\n3\n" >test/unit/test_a.c; sed -i "s/^good 1/good 3/" test/parts.txt',
+                                            'git init -q .; git add test; git -c user.name=a -c user.email=a commit -qm a',
+                                            'mv test/unit/test_a.c test/unit/test_b.c; tools/test good'),
+          %r{^FAILED good: 1 checks ran, of at least 3 \(test/parts\.txt\); fewer lines than in \h+: test/unit/test_a\.c \(-3 lines\)$})
 Gate.refused('a part without checks', toy(':'), /0 passed, 1 failed/)
 Gate.refused('a check that failed', toy('echo ok a; echo ok b; echo FAILED c; exit 1'), /2 passed, 1 failed/)
 Gate.refused('a check that failed, and an exit that does not say so', toy("#{three}; echo FAILED d"), /1 failed/)

@@ -14,7 +14,7 @@ need_cbmc() {
     if cbmc_found=$(command -v cbmc); then
         ! cbmc_works "$(dirname -- "$cbmc_found")" || return 0
     fi
-    ! cbmc_works "$cbmc_home" || return 0
+    ! sealed "$cbmc_home" || ! cbmc_works "$cbmc_home" || return 0
     say "no cbmc of version 6: fetching a private one, once, to $cbmc_home"
     "${root:-.}/tools/lib/build/fetch_cbmc" "$cbmc_home" || exit 1
     cbmc_works "$cbmc_home" || die "the private cbmc in $cbmc_home does not work"

@@ -21,7 +21,7 @@ need_sdcc() {
     fi
     sdcc_works sdcc && return 0
     sdcc_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/sdcc-4.2.0-2
-    sdcc_works "$sdcc_home/bin/sdcc" && return 0
+    sealed "$sdcc_home" && sdcc_works "$sdcc_home/bin/sdcc" && return 0
     say "no sdcc with the ports pic14 and pic16: building a private one," \
         "once, in $sdcc_home"
     "${root:-.}/tools/lib/build/build_sdcc" "$sdcc_home" || exit 1
@@ -67,13 +67,12 @@ END
 # one like SDCC's.
 need_spdk() {
     spdk_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/spdk-4.2.0
-    for spdk_try in ${SPDK:-spdk} "$spdk_home/bin/spdk"; do
-        SPDK=$(command -v "$spdk_try") || continue
-        export SPDK
-        return 0
-    done
-    say "no spdk: building a private one, once, in $spdk_home"
-    "${root:-.}/tools/lib/build/build_sdcc" "$spdk_home" spdk || exit 1
-    SPDK=$spdk_home/bin/spdk
+    if ! SPDK=$(command -v "${SPDK:-spdk}"); then
+        SPDK=$spdk_home/bin/spdk
+        sealed "$spdk_home" || {
+            say "no spdk: building a private one, once, in $spdk_home"
+            "${root:-.}/tools/lib/build/build_sdcc" "$spdk_home" spdk || exit 1
+        }
+    fi
     export SPDK
 }

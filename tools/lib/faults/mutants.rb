@@ -34,7 +34,8 @@ COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definitio
 
 # fixpid_an964_8bit of fixpid_an964_8bit_more: what has a header.
 def noun(name)
-  File.exist?("include/#{name}.h") ? name : noun(name[/.*(?=_)/])
+  words = name.split('_')
+  words.size.downto(1).map { |count| words.first(count).join('_') }.find { |begun| File.exist?("include/#{begun}.h") } || name
 end
 
 # What the tests of the mutants are made from.
@@ -128,8 +129,9 @@ def build_objects
   FileUtils.rm_rf(objects) if File.exist?(objects) && File.mtime(objects) < File.mtime('project.yml')
   File.write('build/test/mutants.yml', ":project:\n  :build_root: #{ROOT}/ceedling\n" \
              ":defines:\n  :test:\n    '*':\n      - UNITY_SUPPORT_64\n      - UNITY_USE_FLUSH_STDOUT\n      - TEST_RANDOM_STEPS=3000\n      - TEST_STRIDE=3\n")
-  system('ceedling', '--mixin=build/test/mutants.yml', "test:pattern[#{OF_LIBRARY}]", out: File::NULL, err: File::NULL) or
-    abort 'FAILED the unit tests do not pass before anything is broken'
+  said, status = Open3.capture2e('ceedling', '--mixin=build/test/mutants.yml', "test:pattern[#{OF_LIBRARY}]")
+  status.success? or
+    abort "FAILED the unit tests do not pass before anything is broken:\n#{said.lines.grep(/:FAIL|error:|undefined reference|No such file|ERROR/).first(5).join}"
   FileUtils.rm_rf("#{ROOT}/rest")
 end
 
@@ -364,8 +366,10 @@ end
 def try_unbroken(run)
   return if PASSED.include?(run)
 
+  program_of(run.test) or abort "FAILED #{run.sources.first} has no test/unit/#{run.test}.c"
   caught = notice_in(run, "#{ROOT}/0")
-  abort "FAILED #{run.test} fails unbroken, with #{run.options.join(' ')}: #{caught}" if caught
+  caught = Open3.capture2e(*compiler(run, "#{ROOT}/0", '-fsyntax-only')).first.lines.grep(/error/).first if caught == :refused
+  abort "FAILED #{[run.test, *run.options].join(' ')} fails with nothing broken: #{caught}" if caught
   PASSED << run
 end
 
