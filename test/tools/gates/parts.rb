@@ -35,9 +35,9 @@ end
 # What the last of these lines says in a project with a part whose runner is remembered, and
 # how often the runner ran: those that begin with a dash are tools/test's words, others
 # commands. The runner prints to both its outputs.
-def remembered(runner, *lines, with: %w[env CI=])
+def remembered(runner, *lines, with: %w[env CI=], sight: 'unit')
   files = SHELL.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
-  files['tools/lib/test/parts.sh'] = "part_toy() {\n    count toy '^ok ' '^FAILED ' once unit ./runner word\n}\n"
+  files['tools/lib/test/parts.sh'] = "part_toy() {\n    count toy '^ok ' '^FAILED ' once #{sight} ./runner word\n}\n"
   files['test/parts.txt'] = "toy 3 1 a part\n"
   files['runner'] = "#!/bin/sh\necho x >>build/runs\n#{runner}\n"
   files['README.md'] = files['docs/a.md'] = files['src/a.c'] = files['.hidden'] = "a\n"
@@ -94,6 +94,9 @@ Gate.said('nor one that is skipped in part', remembered("#{three}; echo skipped 
   Gate.said("and runs anew with another #{path}", remembered(three, '-', "mkdir -p src/new; echo '# more' >>#{path}", '-'), /^3 passed, 0 failed$/, /^ran 2 times$/)
 end
 Gate.said('and not with another page', remembered(three, '-', 'echo b >>docs/a.md; echo b >>README.md', '-'), /^ran 1 times$/)
+Gate.said('but where the whole tree is seen', remembered(three, '-', '-', 'echo b >>docs/a.md', '-', sight: 'whole'), /^3 passed, 0 failed$/, /^ran 2 times$/)
+Gate.said('and with another private compiler', remembered(three, '-', '-', 'mkdir build/cache/fixpid/cbmc-6; echo a >build/cache/fixpid/cbmc-6/SHA256SUMS', '-', sight: 'whole'),
+          /^3 passed, 0 failed$/, /^ran 2 times$/)
 Gate.said('nor in another folder', remembered(three, '-', 'mkdir build/copy; cp -r $(ls -A | grep -v build) build/copy; mkdir build/copy/build; cd build/copy; tools/test'),
           /^remembered: 3 checks/, /^ran 1 times$/)
 Gate.said('and runs anew with another word of the environment', remembered(three, '-', 'CFLAGS=-O0 tools/test'), /^ran 2 times$/)

@@ -61,6 +61,11 @@ module Inputs
        *Dir.glob("#{ENV['SDCC_LIB']}/pic1[46]/*").sort, *Dir.glob('/usr/share/gputils/**/*').sort]
     end
 
+    # What tells the private compilers that tools/lib/setup.sh has sealed from others.
+    def sealed
+      Dir.glob("#{ENV.fetch('XDG_CACHE_HOME', "#{ENV['HOME']}/.cache")}/fixpid/*/SHA256SUMS").sort
+    end
+
     # These sources and all that they may include from these folders: also what a
     # condition leaves out, and of two files of a name both.
     def with_included(sources, folders)

@@ -112,11 +112,11 @@ part_limits() {
 }
 
 part_autotune() {
-    count 'test/model/autotune/run' '^ok ' '^FAILED ' test/model/autotune/run
+    count 'test/model/autotune/run' '^ok ' '^FAILED ' once whole test/model/autotune/run
 }
 
 part_fuzz() {
-    count 'test/fuzz/run' '^ok ' '^FAILED ' test/fuzz/run
+    count 'test/fuzz/run' '^ok ' '^FAILED ' once whole test/fuzz/run
 }
 
 part_avr() {
@@ -163,27 +163,27 @@ part_lint() {
         check "ruby -wc $file" ruby -wc "$file"
     done
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
-    count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' ruby tools/lib/lint.rb
+    count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' once whole ruby tools/lib/lint.rb
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'each unit test asserts' ruby tools/lib/test/asserts.rb
 }
 
 part_consumers() {
     need cmake make ruby
-    count consumers '^ok ' '^FAILED ' test/use/consumers/run
-    count 'test/use/port_check/run' '^ok ' '^FAILED ' test/use/port_check/run
+    count consumers '^ok ' '^FAILED ' once whole test/use/consumers/run
+    count 'test/use/port_check/run' '^ok ' '^FAILED ' once whole test/use/port_check/run
 }
 
 part_packages() {
-    count packages '^ok ' '^FAILED ' once packages test/use/packages/run
+    count packages '^ok ' '^FAILED ' once whole test/use/packages/run
 }
 
 part_firmware() {
     need clang
     need_sdcc
-    count 'chips of tools/firmware' '^ok ' '^FAILED ' test/use/firmware/run
+    count 'chips of tools/firmware' '^ok ' '^FAILED ' once whole test/use/firmware/run
     check 'tools/firmware' tools/firmware
-    count 'the sources under XC8' '^ok ' '^FAILED ' test/use/xc8_check/run
+    count 'the sources under XC8' '^ok ' '^FAILED ' once whole test/use/xc8_check/run
 }
 
 part_target() {
@@ -191,15 +191,15 @@ part_target() {
     need_sdcc
     build_gpsim
     count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run
-    count 'test/model/autotune/chips' '^ok ' '^FAILED ' test/model/autotune/chips
+    count 'test/model/autotune/chips' '^ok ' '^FAILED ' once whole test/model/autotune/chips
 }
 
 part_python() {
-    count 'test/use/python/run' '^ok ' '^FAILED ' test/use/python/run
+    count 'test/use/python/run' '^ok ' '^FAILED ' once whole test/use/python/run
 }
 
 part_site() {
-    count 'test/web/site/run' '^ok ' '^FAILED ' test/web/site/run
+    count 'test/web/site/run' '^ok ' '^FAILED ' once whole test/web/site/run
 }
 
 part_families() {
@@ -213,30 +213,30 @@ part_cost() {
     need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :avr-libc \
         :libsimavr-dev
     build_gpsim
-    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/bounds.rb
-    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/stacks.rb
-    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/tools/cost/random_loops.rb
-    count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
-    count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
+    count 'bounds of known routines' '^ok ' '^FAILED ' once whole ruby test/tools/cost/bounds.rb
+    count 'stacks of known routines' '^ok ' '^FAILED ' once whole ruby test/tools/cost/stacks.rb
+    count 'bounds of random loops' '^ok ' '^FAILED ' once whole ruby test/tools/cost/random_loops.rb
+    count 'the search for the worst step' '^ok ' '^FAILED ' once whole ruby test/tools/cost/search.rb
+    count 'what tools/cost tells' '^ok ' '^FAILED ' once whole ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
 }
 
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip faults_places
-    count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/build/cosim_check
+    count 'tools/demo chip' ' ok$' ' FAILED$' once whole tools/demo --verbose chip faults_chip faults_places
+    count 'the co-simulation' '^ok ' '^FAILED ' once whole tools/lib/build/cosim_check
 }
 
 part_demo() {
     need cmake cc:gcc :libc6-dev make ruby gnuplot:gnuplot-nox
-    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/tools/demo/readers.rb
+    count 'what tools/demo reads' '^ok ' '^FAILED ' once whole ruby test/tools/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
 }
 
 part_tuner() {
-    count 'test/web/tuner/run' '^ok ' '^FAILED ' test/web/tuner/run
+    count 'test/web/tuner/run' '^ok ' '^FAILED ' once whole test/web/tuner/run
 }
 
 part_docs() {
@@ -257,7 +257,7 @@ part_gates() {
     need_ceedling
     for gate in test/tools/gates/*.rb; do
         [ "${gate##*/}" = gate.rb ] || # which they share
-            count "$gate" '^ok ' '^FAILED ' ruby "$gate"
+            count "$gate" '^ok ' '^FAILED ' once whole ruby "$gate"
     done
 }
 
@@ -278,8 +278,8 @@ part_mutants() {
 
 # The runner, and what it runs in a minute.
 part_proofs() {
-    count 'test/proof/run' '^ok ' '^FAILED ' test/proof/run
-    count 'tools/prove --quick' '^ok ' '^FAILED ' tools/prove --quick
+    count 'test/proof/run' '^ok ' '^FAILED ' once whole test/proof/run
+    count 'tools/prove --quick' '^ok ' '^FAILED ' once whole tools/prove --quick
 }
 
 part_prove() {
