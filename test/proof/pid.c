@@ -487,6 +487,131 @@ void prove_composed(void)
     claim(c.status == flags_of(&was, candidate, u));
 }
 
+// ---- What rises with the setpoint, and in `reverse` as it falls ----
+
+// Of the true product is assumed what it does: it rises with x.
+static void assume_rises(uint16_t gain, number x, number higher)
+{
+    pre(x <= higher);
+    assume(TIMES(gain, x) <= TIMES(gain, higher));
+}
+
+// Of signals with the same measurement, those with the lower error first.
+static bool in_order(const struct fixpid_pid *x, number setpoint, number other)
+{
+    return ((x->options & MIRRORED) != 0u) ? (setpoint >= other)
+                                           : (setpoint <= other);
+}
+
+// By contract: mul16.
+void prove_errors_rise(void)
+{
+    struct signals lower = any_signals();
+    struct signals higher = lower;
+    signal_word p_error;
+
+    higher.setpoint = nondet_int16();
+    c = nondet_pid();
+    assume(in_order(&c, lower.setpoint, higher.setpoint));
+    if (lower.setpoint <= higher.setpoint) {
+        assume_rises(c.setpoint_weight, lower.setpoint, higher.setpoint);
+    } else {
+        assume_rises(c.setpoint_weight, higher.setpoint, lower.setpoint);
+    }
+    p_error = special_errors(&c, &lower);
+    claim(special_errors(&c, &higher) >= p_error);
+    claim(higher.error >= lower.error);
+    claim(higher.derivative_input <= lower.derivative_input);
+}
+
+// By contract: mul16.
+void prove_derivative_rises(void)
+{
+    struct signals lower = any_signals();
+    struct signals higher = any_signals();
+    struct fixpid_pid other;
+    number previous;
+
+    c = nondet_pid();
+    assume(c.kd <= FIXPID_PID_KD_MAX);
+    assume(inside(c.derivative, -D_MAX, D_MAX));
+    assume(sound_previous(&c));
+    assume(higher.derivative_input <= lower.derivative_input);
+    other = c;
+    if ((c.status & FIXPID_PID_FIRST) == 0u) {
+        previous = c.previous;
+        assume_rises(c.kd, sat16(previous - lower.derivative_input),
+                     sat16(previous - higher.derivative_input));
+    }
+    differentiate(&c, &lower);
+    differentiate(&other, &higher);
+    claim(other.derivative >= c.derivative);
+}
+
+// By contract: mul16.
+void prove_candidate_rises(void)
+{
+    struct signals lower = any_signals();
+    struct signals higher = any_signals();
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(inside(whole(&c), c.integral_min * PART, c.integral_max * PART));
+    assume(higher.error >= lower.error);
+    assume_rises(c.ki, lower.error, higher.error);
+    integrate(&c, &lower);
+    integrate(&c, &higher);
+    claim(limited(&c, candidate_of(&higher)) >=
+          limited(&c, candidate_of(&lower)));
+}
+
+// Where either the sum or the candidate is the same: what rises with each
+// rises with both.
+void prove_limit_rises(void)
+{
+    struct signals lower = any_signals();
+    struct signals higher = any_signals();
+    struct fixpid_pid other;
+    number out;
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(inside(lower.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    assume(inside(higher.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    if (nondet_bool()) {
+        higher.p_d_ff = lower.p_d_ff;
+        assume(limited(&c, candidate_of(&higher)) >=
+               limited(&c, candidate_of(&lower)));
+    } else {
+        higher.integral = lower.integral;
+        higher.fraction = lower.fraction;
+        assume(higher.p_d_ff >= lower.p_d_ff);
+    }
+    other = c;
+    out = limit_and_remember(&c, &lower);
+    claim(limit_and_remember(&other, &higher) >= out);
+}
+
+// The integral that is taken over falls by as much as the sum rises.
+void prove_held_rises(void)
+{
+    struct signals lower = any_signals();
+    struct signals higher = any_signals();
+    struct fixpid_pid other;
+    number out;
+
+    c = nondet_pid();
+    assume(sound_settings(&c));
+    assume(((uint32_t)c.integral & 0xFFFFu) == 0u);
+    assume(inside(lower.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    assume(inside(higher.p_d_ff, lower.p_d_ff, P_D_FF_MAX));
+    other = c;
+    take_over(&c, &lower);
+    take_over(&other, &higher);
+    out = limit_and_remember(&c, &lower);
+    claim(limit_and_remember(&other, &higher) >= out);
+}
+
 // ---- The other functions ----
 
 static bool legal_gains(const struct fixpid_pid_gains *gains)

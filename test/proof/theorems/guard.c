@@ -5,6 +5,15 @@
 // which the notes are true, and so it is after any call.
 #include "../guard.c"
 
+// What the object's private bits mean: where the reading is, and was.
+#define WITHIN 0x00u // the band
+#define UNDER 0x01u
+#define OVER 0x02u
+#define WHERE 0x03u
+#define LAST_SIDE 0x0Cu
+#define IS_NOISY 0x40u
+#define IS_REVERSED 0x80u
+
 // A guard, what it is given, and the zone in which the header sees the reading.
 static struct fixpid_guard was;
 static int16_t r;
@@ -18,12 +27,12 @@ static unsigned zone_seen(void)
 {
     const number goal = clamp(r, was.reach_min, was.reach_max);
     const number band =
-        (zone_was == INSIDE) ? (number)was.band : floor_by(was.band, 1);
+        (zone_was == WITHIN) ? (number)was.band : floor_by(was.band, 1);
 
     if (apart(goal, y) <= band) {
-        return INSIDE;
+        return WITHIN;
     }
-    return (y < goal) ? BELOW : ABOVE;
+    return (y < goal) ? UNDER : OVER;
 }
 
 static bool within_reach(number x)
@@ -132,10 +141,10 @@ void prove_flag_frozen(void)
             if (equal == was.patience) {
                 began = u;
             } else if (equal > was.patience) {
-                away +=
-                    (((was.state & NOISY) != 0u) || (apart(u, began) > quarter))
-                        ? 1
-                        : 0;
+                away += (((was.state & IS_NOISY) != 0u) ||
+                         (apart(u, began) > quarter))
+                            ? 1
+                            : 0;
             }
         }
         if ((raised & FIXPID_GUARD_FROZEN) != 0u) {
@@ -157,9 +166,9 @@ void prove_flag_frozen(void)
 // Whether the output is at the end that pushes the reading out of a zone.
 static bool pushes(unsigned from)
 {
-    const bool reverse = (was.state & REVERSED) != 0u;
+    const bool reverse = (was.state & IS_REVERSED) != 0u;
 
-    if ((from == BELOW) == reverse) {
+    if ((from == UNDER) == reverse) {
         return u <= was.output_min;
     }
     return u >= was.output_max;
@@ -178,11 +187,11 @@ static bool is_noted(void)
 {
     const unsigned end = (c.state >> 4) & 3u;
 
-    if ((c.state & ZONE) != INSIDE) {
+    if ((c.state & WHERE) != WITHIN) {
         return (counted(&c) <= pushed.outside) && (c.mark == pushed.farthest);
     }
     return (counted(&c) >= 0) ||
-           (-counted(&c) <= ((end == BELOW) ? pushed.up : pushed.down));
+           (-counted(&c) <= ((end == UNDER) ? pushed.up : pushed.down));
 }
 
 static number less_one(number steps)
@@ -198,7 +207,7 @@ static void note_outside(void)
         pushed.farthest = y;
         pushed.outside = 0;
     }
-    nearer = (zone == BELOW) ? (y - pushed.farthest) : (pushed.farthest - y);
+    nearer = (zone == UNDER) ? (y - pushed.farthest) : (pushed.farthest - y);
     if (nearer >= was.band) {
         pushed.farthest = y;
         pushed.outside = 0;
@@ -210,11 +219,11 @@ static void note_outside(void)
 
 static void note_inside(void)
 {
-    const bool waits = (zone == INSIDE) && (y != r) && within_reach(r);
-    const bool up = waits && pushes(BELOW);
-    const bool down = waits && pushes(ABOVE);
+    const bool waits = (zone == WITHIN) && (y != r) && within_reach(r);
+    const bool up = waits && pushes(UNDER);
+    const bool down = waits && pushes(OVER);
 
-    if ((zone != INSIDE) || (zone_was != INSIDE)) {
+    if ((zone != WITHIN) || (zone_was != WITHIN)) {
         pushed.up = 0;
         pushed.down = 0;
     }
@@ -235,7 +244,7 @@ void prove_flag_stuck(void)
     pushed.down = nondet_uint32();
     c = nondet_guard();
     if (begins_anew()) {
-        claim((c.count == 0u) && ((c.state & ZONE) == INSIDE));
+        claim((c.count == 0u) && ((c.state & WHERE) == WITHIN));
         return;
     }
     c = nondet_guard();
@@ -245,14 +254,14 @@ void prove_flag_stuck(void)
         note_outside();
         note_inside();
         if ((raised & FIXPID_GUARD_NOT_RISING) != 0u) {
-            claim((zone == INSIDE)
+            claim((zone == WITHIN)
                       ? (pushed.up >= was.patience)
-                      : ((zone == BELOW) && (pushed.outside >= was.patience)));
+                      : ((zone == UNDER) && (pushed.outside >= was.patience)));
         }
         if ((raised & FIXPID_GUARD_NOT_FALLING) != 0u) {
-            claim((zone == INSIDE)
+            claim((zone == WITHIN)
                       ? (pushed.down >= was.patience)
-                      : ((zone == ABOVE) && (pushed.outside >= was.patience)));
+                      : ((zone == OVER) && (pushed.outside >= was.patience)));
         }
     }
     claim(is_noted());
@@ -269,26 +278,27 @@ void prove_flag_oscillating(void)
 
     c = nondet_guard();
     if (begins_anew()) {
-        claim((c.swings == 0u) && (c.anchor == 0) && ((c.state & LAST) == 0u));
+        claim((c.swings == 0u) && (c.anchor == 0) &&
+              ((c.state & LAST_SIDE) == 0u));
         return;
     }
     c = nondet_guard();
     assume(sound(&c) && (crossed >= c.swings));
     assume((((c.state >> 2) & 3u) == side) && (c.anchor == anchor));
-    assume(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == INSIDE));
+    assume(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == WITHIN));
     if (nondet_bool()) {
         fixpid_guard_acknowledge(&c);
     } else if (nondet_bool()) {
         fixpid_guard_reset(&c);
         anchor = 0;
-        side = INSIDE;
+        side = WITHIN;
     } else {
         step();
-        if ((zone != INSIDE) && (zone != zone_was)) {
+        if ((zone != WITHIN) && (zone != zone_was)) {
             if (apart(r, anchor) > was.band) {
                 anchor = r;
                 crossed = 0;
-            } else if ((side != INSIDE) && (side != zone)) {
+            } else if ((side != WITHIN) && (side != zone)) {
                 crossed++;
             }
             side = zone;
@@ -298,12 +308,12 @@ void prove_flag_oscillating(void)
         }
         if ((raised & FIXPID_GUARD_SETTLED) != 0u) {
             crossed = 0;
-            side = INSIDE;
+            side = WITHIN;
         }
     }
     claim(crossed >= c.swings);
     claim((((c.state >> 2) & 3u) == side) && (c.anchor == anchor));
-    claim(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == INSIDE));
+    claim(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == WITHIN));
 }
 
 // Theorem: While FIXPID_GUARD_SETTLED is set, the reading is in the band, and
@@ -315,20 +325,20 @@ void prove_flag_settled(void)
     c = nondet_guard();
     if (begins_anew()) {
         claim((c.count == 0u) && (c.flags == 0u) &&
-              ((c.state & ZONE) == INSIDE));
+              ((c.state & WHERE) == WITHIN));
         return;
     }
     c = nondet_guard();
     assume(sound(&c));
-    assume(((c.state & ZONE) != INSIDE)
+    assume(((c.state & WHERE) != WITHIN)
                ? ((c.flags & FIXPID_GUARD_SETTLED) == 0u)
                : (counted(&c) <= within));
     assume(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (within >= c.patience));
     if (!calls_another()) {
         step();
-        within = (zone == INSIDE) ? ((zone_was == INSIDE) ? within + 1 : 1) : 0;
+        within = (zone == WITHIN) ? ((zone_was == WITHIN) ? within + 1 : 1) : 0;
     }
-    claim(((c.state & ZONE) != INSIDE)
+    claim(((c.state & WHERE) != WITHIN)
               ? ((c.flags & FIXPID_GUARD_SETTLED) == 0u)
               : (counted(&c) <= within));
     claim(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (within >= c.patience));

@@ -146,10 +146,135 @@ void prove_mirror(void)
     of_direct.setpoint = mirrored(of_reverse.setpoint);
     of_direct.derivative_input = mirrored((int16_t)of_reverse.derivative_input);
     c = nondet_pid();
-    assume((c.options & (REVERSE | WEIGHTED)) == 0u);
+    assume((c.options & (MIRRORED | SCALED)) == 0u);
     error = special_errors(&c, &of_direct);
-    c.options |= REVERSE;
+    c.options |= MIRRORED;
     claim(special_errors(&c, &of_reverse) == error);
     claim(of_reverse.error == of_direct.error);
     claim(of_reverse.derivative_input == of_direct.derivative_input);
+}
+
+// What the proofs named `..._rises` show of the parts of two steps from the
+// same state, of which the second has a setpoint with a higher error.
+static struct {
+    struct signals signals;
+    number p_error;
+    number product;
+    number derivative;
+    number out;
+    bool held;
+    bool over;
+} first;
+
+signal_word special_errors_rise(struct fixpid_pid *self,
+                                struct signals *signals)
+{
+    const signal_word p_error = nondet_int16();
+
+    (void)self;
+    signals->error = nondet_int16();
+    signals->derivative_input = nondet_int16();
+    if (first.over) {
+        assume(p_error >= first.p_error);
+        assume(signals->error >= first.signals.error);
+        assume(signals->derivative_input <= first.signals.derivative_input);
+    }
+    return p_error;
+}
+
+// As the true product does.
+int32_t mul16_rise(uint16_t gain, signal_word x)
+{
+    const int32_t product = (int32_t)TIMES(gain, (number)x);
+
+    pre(gain <= 32767u);
+    pre(inside(x, INT16_MIN, INT16_MAX));
+    if (first.over) {
+        pre(x >= first.p_error);
+        assume(product >= first.product);
+    }
+    first.p_error = x;
+    first.product = product;
+    return product;
+}
+
+void differentiate_rise(struct fixpid_pid *self, struct signals *signals)
+{
+    pre(self->kd <= FIXPID_PID_KD_MAX);
+    pre(inside(self->derivative, -D_MAX, D_MAX));
+    pre(sound_previous(self));
+    self->previous = signals->derivative_input;
+    self->derivative = nondet_int32();
+    assume(inside(self->derivative, -D_MAX, D_MAX));
+    if (first.over) {
+        pre(signals->derivative_input <= first.signals.derivative_input);
+        assume(self->derivative >= first.derivative);
+    } else {
+        first.signals = *signals;
+        first.derivative = self->derivative;
+    }
+}
+
+void integrate_rise(struct fixpid_pid *self, struct signals *signals)
+{
+    pre(sound_settings(self));
+    pre(inside(whole(self), self->integral_min * PART,
+               self->integral_max * PART));
+    signals->integral = nondet_int32();
+    signals->fraction = nondet_uint8();
+    if (first.over) {
+        pre(signals->error >= first.signals.error);
+        assume(limited(self, candidate_of(signals)) >=
+               limited(self, candidate_of(&first.signals)));
+    }
+}
+
+// What it leaves is asked for together with limit_and_remember.
+void take_over_rise(struct fixpid_pid *self, struct signals *signals)
+{
+    pre(sound_settings(self));
+    pre(((uint32_t)self->integral & 0xFFFFu) == 0u);
+    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    first.held = true;
+}
+
+int16_t limit_and_remember_rise(struct fixpid_pid *self,
+                                struct signals *signals)
+{
+    const int16_t out = nondet_int16();
+
+    pre(sound_settings(self));
+    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    if (first.over) {
+        pre(signals->p_d_ff >= first.signals.p_d_ff);
+        pre(first.held || (limited(self, candidate_of(signals)) >=
+                           limited(self, candidate_of(&first.signals))));
+        assume(out >= first.out);
+    } else {
+        first.signals = *signals;
+        first.out = out;
+    }
+    return out;
+}
+
+// Theorem: From the same state and with the same measurement, a step with a
+// higher setpoint never returns less; with `reverse` it never returns more. By
+// contract: mul16 (mul16_rise), special_errors (special_errors_rise),
+// differentiate (differentiate_rise), integrate (integrate_rise), take_over
+// (take_over_rise), limit_and_remember (limit_and_remember_rise).
+void prove_monotone(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t other_setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+    struct fixpid_pid other;
+    number out;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    assume(in_order(&c, setpoint, other_setpoint));
+    other = c;
+    out = fixpid_pid_step(&c, setpoint, measurement);
+    first.over = true;
+    claim(fixpid_pid_step(&other, other_setpoint, measurement) >= out);
 }

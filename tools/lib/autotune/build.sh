@@ -2,6 +2,8 @@
 # shellcheck shell=sh
 # Sourced by refit and study, after setup.sh, with `root` set: builds
 # sim/random_plants and sets `program` to it.
+# shellcheck source=tools/lib/build/cmake.sh
+. "${root:?}/tools/lib/build/cmake.sh"
 
 # numbers WORD...: whether all are whole numbers, two at most.
 numbers() {
@@ -15,17 +17,10 @@ numbers() {
 
 build_random_plants() {
     need cmake cc:gcc :libc6-dev make ruby
-    build=${root:?}/build/host-examples
+    build=$root/build/host-examples
     work_folder "$build" 64
-    {
-        cmake -S "$root" -B "$build" -G 'Unix Makefiles' \
-            -DCMAKE_BUILD_TYPE=Release \
-            -DFIXPID_BUILD_EXAMPLES=ON -DFIXPID_BUILD_TESTS=OFF &&
-            make -C "$build" fixpid_random_plants
-    } >"$build/log" 2>&1 || {
-        tail -n 30 "$build/log" >&2
-        die "could not build sim/random_plants (all of it: $build/log)"
-    }
+    cmake_build sim/random_plants "$root" "$build" -DCMAKE_BUILD_TYPE=Release \
+        -DFIXPID_BUILD_EXAMPLES=ON -DFIXPID_BUILD_TESTS=OFF -- fixpid_random_plants
     # shellcheck disable=SC2034 # for what sources this
     program=$build/sim/random_plants
 }

@@ -114,9 +114,9 @@ class Cbmc
     tool('goto-cc', "--#{@proof.word}", "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}",
          "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", *(to_its_end ? ended : [@proof.harness, '--function', @proof.function]),
          '-o', program) or return nil
-    @proof.contracts.each do |function|
+    @proof.contracts.each do |function, other|
       replaced = "#{program}-#{function}"
-      tool('goto-instrument', '--replace-calls', "#{function}#{mark(function)}:#{function}_contract", program, replaced) or return nil
+      tool('goto-instrument', '--replace-calls', "#{function}#{mark(function)}:#{other}", program, replaced) or return nil
       program = replaced
     end
     program

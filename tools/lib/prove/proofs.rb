@@ -9,7 +9,7 @@ PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this mac
 HOST = 64
 INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16.hh
 THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
-SLOW = %w[composed differentiate bumpless tpo_exact].freeze # they take more than ten seconds
+SLOW = %w[composed differentiate derivative_rises held_rises bumpless tpo_exact].freeze # they take more than ten seconds
 
 # One function of a harness, in one form, for one machine.
 Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
@@ -47,10 +47,14 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
     "prove_#{what}"
   end
 
-  # The functions that stand for what is proved of them elsewhere: the line
-  # `By contract: a, b.` of the comment above the proof.
+  # The functions for which others stand, which do what is proved of them elsewhere: the
+  # line `By contract: a, b (c).` of the comment above the proof says that for `a` its
+  # `a_contract` does, and for `b` it is `c`.
   def contracts
-    comment[/By contract: ([\w, ]+)\./, 1].to_s.split(', ')
+    comment[/By contract: ([\w, ()]+)\./, 1].to_s.split(', ').to_h do |text|
+      function, other = text.delete('()').split
+      [function, other || "#{function}_contract"]
+    end
   end
 
   # What the comment above says after `Theorem: `, up to the next word with a colon.
