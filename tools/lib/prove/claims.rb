@@ -13,9 +13,9 @@ require_relative 'seeded'
 # of them needs stands in unneeded.txt, below the reason, as PROOF: CLAIM.
 class Claims
   FILE = "#{FOLDER}/unneeded.txt".freeze
-  NOT_ASKED = %w[an937 an964 an964_8bit autotune guard model pid record table theorems tpo].freeze # unless a word names them
+  NOT_ASKED = ['an937 step', 'autotune', 'model', 'pid', 'record', 'table', 'theorems'].freeze # unless a word names the group
   DRAWN_MOST = 40
-  SECONDS = 6 # without an answer the next break is tried
+  SECONDS = 6 # for one that is drawn
   WORD = WORDS.first
 
   # The other properties that fail with a break.
@@ -27,9 +27,13 @@ class Claims
 
   # The first form of each proof that is asked.
   def self.chosen(proofs, words, breaks)
-    asked = proofs.select { |proof| proof.word == WORD && !proof.exhausted? && (words.include?(proof.group) || !NOT_ASKED.include?(proof.group)) }
+    asked = proofs.select { |proof| proof.word == WORD && !proof.exhausted? && (words.include?(proof.group) || !left_out?(proof)) }
     asked.uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
          .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
+  end
+
+  def self.left_out?(proof)
+    NOT_ASKED.include?(proof.group) || NOT_ASKED.include?("#{proof.group} #{proof.what}")
   end
 
   # [proof, claim] of each line.
@@ -95,10 +99,10 @@ class Claims
   # For each claim that fails with a break, the first of those with which the fewest others do.
   def failures(claims, build)
     found = {}
-    tried(build).each do |name, file, source|
+    tried(build).each do |name, file, source, seconds|
       break if claims.keys.all? { |property| found[property]&.alone? }
 
-      failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, SECONDS).failing }
+      failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, seconds).failing }
       failing&.each do |property|
         found[property] = Failure.new(failing - [property], name) unless found.key?(property) && found[property].others.size < failing.size
       end
@@ -106,7 +110,7 @@ class Claims
     found
   end
 
-  # Names, files and sources.
+  # Names, files, sources, and for how long each is tried if that is limited.
   def tried(build)
     @breaks.map { |broken| [broken.words, broken.file, broken.source] } + drawn(build).first(DRAWN_MOST)
   end
@@ -119,6 +123,6 @@ class Claims
         functions.include?(Seeded.functions(file)[mutant.line - 1]) && !equivalents.cover?(key)
       end
     end
-    Seeded.shuffled(keys).map { |mutant, key| [key, mutant.file, mutant.source] }
+    Seeded.shuffled(keys).map { |mutant, key| [key, mutant.file, mutant.source, SECONDS] }
   end
 end
