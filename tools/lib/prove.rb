@@ -5,6 +5,7 @@ require_relative 'prove/assembly'
 require_relative 'prove/assembly/breaks'
 require_relative 'prove/cbmc'
 require_relative 'prove/choice'
+require_relative 'prove/claims'
 require_relative 'prove/coverage'
 require_relative 'prove/equivalents'
 require_relative 'prove/eva'
@@ -60,7 +61,7 @@ end
 # was good.
 def answer_of(name, words)
   said = nil
-  line = REMEMBERED.of(name, words: words) do
+  line = REMEMBERED.of(name, words: words, checks: ->(lines) { Array(lines).size }) do
     fine, said = yield
     said if fine
   end
@@ -91,7 +92,7 @@ def equivalent?(proofs, words)
   complaints = equivalents.complaints
   complaints << "#{Equivalents::FILE} has no line with #{words.join(' and ')}" if chosen.empty?
   complaints.each { |complaint| puts "FAILED #{complaint}" }
-  all_good?(chosen) { |key| equivalents.judge(key) } && complaints.empty?
+  all_good?(chosen) { |key| answer_of(key, []) { equivalents.judge(key) } } && complaints.empty?
 end
 
 # Whether Eva has no alarm but those that are pinned, and those.
@@ -117,6 +118,15 @@ end
 # Whether these proofs come to their ends and their claims.
 def reached?(proofs)
   all_good?(Reach.chosen(proofs)) { |reach| answer_of(reach.name, reach.options) { reach.judge(BUILD) } }
+end
+
+# Whether some break needs each claim of what these words choose.
+def needed?(proofs, words)
+  chosen = Claims.chosen(proofs, words, Seeded.all(proofs))
+  complaints = Claims.complaints(proofs)
+  complaints << "no proof that is asked has these words in its name: #{words.join(' ')}" if chosen.empty?
+  complaints.each { |complaint| puts "FAILED #{complaint}" }
+  all_good?(chosen) { |claims| answer_of(claims.name, claims.words) { claims.judge(BUILD) } } && complaints.empty?
 end
 
 # Whether the claims about assembly hold, what they are made by does what the chips'
@@ -148,11 +158,14 @@ end
 mode, *words = ARGV
 proofs = Proofs.all
 $stdout.sync = true
-exit(equivalent?(proofs, words) ? 0 : 1) if mode == 'equivalents'
 exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
 if mode == 'assembly'
   REMEMBERED = remembered(Assembly::INPUTS, [*%w[avr-gcc avr-objdump gpdasm].flat_map { |name| Inputs.tool(name) }, *Inputs.sdcc])
   exit(assembly_proved?(words) ? 0 : 1)
+end
+if mode == 'equivalents'
+  REMEMBERED = remembered([*INPUTS, Equivalents::FILE])
+  exit(equivalent?(proofs, words) ? 0 : 1)
 end
 chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
 if chosen.empty?
@@ -165,6 +178,7 @@ if mode == 'list'
 end
 
 REMEMBERED = remembered
+exit(needed?(proofs, words) ? 0 : 1) if mode == 'claims'
 if mode == 'coverage'
   chosen = proofs.select { |proof| (words - [proof.group, proof.form]).empty? }
   abort "FAILED no form has these words in its name: #{words.join(' ')}" if chosen.empty?

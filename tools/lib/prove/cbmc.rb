@@ -13,7 +13,7 @@ class Cbmc
   COMPOSED_MOST = 600
   MEGABYTES_MOST = 1024
   CHECKS = %w[--bounds-check --pointer-check --pointer-overflow-check --signed-overflow-check --div-by-zero-check
-              --undefined-shift-check --unwind 200 --unwinding-assertions --stop-on-fail --drop-unused-functions].freeze
+              --undefined-shift-check --unwind 200 --unwinding-assertions --drop-unused-functions].freeze
   ITS_END = 'its end'.freeze
   TICKS = 100.0 # a second; the kernel's for /proc
 
@@ -27,7 +27,22 @@ class Cbmc
 
   def run
     program = compile or return Answer.new(:none, "it does not compile\n#{@said}")
-    ask(program)
+    ask(program, '--stop-on-fail')
+  end
+
+  # The names of all properties that fail; nil without an answer.
+  def failing
+    program = compile or return
+    return if ask(program).verdict == :none
+
+    @said.scan(/^\[(\S+)\] .*: FAILURE$/).flatten
+  end
+
+  # name => text of each assertion of its harness.
+  def properties
+    program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
+    tool('cbmc', program, '--show-properties', '--no-standard-checks', '--drop-unused-functions') or abort "prove: #{@proof.name}: #{@said}"
+    @said.scan(%r{^Property (\S+\.assertion\.\d+):\n  file (?:\./)?#{FOLDER}/.*\n  (.*)$}).to_h
   end
 
   # The functions that the proof comes to.
@@ -122,12 +137,12 @@ class Cbmc
     program
   end
 
-  def ask(program)
+  def ask(program, *options)
     output = "#{@folder}/output.txt"
-    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *@options, in: File::NULL, %i[out err] => output,
+    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *options, *@options, in: File::NULL, %i[out err] => output,
                             rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
     status = watch(process)
-    judge(File.read(output), status)
+    judge(@said = File.read(output), status)
   end
 
   # Waits for its end; the last looks at /proc are what it took.

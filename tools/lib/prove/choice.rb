@@ -115,8 +115,6 @@ class Choice
   def candidates(file, function)
     keys = EquivalentMutants.keys(Breaks.of(file), Seeded.lines(file).join)
     named = keys.select { |mutant, key| Seeded.functions(file)[mutant.line - 1] == function && !@equivalents.cover?(key) }
-    shuffled = named.sort_by { |_, key| Digest::SHA256.hexdigest(key) }
-    shuffled.group_by { |mutant, _| mutant.line }.values.flat_map { |of_line| of_line.each_with_index.to_a }
-            .sort_by { |(_, key), round| [round, Digest::SHA256.hexdigest(key)] }.map(&:first)
+    Seeded.shuffled(named)
   end
 end

@@ -47,6 +47,13 @@ module Seeded
     FileUtils.rm_rf(tree)
   end
 
+  # [mutant, name] in an order that is always the same: one of each line before the
+  # second ones.
+  def shuffled(named)
+    named.sort_by { |_, key| Digest::SHA256.hexdigest(key) }.group_by { |mutant, _| [mutant.file, mutant.line] }.values
+         .flat_map { |of_line| of_line.each_with_index.to_a }.sort_by { |(_, key), round| [round, Digest::SHA256.hexdigest(key)] }.map(&:first)
+  end
+
   # Of each row `proof MODULE FORM WHAT: ...`.
   def all(proofs)
     Faults.of('proof').map do |fault|

@@ -288,3 +288,14 @@ part_prove() {
     count 'tools/prove --eva' '^ok ' '^FAILED ' tools/prove --eva
     count 'tools/prove --assembly' '^ok ' '^FAILED ' tools/prove --assembly
 }
+
+# What a machine proves of the breaks that nobody need notice.
+part_excuses() {
+    need ruby cc:gcc
+    count 'tools/prove --equivalents' '^ok ' '^FAILED ' tools/prove --equivalents
+}
+
+part_claims() {
+    need ruby cc:gcc
+    count 'tools/prove --claims' '^ok ' '^FAILED ' tools/prove --claims
+}

@@ -2,6 +2,8 @@
 # The table of docs/assurance.md: what is claimed, how it is known, of how much, and
 # the command that shows it. What can be counted is counted here.
 require_relative '../../prove/assembly'
+require_relative '../../prove/claims'
+require_relative '../../prove/equivalents'
 require_relative '../../prove/seeded'
 require_relative '../../demo/plot'
 require_relative '../../demo/random_plants'
@@ -67,6 +69,12 @@ module Assurance
   def beside_the_proofs
     [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved, a claim or an end', 'each form with all features; claims and ends in all',
                '`tools/prove --coverage`'),
+     Claim.new('tested', 'each claim of a proof is needed: some break makes it fail, and nothing else', 'all proofs but ' \
+               "#{Claims::NOT_ASKED.join(', ')}, of which nobody has asked; but for #{Claims.pinned.size} claims that are listed with their reasons",
+               '`tools/prove --claims`'),
+     Claim.new('proved', 'breaks that are said to change nothing change nothing that is proved',
+               "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, and #{rows_of(Equivalents::ARGUED)} that are argued",
+               '`tools/prove --equivalents`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`'),
      by_model]

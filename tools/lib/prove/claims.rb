@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+# Whether each claim of a proof is needed.
+require_relative '../faults/breaks'
+require_relative '../faults/equivalents'
+require_relative 'cbmc'
+require_relative 'equivalents'
+require_relative 'proofs'
+require_relative 'seeded'
+
+# A claim is needed if some break makes it fail and nothing else of the proof: without
+# the claim that break is unnoticed. The proof's breaks of test/faults.txt are tried, and as
+# many as are allowed of those that a machine draws, always the same ones. A claim that none
+# of them needs stands in unneeded.txt, below the reason, as PROOF: CLAIM.
+class Claims
+  FILE = "#{FOLDER}/unneeded.txt".freeze
+  NOT_ASKED = ['an937 step', 'autotune', 'model', 'pid', 'record', 'table', 'theorems'].freeze # unless a word names the group
+  DRAWN_MOST = 40
+  SECONDS = 20 # for one that is drawn
+  WORD = WORDS.first
+
+  # The other properties that fail with a break.
+  Failure = Struct.new(:others, :broken) do
+    def alone?
+      others.empty?
+    end
+  end
+
+  # The first form of each proof that is asked.
+  def self.chosen(proofs, words, breaks)
+    asked = proofs.select { |proof| proof.word == WORD && !proof.exhausted? && (words.include?(proof.group) || !left_out?(proof)) }
+    asked.uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
+         .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
+  end
+
+  def self.left_out?(proof)
+    NOT_ASKED.include?(proof.group) || NOT_ASKED.include?("#{proof.group} #{proof.what}")
+  end
+
+  # [proof, claim] of each line.
+  def self.pinned
+    @pinned ||= File.readlines(FILE, chomp: true).grep_v(/\A(?:#|\s*\z)/).map { |line| line.split(': ', 2) }
+  end
+
+  # The lines that name none of the proofs.
+  def self.complaints(proofs)
+    names = proofs.select { |proof| proof.word == WORD }.map { |proof| proof.name.delete_suffix(" #{WORD}") }
+    pinned.reject { |name, _| names.include?(name) }.map { |name, _| "#{FILE}: no proof is named #{name}" }
+  end
+
+  def initialize(proof, breaks)
+    @proof = proof
+    @breaks = breaks
+  end
+
+  def name
+    "#{@proof.name} needs its claims"
+  end
+
+  # What the answer depends on beside the sources and the proofs.
+  def words
+    [@proof.options, @breaks.map(&:source), File.read(Equivalents::FILE)]
+  end
+
+  # Whether they are, and what to print of each, or of those that are not.
+  def judge(build)
+    claims = named(Cbmc.new(@proof, build).properties)
+    found = failures(claims, build)
+    needless = claims.reject { |property, _| found[property]&.alone? }
+    wrong = needless.reject { |_, claim| pinned.include?(claim) }.map { |property, claim| "no break needs: #{claim}: #{why(found[property], claims)}" } +
+            (pinned - needless.values).map { |claim| "#{FILE}: no longer true: #{claim}" }
+    good = claims.map { |property, claim| "#{claim}: #{needless.key?(property) ? "unneeded, as #{FILE} says" : found[property].broken}" }
+    [wrong.empty?, (wrong.empty? ? good : wrong).map { |line| "#{pinned_name}: #{line}" }]
+  end
+
+  private
+
+  def pinned_name
+    @proof.name.delete_suffix(" #{WORD}")
+  end
+
+  def pinned
+    Claims.pinned.select { |name, _| name == pinned_name }.map(&:last)
+  end
+
+  # Of properties with their texts those that are claims, with names that differ.
+  def named(properties)
+    claims = properties.reject { |_, text| text.start_with?('pre: ') }.to_a
+    claims.group_by(&:last).values.flat_map do |alike|
+      alike.each_with_index.map { |(property, text), at| [property, alike.size == 1 ? text : "#{text} (#{at + 1} of #{alike.size})"] }
+    end.to_h
+  end
+
+  def why(failure, claims)
+    return 'none makes it fail' unless failure
+
+    "where it fails, others do: #{failure.others.map { |other| claims.fetch(other, other) }.join('; ')}: #{failure.broken}"
+  end
+
+  # For each claim that fails with a break, the first of those with which the fewest others do.
+  def failures(claims, build)
+    found = {}
+    tried(build).each do |name, file, source, seconds|
+      break if claims.keys.all? { |property| found[property]&.alone? }
+
+      failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, seconds).failing }
+      failing&.each do |property|
+        found[property] = Failure.new(failing - [property], name) unless found.key?(property) && found[property].others.size < failing.size
+      end
+    end
+    found
+  end
+
+  # Names, files, sources, and for how long each is tried if that is limited.
+  def tried(build)
+    @breaks.map { |broken| [broken.words, broken.file, broken.source] } + drawn(build).first(DRAWN_MOST)
+  end
+
+  def drawn(build)
+    functions = [nil, *Cbmc.new(@proof, build).functions]
+    equivalents = EquivalentMutants.new(Equivalents::FILE)
+    keys = Proofs.sources(@proof).grep(%r{\Asrc/}).flat_map do |file|
+      EquivalentMutants.keys(Breaks.of(file), File.read(file)).to_a.select do |mutant, key|
+        functions.include?(Seeded.functions(file)[mutant.line - 1]) && !equivalents.cover?(key)
+      end
+    end
+    Seeded.shuffled(keys).map { |mutant, key| [key, mutant.file, mutant.source, SECONDS] }
+  end
+end
