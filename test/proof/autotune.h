@@ -194,7 +194,7 @@ struct part {
 };
 
 static struct part noise_part, sum_part, turn_part, relay_part, end_part,
-    lost_part;
+    lost_part, centre_part, alike_part;
 
 static void take_part(struct part *part, struct fixpid_autotune *self,
                       number deviation)
@@ -321,7 +321,7 @@ static unsigned verdict_of(const struct fixpid_autotune *x)
                : FIXPID_AUTOTUNE_DONE;
 }
 
-static bool any_is_alike; // what a proof needs of it, if it needs no more
+static bool alike; // what the open part said
 
 // The cycle is like the one before it, or in the third phase, as long at high
 // as those of the first.
@@ -331,8 +331,12 @@ static bool is_alike(const struct fixpid_autotune *x, number before)
     const number others = (number)x->config.cycles + x->averaged;
     const number on = period - x->elapsed;
 
-    if (any_is_alike) {
-        return nondet_bool();
+    alike_part.due = true;
+    alike_part.deviation = before;
+    alike_part.before = *x;
+    if (alike_part.open) {
+        alike = nondet_bool();
+        return alike;
     }
     if (x->state != IN_THIRD) {
         return size_of(period - before) <= floor_by(period, 3) + 1;
@@ -362,26 +366,15 @@ static void relay_complete(struct fixpid_autotune *x)
     x->state++;
 }
 
-// What recentre makes of the last cycle: recentre's proof says which functions
-// they are.
-int16_t __CPROVER_uninterpreted_centre(uint8_t state, int16_t centre,
-                                       uint16_t half, int16_t highest,
-                                       int16_t lowest);
-uint16_t __CPROVER_uninterpreted_half(uint8_t state, int16_t centre,
-                                      uint16_t half, int16_t highest,
-                                      int16_t lowest);
-
+// What recentre makes of the last cycle: its proof says which relay it is.
 static void some_relay(struct fixpid_autotune *x)
 {
-    const int16_t centre = __CPROVER_uninterpreted_centre(
-        x->state, x->centre, x->half, x->highest, x->lowest);
-    const uint16_t half = __CPROVER_uninterpreted_half(
-        x->state, x->centre, x->half, x->highest, x->lowest);
-
-    assume(inside(centre, x->config.output_min, x->config.output_max));
-    assume(inside(half, 2, 21759));
-    x->centre = centre;
-    x->half = half;
+    (void)begin(&centre_part, x, 0);
+    x->centre = nondet_int16();
+    x->half = nondet_uint16();
+    assume(inside(x->centre, x->config.output_min, x->config.output_max));
+    assume(inside(x->half, 2, 21759));
+    end(&centre_part, x);
 }
 
 static void cycle_as_defined(struct fixpid_autotune *x)
@@ -588,8 +581,9 @@ static bool ready_to_end(const struct fixpid_autotune *x, number deviation)
     return is_deviation(deviation) && legal_config(&x->config) &&
            inside(x->state, IN_FIND, IN_THIRD) && sound_relay(x) &&
            (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
-           inside(x->seen, 0, 55) && is_deviation(x->highest) &&
-           is_deviation(x->lowest) && (x->lowest <= x->highest) &&
+           (x->side <= HIGH_SIDE) && inside(x->seen, 0, 55) &&
+           is_deviation(x->highest) && is_deviation(x->lowest) &&
+           (x->lowest <= x->highest) &&
            (fresh(x) ||
             ((x->averaged < (finding ? 1 : cycles)) &&
              (x->period >= x->elapsed) && ((number)x->highest > x->edge) &&

@@ -27,18 +27,25 @@ void prove_level(void)
     claim_same(&c, &was);
 }
 
-// floor(256 part / whole), from what is left of 256 part: its bits, the highest
-// first.
+// floor(256 part / whole), bit by bit: the quotient's highest bits are those
+// for which the rest is 0 or more, and below the whole. The last rest is 256
+// part - quotient * whole.
 void prove_share(void)
 {
     const uint16_t part = nondet_uint16();
     const uint16_t whole = nondet_uint16();
-    number quotient;
+    number rest = part;
+    unsigned quotient;
 
     assume(part < whole);
     quotient = share(part, whole);
-    claim(
-        inside(((number)part << 8) - (quotient * whole), 0, (number)whole - 1));
+    for (unsigned bit = 8; bit-- > 0u;) {
+        rest += rest;
+        if (((quotient >> bit) & 1u) != 0u) {
+            rest -= whole;
+        }
+        claim(inside(rest, 0, (number)whole - 1));
+    }
 }
 
 // The same for the same, and no more is known of it.
@@ -54,20 +61,21 @@ uint8_t share_contract(uint16_t part, uint16_t whole)
 // at most the one seen; then by the share that it is of it.
 static number amplitude_of(number wanted, number over, number relay)
 {
-    number amplitude = 131072;
-    number times = 0;
+    uint32_t amplitude;
+    uint8_t part;
 
-    while (floor_by(wanted, (unsigned)times) > over) {
-        times++;
+    for (unsigned times = 0; times < 15u; times++) { // 36864 to 1
+        if (wanted > over) {
+            wanted = floor_by(wanted, 1);
+            relay += relay;
+        }
     }
-    amplitude = lesser(relay << times, amplitude);
-    wanted = floor_by(wanted, (unsigned)times);
+    amplitude = (uint32_t)lesser(relay, 131072);
     if (wanted == over) {
         return amplitude;
     }
-    return floor_by(amplitude * __CPROVER_uninterpreted_share((uint16_t)wanted,
-                                                              (uint16_t)over),
-                    8);
+    part = __CPROVER_uninterpreted_share((uint16_t)wanted, (uint16_t)over);
+    return (amplitude * part) >> 8;
 }
 
 // By contract: share.
@@ -93,8 +101,36 @@ uint32_t amplitude_for_contract(uint16_t wanted, uint16_t over, uint16_t relay)
     return __CPROVER_uninterpreted_amplitude(wanted, over, relay);
 }
 
+void prove_counts(void)
+{
+    const uint16_t counts = nondet_uint16();
+    const uint8_t part = nondet_uint8();
+
+    claim(counts_of(counts, part) == ((((uint32_t)counts * part) + 128u) >> 8));
+    claim(counts_of(counts, part) <= counts);
+}
+
+uint16_t __CPROVER_uninterpreted_counts(uint16_t counts, uint8_t part);
+
+uint16_t counts_of_contract(uint16_t counts, uint8_t part)
+{
+    const uint16_t found = __CPROVER_uninterpreted_counts(counts, part);
+
+    assume(found <= counts);
+    return found;
+}
+
+// It has switched on both sides.
+static bool ready_to_recentre(const struct fixpid_autotune *x)
+{
+    return legal_config(&x->config) && inside(x->state, IN_FIND, IN_CENTRE) &&
+           sound_relay(x) && (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
+           is_deviation(x->highest) && is_deviation(x->lowest) &&
+           ((number)x->highest > x->edge) && (x->lowest < -(number)x->edge);
+}
+
 // Where the setpoint cuts the overshoot, the output that holds it cuts the
-// relay. By contract: share, amplitude_for.
+// relay. By contract: share, amplitude_for, counts_of.
 void prove_recentre(void)
 {
     struct fixpid_autotune defined;
@@ -103,13 +139,11 @@ void prove_recentre(void)
     number below;
     number over;
     number wanted;
-    number part;
+    uint8_t part;
     number amplitude;
 
     c = nondet_autotune();
-    assume(inside(c.state, IN_FIND, IN_CENTRE));
-    assume(ready_to_end(&c, 0));
-    assume(!fresh(&c));
+    assume(ready_to_recentre(&c));
     defined = c;
     low = low_output(&c, c.state);
     relay = high_output(&c, c.state) - low;
@@ -118,7 +152,7 @@ void prove_recentre(void)
     wanted = swing_wanted(&c);
     wanted = (wanted < 2 * (number)c.edge) ? c.edge : (wanted - c.edge);
     part = __CPROVER_uninterpreted_share((uint16_t)below, (uint16_t)over);
-    defined.centre = signed16(low + floor_by((relay * part) + 128, 8));
+    defined.centre = signed16(low + counts_of_contract((uint16_t)relay, part));
     amplitude = lesser(__CPROVER_uninterpreted_amplitude(
                            (uint16_t)wanted, (uint16_t)over, (uint16_t)relay),
                        (number)c.config.output_max - c.config.output_min);
@@ -132,12 +166,38 @@ void prove_recentre(void)
 
 void recentre_contract(struct fixpid_autotune *self)
 {
-    pre(inside(self->state, IN_FIND, IN_CENTRE));
-    pre(ready_to_end(self, 0));
-    some_relay(self);
+    pre(ready_to_recentre(self));
+    take_part(&centre_part, self, 0);
 }
 
-// By contract: recentre.
+// In the third phase the cycle is in the sums, and has a half at high.
+static bool ready_to_compare(const struct fixpid_autotune *x)
+{
+    return inside(x->state, IN_FIRST, IN_THIRD) &&
+           inside(x->config.cycles, 1, 4) && (x->averaged < x->config.cycles) &&
+           (x->last_period >= x->elapsed);
+}
+
+void prove_alike(void)
+{
+    const uint16_t before = nondet_uint16();
+
+    c = nondet_autotune();
+    assume(ready_to_compare(&c));
+    claim(regular(&c, before) == is_alike(&c, before));
+}
+
+bool regular_contract(const struct fixpid_autotune *self, uint16_t before)
+{
+    struct fixpid_autotune same = *self;
+
+    pre(ready_to_compare(self));
+    alike_part.after = same;
+    take_part(&alike_part, &same, before);
+    return alike;
+}
+
+// By contract: recentre, regular.
 void prove_cycle(void)
 {
     const int16_t deviation = nondet_int16();
@@ -146,9 +206,11 @@ void prove_cycle(void)
     c = nondet_autotune();
     assume(ready_to_end(&c, deviation));
     defined = c;
+    alike_part.open = true;
     end_as_defined(&defined, deviation);
     fixpid_autotune_end_cycle(&c, deviation);
     claim_same(&c, &defined);
+    claim(!centre_part.due && !alike_part.due);
 }
 
 void prove_lost(void)

@@ -164,19 +164,6 @@ void prove_step(void)
     claim(out == clamp(c.output, c.config.output_min, c.config.output_max));
 }
 
-// How many steps at most a running experiment goes on for. A half takes so many
-// at most as timeout_steps says, and losing the swing one half more.
-static number left_of(const struct fixpid_autotune *x)
-{
-    const number most = (number)x->config.timeout_steps - 1;
-    const number halves = (2 * greater(48 - x->seen, 1)) -
-                          ((x->side == LOW_SIDE) ? 1 : 0) +
-                          ((x->seen < 48u) ? 1 : 0);
-
-    return (x->state == IN_NOISE) ? (35 - (number)x->elapsed + (97 * most))
-                                  : (1 - (number)x->elapsed + (halves * most));
-}
-
 // An experiment stays one. By contract: measure_noise, step_relay.
 void prove_kept(void)
 {
@@ -186,25 +173,42 @@ void prove_kept(void)
     c = nondet_autotune();
     assume(sound(&c));
     assume(c.state >= IN_NOISE);
-    any_is_alike = true;
+    alike_part.open = true;
     step_as_defined(&c, setpoint, measurement);
     claim(sound(&c));
 }
 
-// Each step is one less. By contract: measure_noise, step_relay.
+// The halves of cycles that are left. Losing the swing costs half a cycle once,
+// as what it was in of a half is lost, too.
+static number halves_left(const struct fixpid_autotune *x)
+{
+    return (2 * greater(48 - x->seen, 1)) -
+           (((x->state != IN_NOISE) && (x->side == LOW_SIDE)) ? 1 : 0) +
+           ((x->seen < 48u) ? 1 : 0);
+}
+
+// It ends within 34 + 97 timeout_steps steps: after the noise there are 97
+// halves at most, and each step of a half is one of timeout_steps. By contract:
+// measure_noise, step_relay.
 void prove_ends(void)
 {
     const int16_t setpoint = nondet_int16();
     const int16_t measurement = nondet_int16();
-    number before;
+    struct fixpid_autotune was;
 
     c = nondet_autotune();
     assume(sound(&c));
     assume(c.state >= IN_NOISE);
-    any_is_alike = true;
-    before = left_of(&c);
+    alike_part.open = true;
+    was = c;
     step_as_defined(&c, setpoint, measurement);
-    if (c.state >= IN_NOISE) {
-        claim(left_of(&c) < before);
+    claim(inside(halves_left(&was), 1, 97));
+    if ((c.state >= IN_NOISE) && (halves_left(&c) == halves_left(&was)) &&
+        (c.state == was.state)) {
+        claim(c.elapsed == (number)was.elapsed + 1);
+        claim(c.elapsed <= c.config.timeout_steps);
+    } else if ((c.state >= IN_NOISE) && (was.state != IN_NOISE)) {
+        claim(halves_left(&c) < halves_left(&was));
+        claim(c.elapsed == 1u);
     }
 }
