@@ -341,8 +341,10 @@ static bool is_alike(const struct fixpid_autotune *x, number before)
     if (x->state != IN_THIRD) {
         return size_of(period - before) <= floor_by(period, 3) + 1;
     }
-    return size_of((on * (others + 1)) - x->sums[0].on_steps) <=
-           others * (floor_by(period, 5) + 1);
+    // A solver is slow at products of other widths than the code's.
+    return size_of((number)((uint32_t)(others + 1) * (uint16_t)on) -
+                   x->sums[0].on_steps) <=
+           (uint32_t)others * (uint16_t)(floor_by(period, 5) + 1);
 }
 
 static void relay_complete(struct fixpid_autotune *x)

@@ -169,12 +169,15 @@ void prove_kept(void)
 {
     const int16_t setpoint = nondet_int16();
     const int16_t measurement = nondet_int16();
+    struct fixpid_autotune defined;
 
     c = nondet_autotune();
     assume(sound(&c));
     assume(c.state >= IN_NOISE);
     alike_part.open = true;
-    step_as_defined(&c, setpoint, measurement);
+    defined = c;
+    step_as_defined(&defined, setpoint, measurement);
+    (void)fixpid_autotune_step(&c, setpoint, measurement);
     claim(sound(&c));
 }
 
@@ -195,13 +198,16 @@ void prove_ends(void)
     const int16_t setpoint = nondet_int16();
     const int16_t measurement = nondet_int16();
     struct fixpid_autotune was;
+    struct fixpid_autotune defined;
 
     c = nondet_autotune();
     assume(sound(&c));
     assume(c.state >= IN_NOISE);
     alike_part.open = true;
     was = c;
-    step_as_defined(&c, setpoint, measurement);
+    defined = c;
+    step_as_defined(&defined, setpoint, measurement);
+    (void)fixpid_autotune_step(&c, setpoint, measurement);
     claim(inside(halves_left(&was), 1, 97));
     if ((c.state >= IN_NOISE) && (halves_left(&c) == halves_left(&was)) &&
         (c.state == was.state)) {
