@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // fixpid_autotune: its step is total, its output within its range, what is
-// final stays so, and a record is the experiment. What a cycle measures is
-// compared with a model by test/model/autotune, and the result is more
-// arithmetic than a solver takes.
+// final stays so, and a record is the experiment. What a step does is proved in
+// autotune_step.c and autotune_cycle.c, but for the quotients of a new centre
+// (unproved.txt); the result is for its model, test/model/autotune.
 #include "autotune.h"
 
 struct fixpid_autotune_stage nondet_stage(void);

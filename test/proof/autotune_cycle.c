@@ -46,17 +46,8 @@ uint32_t amplitude_for_contract(uint16_t wanted, uint16_t over, uint16_t relay)
     return __CPROVER_uninterpreted_amplitude(wanted, over, relay);
 }
 
-// D * share / 256, to the nearest.
-void prove_counts(void)
-{
-    const uint16_t counts = nondet_uint16();
-    const uint8_t part = nondet_uint8();
-
-    claim(counts_of(counts, part) == (((uint32_t)counts * part) + 128u) >> 8);
-}
-
-// At most counts: counts * 255 + 128 is below 256 (counts + 1). This is argued,
-// as a solver is slow at it.
+// D * share / 256, to the nearest: at most D, as D * 255 + 128 is below
+// 256 (D + 1). This is argued, as a solver is slow at it.
 uint16_t __CPROVER_uninterpreted_counts(uint16_t counts, uint8_t part);
 
 uint16_t counts_of_contract(uint16_t counts, uint8_t part)
