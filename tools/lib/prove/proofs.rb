@@ -40,7 +40,7 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
   end
 
   def harness
-    theorem? ? "#{FOLDER}/#{THEOREMS}/#{form}.c" : "#{FOLDER}/#{group}.c"
+    theorem? ? "#{FOLDER}/#{THEOREMS}/#{form}.c" : Proofs.harness(group, what)
   end
 
   def function
@@ -81,6 +81,13 @@ module Proofs
   def text(file)
     @texts ||= {}
     @texts[file] ||= File.read(file)
+  end
+
+  # The file with a proof: MODULE.c, or a part of it, MODULE_PART.c, which is no module.
+  def harness(group, what)
+    whole = "#{FOLDER}/#{group}.c"
+    parts = Dir["#{FOLDER}/#{group}_*.c"].sort - rows.map { |left,| "#{FOLDER}/#{left.split.first}.c" }
+    parts.find { |part| text(part).include?("void prove_#{what}(void)") } || whole
   end
 
   # The files that a harness is compiled from, in a form.

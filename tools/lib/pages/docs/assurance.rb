@@ -21,8 +21,8 @@ module Assurance
 
   # What is proved of a module of whose header a part is only tested: test/proof/unproved.txt.
   PARTLY = {
-    'autotune' => 'in part: init, progress and a record, as its header says; of a step only that it does nothing undefined and ' \
-                  'stays within the output range, whatever bytes the object holds',
+    'autotune' => 'in part: init, progress and a record, as its header says; a step as the definition says, by contracts of its parts, ' \
+                  'but for the quotients that find a new centre, and that it ends; not its result',
     'gains' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
     'table' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
     'tpo' => 'as its header says, the length of a pulse only in windows of at most 15 steps'

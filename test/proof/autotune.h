@@ -1,0 +1,624 @@
+// SPDX-License-Identifier: MIT
+// What the proofs of fixpid_autotune share: the definition of a step, in whole
+// numbers, and what an experiment can be.
+#ifndef PROOF_AUTOTUNE_H
+#define PROOF_AUTOTUNE_H
+#include "prove.h"
+
+#include "fixpid_autotune.h"
+
+struct fixpid_autotune c; // of any bytes, where a proof begins
+struct fixpid_autotune nondet_autotune(void);
+
+// `state` of an experiment that runs.
+enum {
+    IN_NOISE = 16,
+    IN_FIND,   // the whole range
+    IN_CENTRE, // smaller
+    IN_FIRST,  // lopsided up
+    IN_SECOND, // lopsided down
+    IN_THIRD   // lopsided up again
+};
+
+enum { LOW_SIDE, HIGH_SIDE };
+
+enum { FRESH_RELAY = 255 }; // `averaged` in a relay's first cycle
+
+enum { FARTHEST = 32767 }; // a deviation
+
+static number lesser(number a, number b)
+{
+    return (a < b) ? a : b;
+}
+
+static number greater(number a, number b)
+{
+    return (a > b) ? a : b;
+}
+
+static number size_of(number x)
+{
+    return (x < 0) ? -x : x;
+}
+
+// A number that is kept in 16 bits, which hold it.
+static uint16_t unsigned16(number x)
+{
+    claim(inside(x, 0, 65535));
+    return (uint16_t)x;
+}
+
+static int16_t signed16(number x)
+{
+    claim(inside(x, -32768, 32767));
+    return (int16_t)x;
+}
+
+static bool legal_config(const struct fixpid_autotune_kept *k)
+{
+    return (k->output_min < k->output_max) &&
+           inside(k->output_rest, k->output_min, k->output_max) &&
+           (k->measurement_min < k->measurement_max) &&
+           ((k->swing == 0u) || inside(k->swing, 8, 16383)) &&
+           inside(k->timeout_steps, 2, 32767) && inside(k->cycles, 1, 4);
+}
+
+// Reverse or not, by whichever bits.
+static bool same_config(const struct fixpid_autotune_kept *a,
+                        const struct fixpid_autotune_kept *b)
+{
+    return (a->output_min == b->output_min) &&
+           (a->output_max == b->output_max) &&
+           (a->output_rest == b->output_rest) &&
+           (a->measurement_min == b->measurement_min) &&
+           (a->measurement_max == b->measurement_max) &&
+           (a->swing == b->swing) && (a->timeout_steps == b->timeout_steps) &&
+           (a->cycles == b->cycles) &&
+           ((a->reverse != 0u) == (b->reverse != 0u));
+}
+
+static bool equal_sums(const struct fixpid_autotune_sums *a,
+                       const struct fixpid_autotune_sums *b)
+{
+    return (a->all == b->all) && (a->on == b->on) && (a->rise == b->rise) &&
+           (a->steps == b->steps) && (a->on_steps == b->on_steps);
+}
+
+static void claim_same(const struct fixpid_autotune *a,
+                       const struct fixpid_autotune *b)
+{
+    claim(a->state == b->state);
+    claim(a->side == b->side);
+    claim(a->seen == b->seen);
+    claim(a->averaged == b->averaged);
+    claim(a->output == b->output);
+    claim(a->elapsed == b->elapsed);
+    claim(a->period == b->period);
+    claim(a->last_period == b->last_period);
+    claim((a->highest == b->highest) && (a->lowest == b->lowest));
+    claim(a->noise == b->noise);
+    claim(a->edge == b->edge);
+    claim((a->centre == b->centre) && (a->half == b->half));
+    claim(a->first_on == b->first_on);
+    claim(same_config(&a->config, &b->config));
+    claim(equal_sums(&a->sums[0], &b->sums[0]));
+    claim(equal_sums(&a->sums[1], &b->sums[1]));
+}
+
+// ---- The noise and the relays ----
+
+// What the noise asks for as hysteresis: 3 standard deviations and 1.
+static number asked_by_noise(const struct fixpid_autotune *x)
+{
+    return 1 + floor_by(x->noise + floor_by(x->noise, 1) + 16, 5);
+}
+
+static number swing_wanted(const struct fixpid_autotune *x)
+{
+    return (x->config.swing == 0u) ? (24 * asked_by_noise(x)) : x->config.swing;
+}
+
+// 3/16 of the wanted swing, and what the noise asks for at least.
+static number hysteresis_of(const struct fixpid_autotune *x)
+{
+    const number wanted = swing_wanted(x);
+
+    return greater(asked_by_noise(x),
+                   floor_by(wanted, 3) + floor_by(wanted, 4));
+}
+
+// How far below its centre the relay of a phase goes, and how far above.
+static number far_below(const struct fixpid_autotune *x, unsigned phase)
+{
+    return (phase == IN_CENTRE)   ? (x->half + floor_by(x->half, 1))
+           : (phase == IN_SECOND) ? (2 * (number)x->half)
+                                  : x->half;
+}
+
+static number far_above(const struct fixpid_autotune *x, unsigned phase)
+{
+    return (phase == IN_CENTRE)   ? (x->half + floor_by(x->half, 1))
+           : (phase == IN_SECOND) ? x->half
+                                  : (2 * (number)x->half);
+}
+
+static number low_output(const struct fixpid_autotune *x, unsigned phase)
+{
+    return (phase == IN_FIND)
+               ? x->config.output_min
+               : greater(x->centre - far_below(x, phase), x->config.output_min);
+}
+
+static number high_output(const struct fixpid_autotune *x, unsigned phase)
+{
+    return (phase == IN_FIND)
+               ? x->config.output_max
+               : lesser(x->centre + far_above(x, phase), x->config.output_max);
+}
+
+// The output at rest, or the one of phase and side.
+static number output_of(const struct fixpid_autotune *x)
+{
+    if (x->state <= IN_NOISE) {
+        return x->config.output_rest;
+    }
+    return (x->side == HIGH_SIDE) ? high_output(x, x->state)
+                                  : low_output(x, x->state);
+}
+
+static void output_as_defined(struct fixpid_autotune *x)
+{
+    x->output = signed16(output_of(x));
+}
+
+// A relay that has a centre has it in the output range.
+static bool sound_relay(const struct fixpid_autotune *x)
+{
+    return (x->config.output_min < x->config.output_max) &&
+           ((x->state == IN_FIND) ||
+            (inside(x->half, 2, 21759) &&
+             inside(x->centre, x->config.output_min, x->config.output_max)));
+}
+
+// ---- A step ----
+
+// What the definition hands to a part and what the part makes of it. Where the
+// code comes to that part, it must hand the same to it, and gets the same. What
+// an open part makes of it is anything.
+struct part {
+    bool open;
+    bool due;
+    number deviation;
+    struct fixpid_autotune before;
+    struct fixpid_autotune after;
+};
+
+static struct part noise_part, sum_part, turn_part, relay_part, end_part,
+    lost_part, centre_part, alike_part;
+
+static void take_part(struct part *part, struct fixpid_autotune *self,
+                      number deviation)
+{
+    claim(part->due);
+    claim(part->deviation == deviation);
+    claim_same(self, &part->before);
+    *self = part->after;
+    part->due = false;
+}
+
+// Whether nothing is left to do.
+static bool begin(struct part *part, struct fixpid_autotune *x,
+                  number deviation)
+{
+    part->due = true;
+    part->deviation = deviation;
+    part->before = *x;
+    if (part->open) {
+        const struct fixpid_autotune_kept config = x->config;
+
+        *x = nondet_autotune();
+        x->config = config;
+        part->after = *x;
+    }
+    return part->open;
+}
+
+static void end(struct part *part, const struct fixpid_autotune *x)
+{
+    part->after = *x;
+}
+
+static void over_as_defined(struct fixpid_autotune *x, unsigned status)
+{
+    x->state = (uint8_t)status;
+    output_as_defined(x);
+}
+
+static void noise_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    const number bend =
+        size_of(deviation - (2 * (number)x->highest) + x->lowest);
+
+    if (begin(&noise_part, x, deviation)) {
+        return;
+    }
+    x->elapsed++;
+    x->lowest = x->highest;
+    x->highest = signed16(deviation);
+    if (x->elapsed > 2) {
+        x->noise = unsigned16(x->noise + lesser(bend, 1023));
+    }
+    if (x->elapsed == 34) {
+        x->state = IN_FIND;
+        x->side = (deviation <= 0) ? HIGH_SIDE : LOW_SIDE;
+        x->elapsed = 0;
+        x->lowest = x->highest;
+        x->edge = unsigned16(hysteresis_of(x));
+        output_as_defined(x);
+    }
+    end(&noise_part, x);
+}
+
+static struct fixpid_autotune_sums *sums_now(struct fixpid_autotune *x)
+{
+    return &x->sums[(x->state == IN_SECOND) ? 1 : 0];
+}
+
+static void sum_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    struct fixpid_autotune_sums *const sums = sums_now(x);
+    const number turn = clamp(deviation, -2047, 2047);
+    const bool high = x->side == HIGH_SIDE;
+
+    (void)begin(&sum_part, x, deviation);
+    sums->all = (int32_t)(sums->all + deviation);
+    sums->on = (int32_t)(sums->on + (high ? deviation : 0));
+    sums->steps = unsigned16((number)sums->steps + 1);
+    sums->on_steps = unsigned16((number)sums->on_steps + (high ? 1 : 0));
+    if (x->elapsed == 1u) {
+        sums->rise = signed16(sums->rise + (high ? -turn : turn));
+    }
+    if (sums->steps == 32767u) {
+        over_as_defined(x, FIXPID_AUTOTUNE_TOO_SLOW);
+    }
+    end(&sum_part, x);
+}
+
+static void clear_as_defined(struct fixpid_autotune_sums *sums)
+{
+    const struct fixpid_autotune_sums none = {0};
+
+    *sums = none;
+}
+
+// The load moved, or a cycle is unlike the others.
+static void again_as_defined(struct fixpid_autotune *x)
+{
+    if (x->state == IN_THIRD) {
+        x->state = IN_FIRST;
+    }
+    clear_as_defined(sums_now(x));
+    x->averaged = 0;
+}
+
+static bool short_half(const struct fixpid_autotune_sums *sums)
+{
+    const number off_steps = (number)sums->steps - sums->on_steps;
+
+    return lesser(sums->on_steps, off_steps) < floor_by(sums->steps, 3);
+}
+
+static unsigned verdict_of(const struct fixpid_autotune *x)
+{
+    if (short_half(&x->sums[0]) || short_half(&x->sums[1])) {
+        return FIXPID_AUTOTUNE_IRREGULAR;
+    }
+    if (x->last_period < 10u) {
+        return FIXPID_AUTOTUNE_TOO_FAST;
+    }
+    return ((number)x->highest - x->lowest < 5 * asked_by_noise(x))
+               ? FIXPID_AUTOTUNE_TOO_SMALL
+               : FIXPID_AUTOTUNE_DONE;
+}
+
+static bool alike; // what the open part said
+
+// The cycle is like the one before it, or in the third phase, as long at high
+// as those of the first.
+static bool is_alike(const struct fixpid_autotune *x, number before)
+{
+    const number period = x->last_period;
+    const number others = (number)x->config.cycles + x->averaged;
+    const number on = period - x->elapsed;
+
+    alike_part.due = true;
+    alike_part.deviation = before;
+    alike_part.before = *x;
+    if (alike_part.open) {
+        alike = nondet_bool();
+        return alike;
+    }
+    if (x->state != IN_THIRD) {
+        return size_of(period - before) <= floor_by(period, 3) + 1;
+    }
+    // A solver is slow at products of other widths than the code's.
+    return size_of((number)((uint32_t)(others + 1) * (uint16_t)on) -
+                   x->sums[0].on_steps) <=
+           (uint32_t)others * (uint16_t)(floor_by(period, 5) + 1);
+}
+
+static void relay_complete(struct fixpid_autotune *x)
+{
+    if (x->state == IN_THIRD) {
+        const number on_apart =
+            size_of((number)x->sums[0].on_steps - (2 * (number)x->first_on));
+
+        if (on_apart <= floor_by(x->sums[0].steps, 7) + 2) {
+            over_as_defined(x, verdict_of(x));
+        } else {
+            again_as_defined(x);
+        }
+        return;
+    }
+    if (x->state == IN_FIRST) {
+        x->first_on = x->sums[0].on_steps;
+        clear_as_defined(&x->sums[1]);
+    }
+    x->averaged = FRESH_RELAY;
+    x->state++;
+}
+
+// What recentre makes of the last cycle: its proof says which relay it is.
+static void some_relay(struct fixpid_autotune *x)
+{
+    (void)begin(&centre_part, x, 0);
+    x->centre = nondet_int16();
+    x->half = nondet_uint16();
+    assume(inside(x->centre, x->config.output_min, x->config.output_max));
+    assume(inside(x->half, 2, 21759));
+    end(&centre_part, x);
+}
+
+static void cycle_as_defined(struct fixpid_autotune *x)
+{
+    const number before = x->last_period;
+
+    x->last_period = x->period;
+    x->period = 0;
+    x->seen++;
+    if (x->seen >= 48u) {
+        over_as_defined(x, FIXPID_AUTOTUNE_IRREGULAR);
+    } else if (x->averaged == FRESH_RELAY) {
+        x->averaged = 0;
+    } else if (x->state <= IN_CENTRE) {
+        some_relay(x);
+        if (x->state == IN_CENTRE) {
+            clear_as_defined(&x->sums[0]);
+        }
+        x->state++;
+        x->averaged = FRESH_RELAY;
+    } else if (!is_alike(x, before)) {
+        again_as_defined(x);
+    } else {
+        x->averaged++;
+        if (x->averaged == x->config.cycles) {
+            relay_complete(x);
+        }
+    }
+}
+
+// After the switch to high.
+static void end_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    (void)begin(&end_part, x, deviation);
+    cycle_as_defined(x);
+    x->elapsed = 0;
+    if (x->state >= IN_NOISE) {
+        x->highest = signed16(deviation);
+        x->lowest = signed16(deviation);
+        output_as_defined(x);
+    }
+    end(&end_part, x);
+}
+
+static void turn_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    if (begin(&turn_part, x, deviation)) {
+        return;
+    }
+    if ((x->side == HIGH_SIDE) && (deviation > x->edge)) {
+        x->side = LOW_SIDE;
+        x->elapsed = 0;
+        output_as_defined(x);
+    } else if ((x->side == LOW_SIDE) && (deviation < -(number)x->edge)) {
+        x->side = HIGH_SIDE;
+        end_as_defined(x, deviation);
+    }
+    x->elapsed = unsigned16((number)x->elapsed + 1);
+    end(&turn_part, x);
+}
+
+static void lost_as_defined(struct fixpid_autotune *x)
+{
+    (void)begin(&lost_part, x, 0);
+    clear_as_defined(&x->sums[0]);
+    x->state = IN_FIND;
+    x->averaged = FRESH_RELAY;
+    x->period = 0;
+    x->elapsed = 1;
+    x->seen = (uint8_t)(x->seen + 8);
+    output_as_defined(x);
+    end(&lost_part, x);
+}
+
+static void relay_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    if (begin(&relay_part, x, deviation)) {
+        return;
+    }
+    x->highest = signed16(greater(x->highest, deviation));
+    x->lowest = signed16(lesser(x->lowest, deviation));
+    if (x->elapsed != 0u) {
+        x->period = unsigned16((number)x->period + 1);
+        if (x->averaged != FRESH_RELAY) {
+            sum_as_defined(x, deviation);
+        }
+    }
+    if (x->state >= IN_NOISE) {
+        turn_as_defined(x, deviation);
+    }
+    if ((x->state >= IN_CENTRE) && (floor_by(x->elapsed, 2) > x->last_period)) {
+        lost_as_defined(x);
+    }
+    end(&relay_part, x);
+}
+
+static void step_as_defined(struct fixpid_autotune *x, number setpoint,
+                            number measurement)
+{
+    number deviation =
+        clamp(measurement - setpoint, -(number)FARTHEST, FARTHEST);
+
+    if ((measurement <= x->config.measurement_min) ||
+        (measurement >= x->config.measurement_max)) {
+        over_as_defined(x, FIXPID_AUTOTUNE_SATURATED);
+    } else if (x->elapsed >= x->config.timeout_steps) {
+        over_as_defined(x, FIXPID_AUTOTUNE_NO_OSCILLATION);
+    } else {
+        deviation = (x->config.reverse != 0u) ? -deviation : deviation;
+        if (x->state == IN_NOISE) {
+            noise_as_defined(x, deviation);
+        } else {
+            relay_as_defined(x, deviation);
+        }
+    }
+}
+
+// ---- What an experiment can be ----
+
+static bool is_deviation(number deviation)
+{
+    return inside(deviation, -(number)FARTHEST, FARTHEST);
+}
+
+// A solver is quicker at this than at the product.
+static number farthest_times(number steps)
+{
+    return (steps << 15) - steps;
+}
+
+// Sums of so many turns, which can take one step more.
+static bool sound_sums(const struct fixpid_autotune_sums *sums, number turns)
+{
+    return (sums->steps < 32767u) && (sums->on_steps <= sums->steps) &&
+           (size_of(sums->all) <= farthest_times(sums->steps)) &&
+           (size_of(sums->on) <= farthest_times(sums->on_steps)) &&
+           (size_of(sums->rise) <= (turns << 11) - turns);
+}
+
+static bool fresh(const struct fixpid_autotune *x)
+{
+    return x->averaged == FRESH_RELAY;
+}
+
+// The turns in the sums of this phase.
+static number turns_now(const struct fixpid_autotune *x)
+{
+    const number cycles = x->config.cycles;
+    const number before = (x->state == IN_THIRD)    ? cycles
+                          : (x->state == IN_CENTRE) ? 1
+                                                    : 0;
+
+    if (fresh(x)) {
+        return 2 * before;
+    }
+    return (2 * (before + x->averaged)) + ((x->side == LOW_SIDE) ? 1 : 0) +
+           ((x->elapsed > 1u) ? 1 : 0);
+}
+
+// Its cycles, of which the last began with a switch to high. In the first half
+// of all there was none.
+static bool sound_cycle(const struct fixpid_autotune *x)
+{
+    const bool low = x->side == LOW_SIDE;
+    const number before = low ? 32766 : 0; // of this cycle, before this half
+
+    return inside(x->seen, 0, (x->state == IN_FIND) ? 55 : 47) &&
+           (fresh(x) ||
+            (x->averaged < ((x->state > IN_CENTRE) ? x->config.cycles : 1))) &&
+           (x->period <= before + greater((number)x->elapsed - 1, 0)) &&
+           (fresh(x) || (x->elapsed > 0u)) &&
+           (fresh(x) || !low ||
+            (((number)x->highest > x->edge) && (x->period >= x->elapsed)));
+}
+
+// While a relay runs.
+static bool sound_while_relay(const struct fixpid_autotune *x)
+{
+    const number all_turns = 2 * (number)x->config.cycles;
+    const bool second = x->state == IN_SECOND;
+
+    return sound_relay(x) && sound_cycle(x) && (x->lowest <= x->highest) &&
+           (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
+           (x->first_on < 32767u) &&
+           sound_sums(&x->sums[0], second ? all_turns : turns_now(x)) &&
+           sound_sums(&x->sums[1], second ? turns_now(x) : all_turns);
+}
+
+static bool ready_for_relay(const struct fixpid_autotune *x, number deviation)
+{
+    return is_deviation(deviation) && legal_config(&x->config) &&
+           inside(x->state, IN_FIND, IN_THIRD) && (x->side <= HIGH_SIDE) &&
+           (x->elapsed < x->config.timeout_steps) &&
+           (x->highest != INT16_MIN) && (x->lowest != INT16_MIN) &&
+           sound_while_relay(x);
+}
+
+// What the end of a cycle relies on: that it switched on both sides.
+static bool ready_to_end(const struct fixpid_autotune *x, number deviation)
+{
+    const number cycles = x->config.cycles;
+    const bool finding = x->state <= IN_CENTRE;
+
+    return is_deviation(deviation) && legal_config(&x->config) &&
+           inside(x->state, IN_FIND, IN_THIRD) && sound_relay(x) &&
+           (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
+           (x->side <= HIGH_SIDE) && inside(x->seen, 0, 55) &&
+           is_deviation(x->highest) && is_deviation(x->lowest) &&
+           (x->lowest <= x->highest) &&
+           (fresh(x) ||
+            ((x->averaged < (finding ? 1 : cycles)) &&
+             (x->period >= x->elapsed) && ((number)x->highest > x->edge) &&
+             (x->lowest < -(number)x->edge))) &&
+           (x->sums[0].on_steps <= x->sums[0].steps) &&
+           (x->sums[1].on_steps <= x->sums[1].steps) && (x->first_on < 32767u);
+}
+
+// What init and reset establish from any bytes, and a step keeps.
+static bool sound(const struct fixpid_autotune *x)
+{
+    if (x->config.cycles == 0u) {
+        return (x->state == FIXPID_AUTOTUNE_REFUSED) &&
+               (x->config.output_min == 0) && (x->config.output_max == 0);
+    }
+    if (!legal_config(&x->config) || (x->output != output_of(x))) {
+        return false;
+    }
+    if (x->state < IN_NOISE) {
+        return inside(x->state, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_TOO_SLOW);
+    }
+    if ((x->state > IN_THIRD) || (x->side > HIGH_SIDE) ||
+        (x->elapsed > x->config.timeout_steps) || (x->highest == INT16_MIN) ||
+        (x->lowest == INT16_MIN)) {
+        return false;
+    }
+    if (x->state == IN_NOISE) {
+        return (x->elapsed < 34u) && (x->seen == 0u) && (x->period == 0u) &&
+               (x->first_on == 0u) && fresh(x) &&
+               (x->noise <= 1023 * greater((number)x->elapsed - 2, 0)) &&
+               sound_sums(&x->sums[0], 0) && sound_sums(&x->sums[1], 0);
+    }
+    return sound_while_relay(x);
+}
+
+#endif

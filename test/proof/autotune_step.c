@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// A step of fixpid_autotune, part by part and as the whole that the parts make:
+// what it does is what autotune.h says in whole numbers, and that keeps what an
+// experiment can be.
+#include "autotune.h"
+
+#include "autotune/fixpid_autotune.c"
+#include "autotune/fixpid_autotune_cycle.c"
+
+void prove_deviation(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+
+    claim(deviation_from(setpoint, measurement) ==
+          clamp((number)measurement - setpoint, -32767, 32767));
+}
+
+// What the parts rely on. Those before them show it where they are called.
+
+static bool ready_for_noise(const struct fixpid_autotune *x, number deviation)
+{
+    return is_deviation(deviation) && (x->state == IN_NOISE) &&
+           (x->config.output_min < x->config.output_max) &&
+           ((x->config.swing == 0u) || inside(x->config.swing, 8, 16383)) &&
+           (x->elapsed < 34u) && (x->highest != INT16_MIN) &&
+           (x->lowest != INT16_MIN) &&
+           (x->noise <= 1023 * greater((number)x->elapsed - 2, 0));
+}
+
+static bool ready_to_sum(const struct fixpid_autotune *x, number deviation)
+{
+    const struct fixpid_autotune_sums *const sums =
+        &x->sums[(x->state == IN_SECOND) ? 1 : 0];
+
+    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
+           (x->side <= HIGH_SIDE) &&
+           sound_sums(sums, (x->elapsed == 1u) ? 15 : 16);
+}
+
+static bool ready_to_turn(const struct fixpid_autotune *x, number deviation)
+{
+    const bool ends = (x->side == LOW_SIDE) && (deviation < -(number)x->edge);
+
+    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
+           (x->side <= HIGH_SIDE) && (x->elapsed < 32767u) &&
+           inside(x->edge, 1, 6912) && sound_relay(x) &&
+           (!ends || ready_to_end(x, deviation));
+}
+
+void prove_noise(void)
+{
+    const int16_t deviation = nondet_int16();
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(ready_for_noise(&c, deviation));
+    defined = c;
+    noise_as_defined(&defined, deviation);
+    measure_noise(&c, deviation);
+    claim_same(&c, &defined);
+    claim((c.state == IN_NOISE) || inside(c.edge, 1, 6912));
+}
+
+void prove_sum(void)
+{
+    const int16_t deviation = nondet_int16();
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(ready_to_sum(&c, deviation));
+    defined = c;
+    sum_as_defined(&defined, deviation);
+    add_deviation(&c, deviation);
+    claim_same(&c, &defined);
+}
+
+void fixpid_autotune_end_cycle_contract(struct fixpid_autotune *self,
+                                        int16_t deviation)
+{
+    pre(ready_to_end(self, deviation));
+    take_part(&end_part, self, deviation);
+}
+
+// By contract: fixpid_autotune_end_cycle.
+void prove_turn(void)
+{
+    const int16_t deviation = nondet_int16();
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(ready_to_turn(&c, deviation));
+    defined = c;
+    turn_as_defined(&defined, deviation);
+    turn_relay(&c, deviation);
+    claim_same(&c, &defined);
+    claim(!end_part.due);
+}
+
+void add_deviation_contract(struct fixpid_autotune *self, int16_t deviation)
+{
+    pre(ready_to_sum(self, deviation));
+    take_part(&sum_part, self, deviation);
+}
+
+void turn_relay_contract(struct fixpid_autotune *self, int16_t deviation)
+{
+    pre(ready_to_turn(self, deviation));
+    take_part(&turn_part, self, deviation);
+}
+
+void fixpid_autotune_find_again_contract(struct fixpid_autotune *self)
+{
+    take_part(&lost_part, self, 0);
+}
+
+// By contract: add_deviation, turn_relay, fixpid_autotune_find_again.
+void prove_relay(void)
+{
+    const int16_t deviation = nondet_int16();
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(ready_for_relay(&c, deviation));
+    defined = c;
+    turn_part.open = true;
+    relay_as_defined(&defined, deviation);
+    step_relay(&c, deviation);
+    claim_same(&c, &defined);
+    claim(!sum_part.due && !turn_part.due && !lost_part.due);
+}
+
+void measure_noise_contract(struct fixpid_autotune *self, int16_t deviation)
+{
+    pre(ready_for_noise(self, deviation));
+    take_part(&noise_part, self, deviation);
+}
+
+void step_relay_contract(struct fixpid_autotune *self, int16_t deviation)
+{
+    pre(ready_for_relay(self, deviation));
+    take_part(&relay_part, self, deviation);
+}
+
+// By contract: measure_noise, step_relay.
+void prove_step(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+    struct fixpid_autotune defined;
+    number out;
+
+    c = nondet_autotune();
+    assume(sound(&c));
+    defined = c;
+    noise_part.open = true;
+    relay_part.open = true;
+    if (defined.state >= IN_NOISE) {
+        step_as_defined(&defined, setpoint, measurement);
+    }
+    out = fixpid_autotune_step(&c, setpoint, measurement);
+    claim_same(&c, &defined);
+    claim(!noise_part.due && !relay_part.due);
+    claim(out == clamp(c.output, c.config.output_min, c.config.output_max));
+}
+
+// An experiment stays one. By contract: measure_noise, step_relay.
+void prove_kept(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(sound(&c));
+    assume(c.state >= IN_NOISE);
+    alike_part.open = true;
+    defined = c;
+    step_as_defined(&defined, setpoint, measurement);
+    (void)fixpid_autotune_step(&c, setpoint, measurement);
+    claim(sound(&c));
+}
+
+// The halves of cycles that are left. Losing the swing costs half a cycle once,
+// as what it was in of a half is lost, too.
+static number halves_left(const struct fixpid_autotune *x)
+{
+    return (2 * greater(48 - x->seen, 1)) -
+           (((x->state != IN_NOISE) && (x->side == LOW_SIDE)) ? 1 : 0) +
+           ((x->seen < 48u) ? 1 : 0);
+}
+
+// It ends within 34 + 97 timeout_steps steps: after the noise there are 97
+// halves at most, and each step of a half is one of timeout_steps. By contract:
+// measure_noise, step_relay.
+void prove_ends(void)
+{
+    const int16_t setpoint = nondet_int16();
+    const int16_t measurement = nondet_int16();
+    struct fixpid_autotune was;
+    struct fixpid_autotune defined;
+
+    c = nondet_autotune();
+    assume(sound(&c));
+    assume(c.state >= IN_NOISE);
+    alike_part.open = true;
+    was = c;
+    defined = c;
+    step_as_defined(&defined, setpoint, measurement);
+    (void)fixpid_autotune_step(&c, setpoint, measurement);
+    claim(inside(halves_left(&was), 1, 97));
+    if ((c.state >= IN_NOISE) && (halves_left(&c) == halves_left(&was)) &&
+        (c.state == was.state)) {
+        claim(c.elapsed == (number)was.elapsed + 1);
+        claim(c.elapsed <= c.config.timeout_steps);
+    } else if ((c.state >= IN_NOISE) && (was.state != IN_NOISE)) {
+        claim(halves_left(&c) < halves_left(&was));
+        claim(c.elapsed == 1u);
+    }
+}
