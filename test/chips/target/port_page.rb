@@ -16,7 +16,12 @@ CHIPS = [Chip.new('pic16f684', 1, 2_000_000, 4), Chip.new('pic18f4520', 2, 10_00
          Chip.new('atmega328p', 3, 16_000_000, 1)].freeze
 
 # Rows without numbers but in the names of pins, which port.cc has itself.
-PINS = ['', 'for', 'analog inputs', 'drive', 'other pins'].freeze
+PINS = ['', 'for', 'drive', 'other pins'].freeze
+
+# Of each column the port_board.h whose macros are the analog inputs, the pins' letters,
+# and the data sheet's place of the channel's number in what such a macro has.
+BOARDS = { 1 => ['pic/pic16f684', 'AN', 2], 2 => ['pic/pic18f4520', 'AN', 2], 3 => ['avr/atmega328p', 'A', 0] }.freeze
+INPUTS = { 'ANGLE' => 'angle', 'SETPOINT' => 'set point', 'TACHOMETER' => 'tachometer or selector', 'TEMPERATURE' => 'temperature' }.freeze
 
 # Of the data sheets: the typical voltage of a setting, the clock of a
 # PIC16F684's watchdog, and what an Uno's fuses are.
@@ -30,6 +35,12 @@ WATCHDOG_SLOWER = { 'pic16f684' => 31 / 28.6, 'pic18f4520' => 4.5, 'pic18f26k22'
 
 def hertz(frequency)
   frequency < 1000 ? format('%.2f Hz', frequency) : "#{(frequency / 1000.0).round(2).to_s.delete_suffix('.0')} kHz"
+end
+
+def analog_inputs(chip)
+  board, letters, place = BOARDS.fetch(chip.column)
+  File.read(File.expand_path("../../../port/#{board}/port_board.h", __dir__)).scan(/^#define PORT_([A-Z]+) 0x(\h\h)u/)
+      .map { |name, code| "#{letters}#{(code.hex >> place) & 0x7} #{INPUTS.fetch(name, name)}" }.join(', ')
 end
 
 def clock(chip, configuration)
@@ -63,7 +74,8 @@ class Measured
   def phrases
     interrupt, = numbers(/^interrupt (\d+)\.\.\1 cycles$/)
     conversion, = numbers(/readings, \d+\.\.(\d+) cycles/)
-    { 'clock' => clock(@chip, @configuration), 'instruction cycle' => cycle(@chip.rate),
+    { 'clock' => clock(@chip, @configuration), 'analog inputs' => analog_inputs(@chip),
+      'instruction cycle' => cycle(@chip.rate),
       'tick' => "#{@period} cycles: #{hertz(@chip.rate.to_f / @period)}",
       'interrupt' => "#{interrupt} cycles a tick, #{format('%.1f', 100.0 * interrupt / @period)} %",
       'one conversion' => "#{(1e6 * conversion / @chip.rate).ceil} us", **drive,
