@@ -44,13 +44,13 @@ static number size_of(number x)
 // A number that is kept in 16 bits, which hold it.
 static uint16_t unsigned16(number x)
 {
-    claim(inside(x, 0, 65535));
+    pre(inside(x, 0, 65535));
     return (uint16_t)x;
 }
 
 static int16_t signed16(number x)
 {
-    claim(inside(x, -32768, 32767));
+    pre(inside(x, -32768, 32767));
     return (int16_t)x;
 }
 

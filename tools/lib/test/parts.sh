@@ -276,7 +276,7 @@ part_mutants() {
     count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
 }
 
-# The runner, and what it runs in a minute.
+# The runner, and what it runs in a few minutes.
 part_proofs() {
     count 'test/proof/run' '^ok ' '^FAILED ' once whole test/proof/run
     count 'tools/prove --quick' '^ok ' '^FAILED ' once whole tools/prove --quick
