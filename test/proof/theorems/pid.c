@@ -157,6 +157,7 @@ void prove_mirror(void)
 // What the proofs named `..._rises` show of the parts of two steps from the
 // same state, of which the second has a setpoint with a higher error.
 static struct {
+    struct signals given;
     struct signals signals;
     number p_error;
     number product;
@@ -171,7 +172,12 @@ signal_word special_errors_rise(struct fixpid_pid *self,
 {
     const signal_word p_error = nondet_int16();
 
-    (void)self;
+    if (first.over) {
+        pre(in_order(self, first.given.setpoint, signals->setpoint));
+        pre(signals->derivative_input == first.given.derivative_input);
+    } else {
+        first.given = *signals;
+    }
     signals->error = nondet_int16();
     signals->derivative_input = nondet_int16();
     if (first.over) {
