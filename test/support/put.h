@@ -28,4 +28,12 @@ static void put_number(const char *name, uint32_t number)
     put_text(&digits[at]);
 }
 
+// Its eight digits in hexadecimal.
+static inline void put_hexadecimal(uint32_t number)
+{
+    for (uint8_t digit = 0; digit < 8u; digit++) {
+        putchar("0123456789abcdef"[(number >> (28u - 4u * digit)) & 15u]);
+    }
+}
+
 #endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The digests of all arithmetic on a machine whose program can print: each line
 // is of a sixteenth of a controller's rows.
-#include <stdio.h>
-
 #include "arith.h"
+#include "put.h"
 
 static uint32_t digest;
 
@@ -16,8 +15,11 @@ static void add_row(void (*arith)(void), uint16_t row)
 
 static void print_digest(const char *name)
 {
-    printf("%s rows to %u digest %08lx\n", name, (unsigned)arith_row,
-           (unsigned long)digest);
+    put_text(name);
+    put_number(" rows to ", arith_row);
+    put_text(" digest ");
+    put_hexadecimal(digest);
+    put_text("\n");
 }
 
 static void all_rows(const char *name, void (*arith)(void), uint16_t rows)

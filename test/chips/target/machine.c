@@ -27,13 +27,6 @@ static union answer expected;
 static union answer answer;
 static uint32_t digest;
 
-static void put_hexadecimal(uint32_t value)
-{
-    for (uint8_t digit = 0; digit < 8u; digit++) {
-        putchar("0123456789abcdef"[(value >> (28u - 4u * digit)) & 15u]);
-    }
-}
-
 static void reply(const struct controller *controller)
 {
     memset(&answer, 0, sizeof answer);

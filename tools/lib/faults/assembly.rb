@@ -18,7 +18,7 @@ class Board
   EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
 
   def self.of(file, folder)
-    file.end_with?('_avr.h') ? Avr.new(file, folder) : Pic.new(file, folder)
+    { /_avr\.h\z/ => Avr, /_arm\.h\z/ => Arm, // => Pic }.find { |name, _| name.match?(file) }.last.new(file, folder)
   end
 
   def initialize(file, folder)
@@ -132,46 +132,45 @@ class Pic < Board
   end
 end
 
-class Avr < Board
+# A chip whose program can print: its compiler and what it takes last, its harness, and its
+# simulator.
+class Printing < Board
   SECONDS_MOST = 30 # from one line to the next; the longest takes 3
   FLAGS = %w[-std=gnu99 -w -Iinclude -Itest/support -Itest/chips/target].freeze
+  MAIN = 'test/chips/target/arith_main.c'
 
   def initialize(file, folder)
     super
-    controller = file[/fixpid_(\w+)_avr/, 1].sub('signed', 'pid') # who has its sums and products
+    controller = file[/fixpid_(\w+)_(?:arm|avr)/, 1].sub('signed', 'pid') # who has its sums and products
     @own = "test/chips/target/arith_#{controller}.c" # has the header
-    @others = [main(controller), 'test/chips/avr/avr_stdio.c', *Dir['test/chips/target/arith*.c'] - ['test/chips/target/arith_main.c', @own]]
+    @asked = [main(controller), *Dir['test/chips/target/arith*.c'] - [MAIN, @own]]
   end
 
   private
 
   # The rows of the file's own controller.
   def main(controller)
-    text = File.readlines('test/chips/target/arith_main.c').reject do |line|
+    text = File.readlines(MAIN).reject do |line|
       line.match?(/^    (?:all_rows|add_row|print_digest)\("?\w/) && !line.match?(/\b#{controller}(?:_arith)?\b/)
     end
     File.write("#{@folder}/main.c", text.join)
     "#{@folder}/main.c"
   end
 
-  # What a function leaves in its registers is another one's with each.
-  def ways
-    [%w[-O2], %w[-Os -flto], %w[-O0]]
-  end
-
   def build(way)
     objects = others(way) or return false
-    built?(*compiler(way), "-I#{@source}", @own, *objects, '-o', program) && built?('avr-objcopy', '-O', 'binary', program, code)
+    built?(*compiler(way), "-I#{@source}", @own, *objects, *self.class::LAST, '-o', program) &&
+      built?(self.class::COMPILER.first.sub(/gcc\z/, 'objcopy'), '-O', 'binary', program, code)
   end
 
   def compiler(way)
-    ['avr-gcc', '-mmcu=atmega2560', *FLAGS, *way, *EVERY_BIT]
+    [*self.class::COMPILER, *FLAGS, *way, *EVERY_BIT]
   end
 
   # What has no assembly of this file is compiled once.
   def others(way)
     @objects ||= {}
-    @objects[way] ||= @others.map do |file|
+    @objects[way] ||= [*@asked, *self.class::HARNESS].map do |file|
       object = "#{@folder}/#{File.basename(file, '.c')}#{ways.index(way)}.o"
       built?(*compiler(way), '-Isrc', '-c', file, '-o', object) or return nil
       object
@@ -189,8 +188,7 @@ class Avr < Board
   def expected
     @expected ||= begin
       host = "#{@folder}/arith.host"
-      built?('gcc', *FLAGS, '-O2', '-Itest/chips/target/shim', *EVERY_BIT, '-Isrc',
-             *@others - ['test/chips/avr/avr_stdio.c'], @own, '-o', host) or
+      built?('gcc', *FLAGS, '-O2', '-Itest/chips/target/shim', *EVERY_BIT, '-Isrc', *@asked, @own, '-o', host) or
         abort 'FAILED the host has no answers'
       Open3.capture2(host).first.lines
     end
@@ -199,7 +197,7 @@ class Avr < Board
   # It is stopped at the first line that is another one, or does not come.
   def answers
     found = nil
-    Open3.popen2e('test/chips/avr/run', program, 'atmega2560', pgroup: true) do |input, output, process|
+    Open3.popen2e(*simulator, pgroup: true) do |input, output, process|
       input.close
       expected.each do |line|
         found = :endless unless IO.select([output], nil, nil, SECONDS_MOST)
@@ -211,6 +209,40 @@ class Avr < Board
     found
   rescue Errno::ESRCH
     found
+  end
+end
+
+class Avr < Printing
+  COMPILER = %w[avr-gcc -mmcu=atmega2560].freeze
+  HARNESS = %w[test/chips/avr/avr_stdio.c].freeze
+  LAST = [].freeze
+
+  private
+
+  # What a function leaves in its registers is another one's with each.
+  def ways
+    [%w[-O2], %w[-Os -flto], %w[-O0]]
+  end
+
+  def simulator
+    ['test/chips/avr/run', program, 'atmega2560']
+  end
+end
+
+# Thumb of the first generation: the other functions are instructions that the compiler knows.
+class Arm < Printing
+  COMPILER = %w[arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -ffreestanding -Itest/chips/target/qemu -Itest/chips/target/shim].freeze
+  HARNESS = %w[test/chips/target/arm/start.c test/chips/target/qemu/runtime.c].freeze
+  LAST = %w[-nostdlib -T test/chips/target/arm/flash.ld -lgcc].freeze
+
+  private
+
+  def ways
+    [%w[-O2], %w[-Os], %w[-O0]]
+  end
+
+  def simulator
+    ['qemu-system-arm', '-M', 'microbit', '-nographic', '-semihosting', '-kernel', program]
   end
 end
 

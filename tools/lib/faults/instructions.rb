@@ -12,18 +12,19 @@ module Instructions
            %w[bz bnz], %w[bc bnc], %w[bn bnn], %w[cpfslt cpfsgt],
            %w[add sub], %w[adc add], %w[sbc sub], %w[sbci subi], %w[brvc brvs], %w[brcc brcs], %w[breq brne], %w[brpl brmi],
            %w[sbrc sbrs], %w[lsl lsr], %w[rol lsl], %w[ror lsr], %w[asr lsr], %w[mulsu mul], %w[muls mul], %w[fmul mul], %w[and or],
-           %w[andi ori], %w[eor or], %w[com neg], %w[inc dec], %w[bst bld], %w[swap com]].freeze
+           %w[andi ori], %w[eor or], %w[com neg], %w[inc dec], %w[bst bld], %w[swap com],
+           %w[adds subs], %w[sbcs adcs], %w[bvc bvs], %w[lsls lsrs], %w[eors orrs]].freeze
   OTHERS = %w[tstfsz movwf movf movff movlw movlb mulwf mullw lfsr call rcall goto bra return retlw retfie nop pagesel banksel clrw
-              sublw addlw mov movw clr ldi mul tst cp cpc cpi rjmp ret push pop ld st ldd std lds sts in out].freeze
+              sublw addlw mov movw clr ldi mul tst cp cpc cpi rjmp ret push pop ld st ldd std lds sts in out movs].freeze
   MNEMONICS = (TWINS.flatten + OTHERS).uniq.freeze
   # Of a word in a string or of a line between __asm and __endasm.
   WORD = /(?<name>#{MNEMONICS.join('|')})\b(?<operands>(?:[ \t]+[^;\n"\\]*)?)/.freeze
-  NUMBER = /(?<![\w.%$#])(?:0x\h+|\d+)(?![\w.])/.freeze
+  NUMBER = /(?<![\w.%$])(?:0x\h+|\d+)(?![\w.])/.freeze
 
   class << self
     # The files of src/ that have some.
     def files
-      Dir['src/*/*_{avr,pic14,pic18}.[ch]'].sort.reject { |file| places(File.read(file)).empty? }
+      Dir['src/*/*_{arm,avr,pic14,pic18}.[ch]'].sort.reject { |file| places(File.read(file)).empty? }
     end
 
     def breaks(file, text = File.read(file))

@@ -2,6 +2,7 @@
 # frozen_string_literal: true
 
 require 'fileutils'
+require_relative 'assembly/arm'
 require_relative 'assembly/avr'
 require_relative 'assembly/pic14'
 require_relative 'assembly/pic18'
@@ -50,7 +51,9 @@ module Assembly
   ROW = /\A(\w+) (\w+) by (solver|products|trying): (.*?)(?: where (.*))? -> (.*)\z/.freeze
   OPERAND = /\A(u?int(?:8|16|32)_t) (\w+)(?: within (\w+))? in (\S+)\z/.freeze
   RESULT = /\A(u?int(?:8|16|32)_t) in (\S+) = (.+)\z/.freeze
-  SETS = [AvrTranslation, Pic14Translation, Pic18Translation].freeze
+  # Not the empty one, which only hides a value from the compiler.
+  TEXT = /__asm__\s*\(\s*"[^"]|__asm$/.freeze
+  SETS = [ArmTranslation, AvrTranslation, Pic14Translation, Pic18Translation].freeze
 
   module_function
 
@@ -72,6 +75,12 @@ module Assembly
 
   def set_of(image)
     SETS.find { |set| set.images.include?(image) } or abort "prove: #{CLAIMS}: no image #{image}"
+  end
+
+  # The files of src/ with assembly that is in no image.
+  def outside
+    files = Dir['src/**/*.[ch]'].sort.select { |file| File.read(file).match?(TEXT) }
+    files.reject { |file| SETS.any? { |set| set.sources.match?(file) } }
   end
 
   # In documents.
@@ -273,6 +282,7 @@ end
 # random registers and flags.
 class TableRun
   EXAMPLE = /\A([a-z]+)_\d+\z/.freeze
+  SECONDS_MOST = 60 # of a processor; the longest takes 2
 
   def initialize(set, build)
     @set = set
@@ -309,7 +319,7 @@ class TableRun
                                    '-o', "#{@folder}/compared", *@set::SIMULATOR)
     return [said, false] unless status.success?
 
-    said, status = Open3.capture2e("#{@folder}/compared", @set.program(@folder))
+    said, status = Open3.capture2e(*@set.compared(@folder), in: File::NULL, rlimit_cpu: [SECONDS_MOST, SECONDS_MOST + 1])
     [said, status.success?]
   end
 end

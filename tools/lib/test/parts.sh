@@ -263,7 +263,8 @@ part_gates() {
 
 # After the answers of the unbroken assembly: what remains are its harnesses.
 part_assembly() {
-    need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc
+    need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc \
+        arm-none-eabi-gcc:gcc-arm-none-eabi qemu-system-arm
     need_sdcc
     build_gpsim
     check 'the arithmetic on chips' test/chips/target/run arith

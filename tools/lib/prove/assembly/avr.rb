@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'translation'
+require_relative 'elf'
 
 # What an AVR's instructions do to the registers of test/proof/assembly/avr.h.
-class AvrTranslation < Translation
+class AvrTranslation < ElfTranslation
   STATEMENTS = {
     'mov' => 'R[$1] = R[$2];',
     'movw' => 'R[$1] = R[$2]; R[$1 + 1] = R[$2 + 1];',
@@ -53,8 +53,6 @@ class AvrTranslation < Translation
   NAME = 'an AVR'
   COMPILE = %w[cc -std=c99].freeze
   SIMULATOR = %w[test/proof/assembly/simavr.c -lsimavr].freeze
-  # What an instruction is compared with the simulator in. One behind it may be left out,
-  # or come to.
   EXAMPLES = {
     ['%s r20, r21', '%s r20, r20', '%s r0, r31'] => %w[mov add adc sub sbc cp cpc and or eor],
     ['%s r20, r30', '%s r0, r2'] => %w[movw],
@@ -66,53 +64,17 @@ class AvrTranslation < Translation
     ['%s'] => %w[nop ret],
     ['%s 1f'] => [*BRANCHES.keys, *JUMPS, *CALLS]
   }.freeze
-  LINE = /^\s*(\h+):\t([\h ]+?)\s*\t(\w+)(?:\t([^;\n]*?))?\s*(?:;\s*(\S+).*)?$/.freeze
-  CHIPS = { 'avr' => 'atmega328p', 'avr_tiny' => 'attiny85' }.freeze # with a multiplier and without
+  TOOLS = 'avr'
+  OPTIONS = { 'avr' => %w[-mmcu=atmega328p], 'avr_tiny' => %w[-mmcu=attiny85] }.freeze # with a multiplier and without
+  WITH_ALL = 'avr'
+  HEAD = ''
+  FUNCTION = ".global %<name>s\n"
+  FOLLOWER = 'ldi r24, 1'
+  LAST = 'ret'
 
-  class << self
-    def images
-      CHIPS.keys
-    end
-
-    # The files of src/ that have its assembly.
-    def sources
-      /_avr\.h\z/
-    end
-
-    # The claims' functions with the sources of a tree.
-    def of(image, folder, tree = '.')
-      of_file(CHIPS.fetch(image), "#{FOLDER}/assembly/avr.c", folder, tree)
-    end
-
-    def program(folder)
-      "#{folder}/avr.elf"
-    end
-
-    def of_file(chip, file, folder, tree = '.')
-      program = program(folder)
-      said('avr-gcc', "-mmcu=#{chip}", '-std=gnu99', '-O2', '-w', "-I#{tree}/include", "-I#{tree}/src", '-nostartfiles',
-           file, '-o', program)
-      text = said('avr-objdump', '-d', program)
-      new(text.scan(LINE).map { |row| disassembled(*row) },
-          text.scan(/^(\h+) <(\w+)>:$/).to_h { |at, name| [name, at.hex] })
-    end
-
-    # [name, translation] of a program with a function for each example.
-    def examples(folder)
-      bodies = EXAMPLES.flat_map { |texts, names| names.product(texts).map { |name, text| [name, format(text, name)] } }
-      lines = bodies.each_with_index.map { |(name, body), at| ".global #{name}_#{at}\n#{name}_#{at}:\n#{body}\nldi r24, 1\n1: ret\n" }
-      File.write("#{folder}/examples.s", lines.join)
-      of_file('atmega328p', "#{folder}/examples.s", folder)
-    end
-
-    private
-
-    # objdump says where a relative branch leads behind a semicolon.
-    def disassembled(address, code, name, operands, target)
-      operands = operands.to_s.split(/,\s*/)
-      operands[-1] = target if target && operands.last.start_with?('.')
-      Disassembled.new(address.hex, code.split.size, name, operands)
-    end
+  # The files of src/ that have its assembly.
+  def self.sources
+    /_avr\.h\z/
   end
 
   # Of bytes from the lowest one on.
@@ -129,5 +91,11 @@ class AvrTranslation < Translation
 
   def operand(text)
     text.delete_prefix('r')
+  end
+
+  # From the next instruction on, or an address.
+  def target(one)
+    distance = one.operands.last[/\A\.([-+]\d+)\z/, 1]
+    distance ? one.address + 2 + distance.to_i : super
   end
 end

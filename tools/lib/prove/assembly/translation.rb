@@ -49,6 +49,11 @@ class Translation
       "#{starts.map { |called, at| "\nstatic void #{called}(struct cpu *cpu)\n{\n    #{name(at)}(cpu);\n}\n" }.join}"
   end
 
+  # What runs the program that compares the instructions with the simulator's.
+  def self.compared(folder)
+    ["#{folder}/compared", program(folder)]
+  end
+
   # Every instruction that the tables have.
   def self.names
     self::STATEMENTS.keys + self::SKIPS.keys + self::BRANCHES.keys + self::JUMPS + self::CALLS + self::RETURNS.keys
