@@ -2,21 +2,20 @@
 # Whether each claim of a proof is needed.
 require_relative '../faults/breaks'
 require_relative '../faults/equivalents'
+require_relative 'about_claims'
 require_relative 'cbmc'
 require_relative 'equivalents'
-require_relative 'proofs'
 require_relative 'seeded'
 
 # A claim is needed if some break makes it fail and nothing else of the proof: without
 # the claim that break is unnoticed. The proof's breaks of test/faults.txt are tried, and as
 # many as are allowed of those that a machine draws, always the same ones. A claim that none
-# of them needs stands in unneeded.txt, below the reason, as PROOF: CLAIM.
-class Claims
+# of them needs stands in unneeded.txt.
+class Claims < AboutClaims
   FILE = "#{FOLDER}/unneeded.txt".freeze
-  NOT_ASKED = ['an937 step', 'autotune', 'model', 'pid', 'record', 'table', 'theorems'].freeze # unless a word names the group
+  NOT_ASKED = ['an937 step', 'autotune', 'model', 'pid', 'table', 'theorems'].freeze # unless a word names the group
   DRAWN_MOST = 40
   SECONDS = 20 # for one that is drawn
-  WORD = WORDS.first
 
   # The other properties that fail with a break.
   Failure = Struct.new(:others, :broken) do
@@ -27,28 +26,17 @@ class Claims
 
   # The first form of each proof that is asked.
   def self.chosen(proofs, words, breaks)
-    asked = proofs.select { |proof| proof.word == WORD && !proof.exhausted? && (words.include?(proof.group) || !left_out?(proof)) }
-    asked.uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
-         .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
+    asked(proofs).select { |proof| words.include?(proof.group) || !left_out?(proof) }
+                 .uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
+                 .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
   end
 
   def self.left_out?(proof)
     NOT_ASKED.include?(proof.group) || NOT_ASKED.include?("#{proof.group} #{proof.what}")
   end
 
-  # [proof, claim] of each line.
-  def self.pinned
-    @pinned ||= File.readlines(FILE, chomp: true).grep_v(/\A(?:#|\s*\z)/).map { |line| line.split(': ', 2) }
-  end
-
-  # The lines that name none of the proofs.
-  def self.complaints(proofs)
-    names = proofs.select { |proof| proof.word == WORD }.map { |proof| proof.name.delete_suffix(" #{WORD}") }
-    pinned.reject { |name, _| names.include?(name) }.map { |name, _| "#{FILE}: no proof is named #{name}" }
-  end
-
   def initialize(proof, breaks)
-    @proof = proof
+    super(proof)
     @breaks = breaks
   end
 
@@ -67,20 +55,12 @@ class Claims
     found = failures(claims, build)
     needless = claims.reject { |property, _| found[property]&.alone? }
     wrong = needless.reject { |_, claim| pinned.include?(claim) }.map { |property, claim| "no break needs: #{claim}: #{why(found[property], claims)}" } +
-            (pinned - needless.values).map { |claim| "#{FILE}: no longer true: #{claim}" }
+            stale(needless.values)
     good = claims.map { |property, claim| "#{claim}: #{needless.key?(property) ? "unneeded, as #{FILE} says" : found[property].broken}" }
     [wrong.empty?, (wrong.empty? ? good : wrong).map { |line| "#{pinned_name}: #{line}" }]
   end
 
   private
-
-  def pinned_name
-    @proof.name.delete_suffix(" #{WORD}")
-  end
-
-  def pinned
-    Claims.pinned.select { |name, _| name == pinned_name }.map(&:last)
-  end
 
   # Of properties with their texts those that are claims, with names that differ.
   def named(properties)

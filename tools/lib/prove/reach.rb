@@ -1,33 +1,15 @@
 # SPDX-License-Identifier: MIT
 # Whether a proof comes to its end, and to each of its claims.
+require_relative 'about_claims'
 require_relative 'cbmc'
-require_relative 'proofs'
 
 # A proof whose assumptions exclude each other holds of everything, and so does a claim
-# behind them. The claims that a form lacks the feature for stand in
-# unreached.txt, below the reason, as PROOF: CLAIM.
-class Reach
+# behind them. The claims that a form lacks the feature for stand in unreached.txt.
+class Reach < AboutClaims
   FILE = "#{FOLDER}/unreached.txt".freeze
-  WORD = WORDS.first
 
-  # Those of these proofs that are asked.
   def self.chosen(proofs)
-    proofs.select { |proof| proof.word == WORD && !proof.exhausted? }.map { |proof| new(proof) }
-  end
-
-  # [proof, claim] of each line.
-  def self.pinned
-    @pinned ||= File.readlines(FILE, chomp: true).grep_v(/\A(?:#|src|\s*\z)/).map { |line| line.split(': ', 2) }
-  end
-
-  # The lines that name none of all proofs.
-  def self.complaints(proofs)
-    names = chosen(proofs).map(&:pinned_name)
-    pinned.reject { |name, _| names.include?(name) }.map { |name, _| "#{FILE}: no proof is named #{name}" }
-  end
-
-  def initialize(proof)
-    @proof = proof
+    asked(proofs).map { |proof| new(proof) }
   end
 
   def name
@@ -36,10 +18,6 @@ class Reach
 
   def options
     @proof.options
-  end
-
-  def pinned_name
-    @proof.name.delete_suffix(" #{WORD}")
   end
 
   # Whether it does, and what to print.
@@ -51,15 +29,9 @@ class Reach
     strange = missed.reject { |_, claim| pinned.include?(claim) }.map { |place, claim| "#{place}: #{claim}" }
     return [false, "#{@proof.name}: nothing comes to #{strange.join(', nor to ')}"] unless strange.empty?
 
-    stale = pinned - missed.map(&:last)
-    return [false, *stale.map { |claim| "#{FILE}: no longer true: #{pinned_name}: #{claim}" }] unless stale.empty?
+    wrong = stale(missed.map(&:last))
+    return [false, *wrong.map { |line| "#{pinned_name}: #{line}" }] unless wrong.empty?
 
     [true, "#{name}: its end and #{found.size - 1 - missed.size}"]
-  end
-
-  private
-
-  def pinned
-    Reach.pinned.select { |name, _| name == pinned_name }.map(&:last)
   end
 end
