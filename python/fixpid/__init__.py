@@ -17,6 +17,7 @@ what C refuses by returning false a ValueError; each names the value.
 from ._library import ffi, lib
 from ._nouns import *  # noqa: F403, the constants, and the classes that C alone makes
 from ._nouns import Noun, __version__  # isort: skip, what follows takes the place of some
+from ._loop import Fit, Loop, Plant, fit, simulate, tune
 from ._modules import (Autotune, AutotuneCause, AutotuneState, Table, gains_from_milli, gains_to_milli,
                        guard_config, record_pack, record_unpack, sat16, slew_rate, table)
 from ._pid import Pid, pid_gains

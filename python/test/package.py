@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What the package adds to the library: arrays, gains in real units, refusals.
 
-    package.py INCLUDE README     the headers, whose macros a C compiler folds, and the
-                                  page whose code must run
+    package.py INCLUDE README GUIDE    the headers, whose macros a C compiler folds, and the
+                                       pages whose code must run
 
 Prints `ok NAME` or `FAILED NAME` and why.
 """
+import contextlib
+import io
 import math
 import os
 import random
@@ -20,7 +22,7 @@ import fixpid
 from runner import refuses, run, same
 from sensors import ntc, type_k, type_k_mv
 
-INCLUDE, README = sys.argv[1:]
+INCLUDE, README, GUIDE = sys.argv[1:]
 CONFIG = {"gains": fixpid.pid_gains(kp=2, ki=0.5, kd=1.5, rate=10, filter=2), "output_max": 255}
 
 
@@ -303,18 +305,34 @@ def rates_are_those_of_the_macro():
             same(fixpid.slew_rate(*rate), int(folded))
 
 
-def code_of_the_page_runs():
-    with open(README, encoding="utf-8") as page:
+def names_of(path):
+    """What the blocks of a page leave, one after the other."""
+    with open(path, encoding="utf-8") as page:
         blocks = re.findall("```python\n(.*?)```", page.read(), re.DOTALL)
     names = {}
     for block in blocks:
-        exec(block, names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(block, names)
+    return names
+
+
+def code_of_the_page_runs():
+    names = names_of(README)
     same((names["output"], names["outputs"].dtype, names["pid"].flags()), (255, numpy.int16, fixpid.PID_AT_MAX))
     assert 0 < names["percent"] < 100, names["percent"]
+    assert names["loop"].margins["stable"] and names["loop"].metrics["overshoot"] < 0.2, names["loop"]
     assert names["chip"].status() == fixpid.AUTOTUNE_DONE and names["config"]["output_max"] == 1000
 
 
-TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_step,
+def code_of_the_guide_runs():
+    names = names_of(GUIDE)
+    assert abs(names["fit"].gain - 2.4) < 0.1 and names["fit"].worth > 0.99, names["fit"]
+    assert names["loop"].advice == [] and 1.2 < names["door"].margins["ms"] < 1.8, names["door"]
+    assert names["kp"] > 0 and names["ki"] > 0 and names["kd"] == 0
+    assert "LOOP_CONFIG" in names["header"] and names["link"].startswith("build/tuner/index.html#p=flow&")
+
+
+TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step,
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
          table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
