@@ -3,6 +3,9 @@
 
 The C preprocessor leaves of include/ what a compiler would see; cffi reads that. Of the
 macros it takes those that are a number, and the C compiler says which number.
+
+The sources are those of the repository, or in an sdist their copy, `c/`. The tuner page's C,
+with its plants, is a library of its own, because it has its own math.h.
 """
 import glob
 import os
@@ -12,13 +15,29 @@ import tempfile
 
 from cffi import FFI
 
-INCLUDE = os.path.join("..", "include")
-SOURCE = os.path.join("..", "src")
-TUNER = os.path.join("..", "sim", "tuner")  # the search for a table's points
-NUMBER = re.compile(r"(?:UINT32_C\()?(?:0x[0-9A-F]+|\d+)[uUlL]*\)?|UINT32_MAX")
+from headers import NUMBER
 
-HEADERS = sorted(glob.glob(os.path.join(INCLUDE, "*.h"))) + [os.path.join(TUNER, "fit.h")]
-TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in HEADERS)
+ROOT = "c" if os.path.isdir("c") else ".."
+INCLUDE, SOURCE, TUNER = (os.path.join(ROOT, *path) for path in (("include",), ("src",), ("sim", "tuner")))
+SIM = os.path.join(ROOT, "sim")
+
+
+def beside(*names):
+    return sorted(glob.glob(os.path.join(*names), recursive=True))
+
+
+HEADERS = beside(INCLUDE, "*.h")
+READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")]
+TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
+
+# What the page is made of: tools/lib/pages/tuner/sources.rb has the same.
+PAGE = [path for path in beside(TUNER, "*.c") if not path.endswith("main.c")] + [
+    os.path.join(SIM, "loops", "pid_double.c"), os.path.join(SIM, "plant", "plant.c"),
+    *(os.path.join(SIM, "plant", f"plant_{plant}.c") for plant in ("motor", "oven", "pendulum", "process"))]
+PAGE_LIBRARY = ("fixpid_tuner", {
+    "sources": PAGE, "cflags": ["-std=c99", "-ffp-contract=off", "-fno-builtin", "-D_DEFAULT_SOURCE"],
+    "include_dirs": [os.path.join(TUNER, "libm"), INCLUDE, os.path.join(SIM, "plant"), os.path.join(SIM, "loops"), TUNER],
+    "obj_deps": {"": beside(SIM, "**", "*.h") + HEADERS}})
 
 
 def preprocessed(*options):
@@ -33,18 +52,14 @@ def preprocessed(*options):
 
 
 def declarations():
-    macros = re.findall(r"^#define (FIXPID_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
+    macros = re.findall(r"^#define ((?:FIXPID|TUNER)_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
     numbers = [name for name, value in macros if NUMBER.fullmatch(value)]
     # An inline function is declared like any other.
     declared = re.sub(r"static inline ([^{]*)\{[^}]*\}", r"\1;", preprocessed())
     return "".join(f"#define {name} ...\n" for name in sorted(numbers)) + declared
 
 
-def beside(name):
-    return sorted(glob.glob(os.path.join(SOURCE, name), recursive=True))
-
-
 ffi = FFI()
 ffi.cdef(declarations())
-ffi.set_source("fixpid._library", TEXT, sources=beside("*/*.c") + [os.path.join(TUNER, "fit.c")],
-               depends=beside("**/*.h") + HEADERS, include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])
+ffi.set_source("fixpid._library", TEXT, sources=beside(SOURCE, "*", "*.c"), depends=beside(SOURCE, "**", "*.h") + READ,
+               include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])

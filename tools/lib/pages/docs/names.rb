@@ -3,7 +3,7 @@ require_relative '../../manifests'
 
 # What is written down more than once, and what the documents name.
 module DocumentNames
-  FOLDERS = %w[docs examples include port sim src test tools].freeze
+  FOLDERS = %w[docs examples include port python sim src test tools].freeze
   DOCUMENTS = Dir['*.md', 'docs/*.md', '*.yml', 'test/**/*.yml'].sort.freeze
   FILES = Dir["{#{FOLDERS.join(',')}}/**/*", '*'].sort.freeze
   SOURCES = FILES.grep(%r{\A(?:#{FOLDERS.join('|')})/}).grep_v(/\.(?:md|png|csv)\z/).select { |path| File.file?(path) }.freeze

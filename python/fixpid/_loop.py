@@ -1,0 +1,337 @@
+# SPDX-License-Identifier: MIT
+"""From a recording to a header: a fit, its gains, and the loop that comes of it."""
+import math
+from dataclasses import dataclass
+
+from . import _scene
+from ._advice import advice_of
+from ._fit import fit_step, shape, state_of_fit
+from ._header import header_of
+from ._margins import margins_of
+from ._metrics import limited_steps, metrics_of, unit_per_count, units_of
+from ._modules import AutotuneCause, AutotuneState
+from ._nouns import AUTOTUNE_DONE, numpy
+from ._pid import Pid
+from ._units import Actuator, Sensor, number
+
+KINDS = {"lags": "LAGS", "oscillator": "OSCILLATOR", "integrator": "INTEGRATOR", "oven": "OVEN"}
+BOUNDS = {"gain": (-1e6, 1e6), "lag": (0, 1e5), "dead": (0, 1e5), "lag2": (0, 1e5), "start": (-1e6, 1e6),
+          "damping": (1e-3, 100)}  # as on the page
+LINES_LEAST = 8
+WORTH_LEAST = 0.9  # of a fit: below, the response is not that of a lag
+
+
+def _array(values):
+    return values if numpy is None else numpy.array(values)
+
+
+@dataclass(frozen=True)
+class Plant:
+    """What is controlled, in units of the measurement and seconds. `gain` is what full drive makes
+    of the measurement at rest, of an integrator in each second. `kind` is lags (`lag` and, if it
+    is not 0, `lag2`), integrator (with a lag of `lag2`), oscillator (a period of 2 pi `lag`, with
+    `damping`) or oven (an element with `lag2` warms a body with `lag`)."""
+
+    gain: float
+    lag: float = 1.0
+    dead: float = 0.0
+    lag2: float = 0.0
+    start: float = 0.0
+    kind: str = "lags"
+    damping: float = 0.3
+    unit: str = ""
+
+    def __post_init__(self):
+        if self.kind not in KINDS:
+            raise ValueError(f"kind = {self.kind!r} is refused: {', '.join(KINDS)} are legal")
+        for name, (low, high) in BOUNDS.items():
+            if not low <= number(name, getattr(self, name)) <= high:
+                raise ValueError(f"{name} = {getattr(self, name)} is refused: {low:g} to {high:g} is legal")
+        if (self.lag == 0 and self.kind != "integrator") or (self.lag2 == 0 and self.kind == "oven"):
+            raise ValueError(f"lag = {self.lag}, lag2 = {self.lag2} is refused: {self.kind} needs it above 0")
+
+    def _state(self):
+        return {"PLANT": _scene.PLANT[KINDS[self.kind]], "GAIN": self.gain, "T1": self.lag, "T2": self.lag2,
+                "DEAD": self.dead, "START": self.start, "DAMPING": self.damping, "unit": self.unit}
+
+
+class Fit:
+    """A step response as a lag with dead time: gain (of a unit of the output), lag, dead, start,
+    rise, and error, the root of the mean square. `worth` is R2, 1 where the fit explains all.
+    t and y are the response from the step on, with t = 0 there; `step` is what u rose by, from
+    `before`, and `rest` is where the measurement stands with no output."""
+
+    def __init__(self, found, t, y, before, step):
+        self.start, self.rise, self.lag, self.dead, self.error = (
+            found[name] for name in ("start", "rise", "lag", "dead", "error"))
+        self.before, self.step, self.t, self.y = before, step, t, y
+        mean = sum(y) / len(y)
+        self.worth = 1 - self.error**2 * len(y) / sum((one - mean)**2 for one in y)
+
+    @property
+    def gain(self):
+        """What a unit of u makes of the measurement."""
+        return self.rise / self.step
+
+    @property
+    def rest(self):
+        """The measurement with no output."""
+        return self.start - self.gain * self.before
+
+    def at(self, t):
+        """The fitted response at t seconds after the step."""
+        return self.start + self.rise * shape(t, self.lag, self.dead)
+
+    def plant(self, full=1.0):
+        """The Plant for `simulate`; `full` is full drive in units of u."""
+        return Plant(gain=self.gain * full, lag=self.lag, dead=self.dead, start=self.rest)
+
+    def plot(self, axes=None):
+        """The recording and the fit, by matplotlib. Returns its axes."""
+        axes = _axes(axes)
+        axes.plot(self.t, self.y, ".", color="0.6", label="recorded")
+        axes.plot(self.t, [self.at(t) for t in self.t], color="tab:blue",
+                  label=f"gain {self.gain:.4g}, lag {self.lag:.4g} s, dead time {self.dead:.4g} s")
+        axes.set_xlabel("seconds after the step")
+        axes.set_title(f"R² = {self.worth:.3f}")
+        axes.legend()
+        return axes
+
+    def __repr__(self):
+        return (f"<Fit gain={self.gain:.4g} lag={self.lag:.4g} dead={self.dead:.4g} start={self.start:.4g} "
+                f"worth={self.worth:.4f}>")
+
+
+def _axes(axes):
+    if axes is None:
+        try:
+            from matplotlib import pyplot
+        except ImportError:
+            raise ImportError("plot() needs matplotlib: pip install fixpid[plot]") from None
+        axes = pyplot.subplots(constrained_layout=True)[1]
+    return axes
+
+
+def _seconds(t):
+    """Times in seconds after the first one: numbers, or what a difference of dates is."""
+    first = t[0]
+    if hasattr(first - first, "total_seconds"):
+        return [(one - first).total_seconds() for one in t]
+    if type(first).__name__ == "datetime64":
+        return [float((one - first) / type(first - first)(1, "s")) for one in t]
+    return [float(one) - float(first) for one in t]
+
+
+def _columns(t, u, y):
+    """Rows of (seconds, output, measurement) in time, without those that are no numbers."""
+    t, y = list(t), list(y)
+    u = list(u) if hasattr(u, "__iter__") else [number("u", u)] * len(t)
+    if not len(t) == len(u) == len(y):
+        raise ValueError(f"t, u and y have {len(t)}, {len(u)} and {len(y)} elements")
+    if len(t) < LINES_LEAST:
+        raise ValueError(f"t has {len(t)} elements: {LINES_LEAST} or more are wanted")
+    rows = [(s, float(a), float(b)) for s, a, b in zip(_seconds(t), u, y)]
+    return sorted((row for row in rows if all(map(math.isfinite, row))), key=lambda row: row[0])
+
+
+def _step_of(rows):
+    """The row of the step, what u is before it and what it rises by: it may change once only."""
+    u = [row[1] for row in rows]
+    levels = min(u), max(u)
+    if levels[0] == levels[1]:
+        raise ValueError(f"u = {levels[0]:g} is refused: it has no step; if the recording begins with it, "
+                         "call fit(t, STEP, y)")
+    middle = sum(levels) / 2
+    above = [one > middle for one in u]
+    changes = [i for i in range(1, len(u)) if above[i] != above[i - 1]]
+    if len(changes) != 1:
+        raise ValueError(f"u is refused: it has {len(changes)} steps, at "
+                         f"{', '.join(f'{rows[i][0]:g} s' for i in changes[:5])}; cut the recording to one")
+    at = changes[0]
+    before = sum(u[:at]) / at
+    return at, before, sum(u[at:]) / len(u[at:]) - before
+
+
+def fit(t, u, y):
+    """A Fit of a recorded step response: times, what the actuator got, and the measurement, of
+    lists, arrays or pandas Series; the times may be uneven, or dates. The step is found in u; a
+    single number is a step of so much, from no output, at the first time. ValueError where there is no step."""
+    rows = _columns(t, u, y)
+    at, before, step = _step_of(rows) if hasattr(u, "__iter__") else (0, 0.0, number("u", u))
+    if step == 0:
+        raise ValueError("u = 0 is refused: a step is not 0")
+    begin = rows[at][0]
+    times, values = [row[0] - begin for row in rows[at:]], [row[2] for row in rows[at:]]
+    if len(times) < LINES_LEAST or times[-1] <= 0:
+        raise ValueError(f"there are {len(times)} lines from the step at {begin:g} s on: {LINES_LEAST} or more are wanted")
+    found = fit_step(times, values)
+    if found is None:
+        raise ValueError("y is refused: it does not rise or fall to another level")
+    return Fit(found, times, values, before, step)
+
+
+class Loop:
+    """A loop that was simulated, as the tuner page would: the library's integers on a plant.
+
+    t, setpoint, measurement, true (before the sensor) and twin (beside a controller in double
+    precision) are in units, output in the actuator's; p, i and d are its terms, flags what the
+    controller says, limited whether its output was. `metrics`, `margins` and `advice` are what
+    the page shows of it.
+    """
+
+    def __init__(self, state, actuator):
+        self.state, self._actuator = state, actuator
+        run = _scene.run(state)
+        if run["n"] < 0:
+            raise ValueError(" ".join(advice_of(state, run, None)["refused"]))
+        self._run = run
+        self.margins = margins_of(state, run["results"])
+        self.metrics = metrics_of(state, run)
+        self.advice = advice_of(state, run, self.margins)["warnings"]
+        series = run["series"]
+        per_count = actuator.unit_per_count
+        self.t = _array([i / state["RATE"] for i in range(run["n"])])
+        self.setpoint, self.measurement = (_array([units_of(state, one) for one in series[name]])
+                                           for name in ("SETPOINT", "MEASUREMENT"))
+        self.true, self.twin = _array(series["VALUE_TRUE"]), _array(series["VALUE_TWIN"])
+        self.output = _array([actuator.units(one) for one in series["OUTPUT"]])
+        self.p, self.i, self.d = (_array([one * per_count / scale for one in series[name]])
+                                  for name, scale in (("P", 256), ("I", 65536), ("D", 256)))
+        self.flags, self.limited = _array(series["FLAGS"]), _array(limited_steps(state, run))
+
+    @property
+    def gains(self):
+        """kp, ki and kd in units of the actuator and the sensor."""
+        factor = self._actuator.unit_per_count / unit_per_count(self.state)
+        return tuple(self.state[name] * factor for name in ("KP", "KI", "KD"))
+
+    @property
+    def pid(self):
+        """A new Pid like that of this loop, with its sensor and its actuator."""
+        s, per_count = self.state, self._actuator.unit_per_count
+        kp, ki, kd = self.gains
+        ends = s["INTEGRAL_MIN"], s["INTEGRAL_MAX"]
+        return Pid(kp=kp, ki=ki, kd=kd, rate=s["RATE"], setpoint=s["SETPOINT"], filter=int(s["FILTER"]),
+                   sensor=Sensor(s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"], s["SENSOR_BITS"], s["unit"]),
+                   actuator=self._actuator, reverse=bool(s["OPTIONS"] & _scene.REVERSE),
+                   setpoint_weight=0 if s["OPTIONS"] & _scene.PROPORTIONAL_ON_MEASUREMENT else s["WEIGHT"],
+                   output_limits=(s["OUTPUT_MIN"] * per_count, s["OUTPUT_MAX"] * per_count),
+                   integral_limits=None if ends == (0, 0) else tuple(one * per_count for one in ends),
+                   derivative_on_error=bool(s["OPTIONS"] & _scene.DERIVATIVE_ON_ERROR))
+
+    def header(self):
+        """The header for the firmware, as the page writes it."""
+        return header_of(self.state, self._run["results"])
+
+    def link(self, page=""):
+        """A link that opens this loop in the tuner page, whose address is `page`."""
+        return f"{page}#{_scene.fragment(self.state)}"
+
+    def plot(self, axes=None):
+        """The measurement and the output, by matplotlib: one axes for both, or a pair. Returns
+        the axes of the measurement."""
+        if axes is None:
+            axes = _axes(None)
+        first, second = axes if hasattr(axes, "__len__") else (axes, axes.twinx())
+        first.step(self.t, self.setpoint, where="post", color="0.6", label="setpoint")
+        first.plot(self.t, self.measurement, color="tab:blue", label="measurement")
+        second.step(self.t, self.output, where="post", color="tab:orange", linewidth=0.8, label="output")
+        first.set_xlabel("seconds")
+        first.set_ylabel(self.state["unit"] or "measurement")
+        second.set_ylabel(self._actuator.unit or "output")
+        first.set_title("kp {:.4g}, ki {:.4g}, kd {:.4g}; Ms {:.2f}".format(*self.gains, self.margins["ms"]))
+        first.legend()
+        return first
+
+    def __repr__(self):
+        kp, ki, kd = self.gains
+        found = self.metrics
+        settled = "never" if found["settled"] is None else f"{found['settled']:.4g} s"
+        return (f"<Loop kp={kp:.4g} ki={ki:.4g} kd={kd:.4g}: overshoot {100 * found['overshoot']:.1f} %, "
+                f"settled {settled}, Ms {self.margins['ms']:.2f}{'' if self.margins['stable'] else ', unstable'}>")
+
+
+def _events(events):
+    """What happens: {"at", "what", "a", "b"}, with `what` as the page has it."""
+    found = []
+    for event in events:
+        at, what, *values = event
+        what = str(what).upper()
+        if _scene.EVENT.get(what, 0) == 0 or len(values) > 2:
+            known = ", ".join(name.lower() for name in _scene.EVENT if name != "NONE")
+            raise ValueError(f"event {event!r} is refused: (seconds, what, value) is wanted, and what is one of {known}")
+        if not 0 <= number("at", at) <= 1e6:
+            raise ValueError(f"event {event!r} is refused: 0 to 1e6 seconds are legal")
+        found.append({"at": float(at), "what": what, **{name: number("value", value) for name, value in zip("ab", values)}})
+    if len(found) > _scene.lib.TUNER_EVENTS:
+        raise ValueError(f"events are refused: {len(found)} of them, and at most {_scene.lib.TUNER_EVENTS} happen")
+    return found
+
+
+def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0):
+    """The loop of a Plant, or of a Fit, and a Pid, from rest: a Loop.
+
+    It lasts `duration` seconds, at most 20000 steps; without one, ten times what matters of the
+    plant. `setpoint` is the Pid's own if it is not given. `events` are (seconds, what, value):
+    setpoint in units, load as a part of full drive, manual, limits and feedforward in counts,
+    auto. `noise` is of the sensor, in counts to each side. The Pid itself stays as it is.
+    """
+    if pid.rate is None or pid._tunings is None and "gains" not in pid._said[1]:
+        raise ValueError("pid is refused: it needs a rate and gains")
+    sensor = pid.sensor or Sensor(0, 2**15 - 1, 15)
+    config = pid._said[1]
+    actuator = pid.actuator or Actuator(config.get("output_min", 0), config["output_max"])
+    plant = plant.plant(actuator.full or actuator.most) if isinstance(plant, Fit) else plant
+    factor = pid.counts_per_unit
+    kp, ki, kd = (value * factor for value in pid.tunings)
+    options = sum(bit for name, bit in (("reverse", _scene.REVERSE), ("derivative_on_error", _scene.DERIVATIVE_ON_ERROR),
+                                        ("proportional_on_measurement", _scene.PROPORTIONAL_ON_MEASUREMENT))
+                  if config.get(name))
+    state = {**_scene.COMMON, **plant._state(), "SENSOR_BITS": sensor.bits, "SENSOR_LOW": sensor.low,
+             "SENSOR_RANGE": sensor.high - sensor.low, "NOISE": number("noise", noise),
+             "OUTPUT_MIN": config.get("output_min", 0), "OUTPUT_MAX": config["output_max"], "RATE": pid.rate,
+             "KP": kp, "KI": ki, "KD": kd, "FILTER": config.get("gains", {}).get("derivative_filter", 0),
+             "WEIGHT": (config.get("setpoint_weight_q8") or 256) / 256, "OPTIONS": options,
+             "INTEGRAL_MIN": config.get("integral_min", 0), "INTEGRAL_MAX": config.get("integral_max", 0),
+             "SETPOINT": pid.setpoint if setpoint is None else number("setpoint", setpoint),
+             "events": _events(events)}
+    if sensor.unit:
+        state["unit"] = sensor.unit
+    usual = 10 * (plant.lag + plant.lag2 + plant.dead)
+    state["DURATION"] = max(4 / pid.rate, usual if duration is None else number("duration", duration))
+    return Loop(state, actuator)
+
+
+def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe"):
+    """The Loop with the gains of a rule for a Fit.
+
+    `rule` is PI or PID, as fixpid_autotune finds them in its experiment on the fitted plant, with
+    a `robustness` of quick, safe, calm or 8..64; or SIMC, Skogestad's. `sensor`, `actuator` and
+    `rate` are your hardware's; u of the fit is in the actuator's units, or with no actuator a part
+    of full drive. ValueError, with what to do, where the rule has no gains.
+    """
+    if not isinstance(fit, Fit):
+        raise TypeError(f"fit = {fit!r} is refused: a fixpid.Fit is wanted")
+    if fit.worth < WORTH_LEAST:
+        raise ValueError(f"this response is not that of a lag with dead time: worth {fit.worth:.3f} is below {WORTH_LEAST}")
+    word = str(robustness).upper()
+    robust = _scene.WORD.get(word, robustness)
+    if robust not in range(8, 65):
+        raise ValueError(f"robustness = {robustness!r} is refused: quick, safe, calm and 8..64 are legal")
+    if rule not in ("PI", "PID", "SIMC"):
+        raise ValueError(f"rule = {rule!r} is refused: PI, PID and SIMC are legal")
+    given = Actuator(0, 1000, full=1.0) if actuator is None else actuator
+    found = state_of_fit({"start": fit.rest, "rise": fit.rise, "lag": fit.lag, "dead": fit.dead},
+                         fit.step / (given.full or given.most), sensor, given,
+                         None if rate is None else number("rate", rate))
+    state = {**_scene.COMMON, **found, "ROBUSTNESS": robust, "rule": "PI" if rule == "SIMC" else rule,
+             "unit": sensor.unit if sensor else ""}
+    if rule != "SIMC":
+        tried = _scene.experiment(state, [(rule, robust)])
+        status = int(tried["results"]["STATUS"])
+        if status != AUTOTUNE_DONE:
+            raise ValueError(f"no gains: {AutotuneState(status).advice}")
+        if not tried["rules"][0]["has"]:
+            raise ValueError(f"no gains: {AutotuneCause(int(tried['rules'][0]['results']['REASON'])).advice}")
+        state.update(_scene.gains_of_rule(state, tried["rules"][0]["results"]))
+    return Loop(state, given)

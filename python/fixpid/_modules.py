@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: MIT
+"""What stands beside the controllers: the autotuner, tables, guards, gains and records."""
+import enum
+import math
+import operator
+import textwrap
+
+from . import _nouns
+from ._nouns import accept as _accept, counts as _counts, ffi, fields_of as _fields, lib, new as _new, numpy
+
+
+def _causes(name, noun, advice):
+    """An enum of C whose members say what to do: `advice` has a sentence for each."""
+    prefix = f"FIXPID_{noun.upper()}_"
+    values = {value[len(prefix):]: number
+              for number, value in ffi.typeof(f"enum fixpid_{name}").elements.items()
+              if value.startswith(prefix)}
+    made = enum.IntEnum("".join(map(str.capitalize, name.split("_"))), values, module=__name__)
+    for member in made:
+        member.advice = advice[member.name]
+    return made
+
+
+AutotuneState = _causes("autotune_state", "autotune", {
+    "REFUSED": "A value of the configuration is out of its range.",
+    "RUNNING": "Keep stepping.",
+    "DONE": "It has measured: ask for a result.",
+    "NO_OSCILLATION": "A half cycle took longer than timeout_steps: the setpoint is out of reach of "
+                      "the output range, or the plant is slower than thought.",
+    "SATURATED": "The measurement reached measurement_min or measurement_max: take a narrower "
+                 "output range.",
+    "IRREGULAR": "The cycles were not alike, or the output that holds the setpoint is next to an "
+                 "end of the range: wait for a steady load, or take another setpoint.",
+    "TOO_FAST": "A period has less than 10 steps: sample faster, or measure with less noise.",
+    "TOO_SMALL": "The swing is not far above the noise: take a larger output range, or measure "
+                 "with less noise.",
+    "TOO_SLOW": "The cycles took 32767 steps: sample more slowly."})
+
+AutotuneCause = _causes("autotune_cause", "autotune", {
+    "NO_REASON": "There are gains.",
+    "NOT_DONE": "The experiment has not measured: its status says why.",
+    "NOT_LEGAL": "There is no such rule, or the robustness is outside 8..64.",
+    "SHAPE": "The wave is neither a lag's nor an integrator's: take another swing, a faster "
+             "rate or less load; else set the gains by hand.",
+    "TWO_PROCESSES": "The ways up and down tell of two processes: wait for a steady load. A heater "
+                     "that cools slowly is two processes: set its gains by hand.",
+    "RUNS_AWAY": "More measurement was held with less output: the load has moved, so try once "
+                 "more; or the process is unstable: set its gains by hand.",
+    "GAIN_TOO_LARGE": "kp, ki or kd is above its range: take a finer measurement, or a smaller "
+                      "output range.",
+    "GAIN_TOO_SMALL": "ki is below its range: take a slower rate, or a coarser measurement."})
+
+
+class Autotune(_nouns.Autotune):
+    """Finds gains for Pid on the plant itself: fixpid_autotune.h.
+
+    The rules are fixpid.AUTOTUNE_PI and AUTOTUNE_PID; for robustness_q4 there are three
+    words, AUTOTUNE_QUICK, AUTOTUNE_SAFE and AUTOTUNE_CALM.
+    """
+
+    def status(self):
+        """An AutotuneState, whose `advice` says what to do about it."""
+        return AutotuneState(lib.fixpid_autotune_status(self.c))
+
+    def progress(self):
+        """How far it is: phase, done, expected and period, as a dictionary."""
+        stage = _new("autotune_stage", {})
+        lib.fixpid_autotune_progress(self.c, stage)
+        return _fields(stage[0])
+
+    def model(self):
+        """The process that was found, as a dictionary, or None."""
+        process = _new("autotune_process", {})
+        return _fields(process[0]) if lib.fixpid_autotune_model(self.c, process) else None
+
+    def result(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE, **config):
+        """What Pid takes, by a rule: the fields of `config`, as the output's range, with the
+        gains that were found. None if there are none: `reason` says why."""
+        config = _new("pid_config", config)
+        found = lib.fixpid_autotune_result(self.c, rule, robustness_q4, config)
+        return _fields(config[0]) if found else None
+
+    def reason(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE):
+        """Why there is no result: an AutotuneCause, whose `advice` says what to do about it."""
+        return AutotuneCause(lib.fixpid_autotune_reason(self.c, rule, robustness_q4))
+
+    def pack(self):
+        """A record of the experiment, as bytes. ValueError while it runs."""
+        record = _new("autotune_record", {})
+        if not lib.fixpid_autotune_pack(self.c, record):
+            raise ValueError("there is no record before the experiment is over")
+        return bytes(record.bytes)
+
+    @classmethod
+    def unpack(cls, record):
+        """The experiment as it ended, maybe on a chip: from a record, as bytes or as
+        hexadecimal text with any white space."""
+        if isinstance(record, str):
+            record = bytes.fromhex("".join(record.split()))
+        if len(record) != lib.FIXPID_AUTOTUNE_RECORD_SIZE:
+            raise ValueError(f"a record has {lib.FIXPID_AUTOTUNE_RECORD_SIZE} bytes, not {len(record)}")
+        if record[0] != lib.FIXPID_AUTOTUNE_RECORD_VERSION:
+            raise ValueError(f"version {record[0]} of a record, not {lib.FIXPID_AUTOTUNE_RECORD_VERSION}")
+        tuner = cls.__new__(cls)
+        tuner._said = (), {}
+        tuner.c = _new("autotune", {})
+        if not lib.fixpid_autotune_unpack(tuner.c, _new("autotune_record", {"bytes": list(record)})):
+            raise ValueError("a byte of the record is wrong")
+        return tuner
+
+
+class Table:
+    """A curve from points: fixpid_table.h. `points` are pairs (x, y) of integers, whose x rise."""
+
+    error = None  # where `table` has found the points: the worst one, in counts
+
+    def __init__(self, points):
+        self.points = tuple((operator.index(x), operator.index(y)) for x, y in points)
+        self._points = ffi.new("struct fixpid_table_point[]", self.points)
+        self._table = _new("table", {"points": self._points, "count": len(self.points)})
+        _accept(lib.fixpid_table_valid(self._table),
+                f"points = {self.points}, fewer than 2 or whose x do not rise,")
+
+    def __repr__(self):
+        return f"Table({list(self.points)})"
+
+    def __reduce__(self):
+        return Table, (self.points,), {"error": self.error}
+
+    def at(self, x):
+        """The curve at x; of an array, an array."""
+        if numpy is not None and isinstance(x, numpy.ndarray):
+            flat = numpy.fromiter(map(self.at, _counts(x).ravel().tolist()), "int16", x.size)
+            return flat.reshape(x.shape)
+        return lib.fixpid_table_at(self._table, operator.index(x))
+
+    def c(self, name):
+        """The table in C: the array, and what fixpid_table_at takes."""
+        points = textwrap.wrap(", ".join(f"{{{x},_{y}}}" for x, y in self.points), 76)
+        error = "" if self.error is None else f", within {self.error:.4g} counts"
+        return "\n".join([
+            f"// {len(self.points)} points for {self.points[0][0]} to {self.points[-1][0]}{error}.",
+            f"// On an AVR write PROGMEM after {name}_points[], and call fixpid_table_at_P.",
+            f"static const struct fixpid_table_point {name}_points[] = {{",
+            *(f"    {line.replace('_', ' ')}" for line in points), "};",
+            f"static const struct fixpid_table {name} = FIXPID_TABLE({name}_points);", ""])
+
+
+def table(function, first, last, points=None, error=None):
+    """The Table that follows a function best: 16 points, so many, or as few as an error allows.
+
+    `function(x)` is the value in counts, as a float, for all whole x from first to last. The
+    result's `error` is the largest distance from it over all of them. The points need not lie on
+    the function. ValueError where no table of 255 points does it, or a value is not of 16 bits.
+    """
+    first, last = operator.index(first), operator.index(last)
+    _accept(-32768 <= first < last <= 32767, f"first = {first}, last = {last}")
+    _accept(points is None or error is None, f"points = {points} together with error = {error}")
+    fit = ffi.new("struct fit *", {"first": first, "last": last})
+    fit.f[0:last - first + 1] = [float(function(x)) for x in range(first, last + 1)]
+    _accept(lib.fit_within(fit, error) if error is not None
+            else lib.fit_least(fit, 16 if points is None else operator.index(points)),
+            f"points = {points}, error = {error}: a table of 2 to 255 points for this function")
+    found = Table((point.x, point.y) for point in fit.points[0:fit.count])
+    found.error = fit.error
+    return found
+
+
+def sat16(value):
+    """A number of 32 bits, limited to -32768..32767: a setpoint or a measurement."""
+    return lib.fixpid_sat16(operator.index(value))
+
+
+def slew_rate(counts_per_second, steps_per_second):
+    """What the macro FIXPID_SLEW_RATE makes of it."""
+    _accept(steps_per_second > 0, f"steps_per_second = {steps_per_second}")
+    rate = counts_per_second * 65536.0 / steps_per_second
+    _accept(counts_per_second == 0 or 0.5 <= rate < 4294967295.5, f"counts_per_second = {counts_per_second}")
+    return int(rate + 0.5)
+
+
+def guard_config(model, output_min, output_max, **config):
+    """What Guard takes for a plant, by the rule of fixpid_guard.h.
+
+    `model` is a dictionary as Autotune.model gives it, and `config` is all other fields:
+    measurement_min, measurement_max, reach_min, reach_max, reverse, and band, patience or
+    noisy in place of the rule's. ValueError where the rule has no answer: the plant is too
+    slow for a patience of 16 bits, or there is no such guard.
+    """
+    noise = model["noise_q4"] / 16
+    slope = model["slope_q24"] / 2**24
+    _accept(slope > 0 and output_min < output_max, f"slope_q24 = {model['slope_q24']}, or an output of {output_min} to {output_max},")
+    gain = 0 if model["gain_q8"] == lib.FIXPID_AUTOTUNE_INTEGRATING else model["gain_q8"] / 256
+    band = config.get("band", math.ceil(max(8 * noise + 4, 2 * gain)))
+    way = 20 * band / (slope * (output_max - output_min))
+    patience = config.get("patience", max(math.ceil(2 * model["dead_q4"] / 16 + way), 4))
+    chosen = {"band": band, "patience": patience, "noisy": noise >= 1 and patience >= 16,
+              "output_min": output_min, "output_max": output_max, **config}
+    _accept(band <= 32767 and patience <= 32767, f"band = {band} or patience = {patience}")
+    _accept(lib.fixpid_guard_init(_new("guard", {}), _new("guard_config", chosen)),
+            ", ".join(f"{name} = {value}" for name, value in chosen.items()))
+    return chosen
+
+
+def gains_from_milli(kp, ki, kd, rate_milli, filter=0):
+    """Gains from thousandths, as fixpid_gains.h has them."""
+    gains, milli = _new("pid_gains", {}), _new("gains_milli", {"kp": kp, "ki": ki, "kd": kd})
+    _accept(lib.fixpid_gains_from_milli(gains, milli, rate_milli, filter),
+            f"kp = {kp}, ki = {ki}, kd = {kd}, rate_milli = {rate_milli} or filter = {filter}")
+    return _fields(gains[0])
+
+
+def gains_to_milli(gains, rate_milli):
+    """The way back."""
+    milli = _new("gains_milli", {})
+    _accept(lib.fixpid_gains_to_milli(milli, _new("pid_gains", gains), rate_milli),
+            f"{gains} at rate_milli = {rate_milli}")
+    return _fields(milli[0])
+
+
+def record_pack(**config):
+    """A configuration of Pid as bytes: fixpid_record.h."""
+    record = _new("record", {})
+    lib.fixpid_record_pack(record, _new("pid_config", config))
+    return bytes(record.bytes)
+
+
+def record_unpack(record):
+    """The configuration of a record; ValueError for another version or a wrong check."""
+    config = _new("pid_config", {})
+    if len(record) != lib.FIXPID_RECORD_SIZE:
+        raise ValueError(f"a record has {lib.FIXPID_RECORD_SIZE} bytes, not {len(record)}")
+    _accept(lib.fixpid_record_unpack(_new("record", {"bytes": list(record)}), config), "the record")
+    return _fields(config[0])

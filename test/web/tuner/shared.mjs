@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The table of numbers that the page's mathematics and the Python package's are both held
+// to, shared.json: here it is compared with what the page's modules compute in node, and
+// python/test/tuner.py compares it with the package. `--update` writes it.
+//
+//   node test/web/tuner/shared.mjs FOLDER [--update]     FOLDER has built.js, of tools/tuner
+//
+// More rows: another entry in RECORDINGS or SCENES, or another list beside them in `table`,
+// which python/test/tuner.py then reads.
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { isDeepStrictEqual } from 'node:util';
+
+const [folder, ...options] = process.argv.slice(2);
+const TABLE = 'test/web/tuner/shared.json';
+const copy = `${process.cwd()}/${folder}/shared`;
+
+// The modules as they are, where node takes them for modules. page.js needs a document: of
+// it only the function that makes gains of a rule's integers.
+mkdirSync(copy, { recursive: true });
+readdirSync('web').filter((name) => name.endsWith('.js')).forEach((name) => copyFileSync(`web/${name}`, `${copy}/${name}`));
+copyFileSync(`${folder}/built.js`, `${copy}/built.js`);
+writeFileSync(`${copy}/package.json`, '{"type": "module"}');
+const [gains] = readFileSync('web/page.js', 'utf8').match(/^export function gainsOfRule[^]*?^}$/m);
+writeFileSync(`${copy}/gains.js`, `import { OPTION } from './built.js';\nimport { shortest } from './format.js';\n${gains}\n`);
+const load = (name) => import(`${copy}/${name}.js`);
+const { PARAM, PLANT, RULE, WORD } = await load('built');
+const { experiment, run, startEngine } = await load('engine');
+const { fitStep } = await load('fit');
+const { digits, percent, short, whole } = await load('format');
+const { gainsOfRule } = await load('gains');
+const { headerOf } = await load('header');
+const { marginsOf } = await load('margins');
+const { metricsOf } = await load('metrics');
+const { adviceOf } = await load('advice');
+const { PRESETS, stateOfFragment } = await load('state');
+await startEngine();
+
+// --- Recordings, of a plant that is known ------------------------------------------
+
+let seed = 20261126;
+
+function draw() {
+    seed = (seed * 48271) % 2147483647;
+    return seed / 2147483647;
+}
+
+const RECORDINGS = [
+    { name: 'heater', gain: 72, lag: 140, dead: 9, start: 21, seconds: 900, lines: 120, noise: 0.3 },
+    { name: 'no dead time', gain: 5, lag: 2, dead: 0, start: 0, seconds: 12, lines: 60, noise: 0 },
+    { name: 'falls', gain: -38, lag: 0.4, dead: 0.15, start: 61, seconds: 3, lines: 90, noise: 0.2 },
+    { name: 'long dead time', gain: 0.08, lag: 30, dead: 55, start: 1, seconds: 300, lines: 80, noise: 0.0005 },
+    { name: 'two lags', gain: 100, lag: 20, second: 6, dead: 2, start: 20, seconds: 160, lines: 100, noise: 0.5 },
+    { name: 'milliseconds', gain: 900, lag: 0.012, dead: 0.003, start: 40, seconds: 0.08, lines: 70, noise: 2 },
+    { name: 'flat', gain: 0, lag: 1, dead: 0, start: 5, seconds: 10, lines: 20, noise: 0 },
+];
+
+function risen(t, { lag, second = 0 }) {
+    const slow = (time) => (t <= 0 ? 0 : Math.exp(-t / time));
+    return t <= 0 ? 0 : 1 - (lag * slow(lag) - (second > 0 ? second * slow(second) : 0)) / (lag - second);
+}
+
+// Uneven in time, and rounded as a file has it.
+function recorded(plant) {
+    const { gain, dead, start, seconds, lines, noise } = plant;
+    const round = (x) => Number(x.toPrecision(6));
+    const times = Array.from({ length: lines }, (_, i) => (i === 0 ? 0 : round((i + 0.6 * (draw() - 0.5)) / lines * seconds)));
+    const values = times.map((t) => round(start + gain * risen(t - dead, plant) + noise * (2 * draw() - 1)));
+    return { times, values };
+}
+
+// --- Scenes --------------------------------------------------------------------------
+
+const preset = (id, more = {}) => {
+    const { name, story, ...state } = PRESETS.find((one) => one.preset === id);
+    return { ...state, ...more };
+};
+const SCENES = [
+    ...['oven', 'flow', 'spring', 'axis', 'motor', 'an937', 'an964'].map((id) => preset(id)),
+    preset('flow', { SENSOR_BITS: 15, WEIGHT: 0.3, OPTIONS: 0x40, KD: 0.4, FILTER: 0, INTEGRAL_MIN: -50, INTEGRAL_MAX: 900,
+        unit: 'm³/h', events: [{ at: 20, what: 'MANUAL', a: 300, b: 0 }, { at: 30, what: 'AUTO', a: 0, b: 0 },
+            { at: 50, what: 'LIMITS', a: 100, b: 700 }, { at: 60.3, what: 'FEEDFORWARD', a: 55, b: 0 }] }),
+    preset('flow', { GAIN: -80, START: 95, OPTIONS: 0x80, SETPOINT: 40, KP: 1.1, DEAD: 0, T2: 0, events: [] }),
+    preset('flow', { KP: 4.5, KI: 2.2, DURATION: 40, events: [] }), // swings
+    preset('flow', { KP: 0.05, KI: 0.0007, RATE: 0.5, DURATION: 900, OPTIONS: 0x20, WEIGHT: 0, SENSOR_BITS: 8 }),
+    preset('axis', { T2: 0, DEAD: 0.035, KD: 0, OUTPUT_MAX: 400, SETPOINT: 500, DURATION: 6 }),
+    preset('oven', { RATE: 50, DEAD: 3.01, DURATION: 500, KI: 30, SETPOINT: 430 }),
+    preset('spring', { DAMPING: 0.9, KI: 120, DURATION: 6 }),
+    ...[{ KP: 200 }, { KP: -1 }, { KI: 1e-9 }, { KD: 500 }, { OUTPUT_MAX: 0 }, { INTEGRAL_MIN: 5 }, { WEIGHT: 1.5 }, { FILTER: 9 }]
+        .map((wrong) => preset('flow', wrong)),
+    preset('an937', { KP: 300 }), preset('an964', { KI: 2000 }),
+];
+
+const FIGURES = ['overshoot', 'rise', 'settled', 'load', 'meanError', 'moved', 'limited', 'travel'];
+const MARGINS = ['ms', 'gainMargin', 'lowerGainMargin', 'phaseMargin', 'delayMargin', 'stable'];
+const chosen = (from, names) => Object.fromEntries(names.filter((name) => name in from).map((name) => [name, from[name]]));
+const sum = (series) => series.reduce((total, x) => total + x, 0);
+
+function sceneRow(state) {
+    const found = run(state);
+    const good = found.n > 0;
+    const margins = good ? marginsOf(state, found.results) : null;
+    const more = good && {
+        sums: Object.fromEntries(Object.entries(found.series).map(([name, series]) => [name, sum(series)])),
+        metrics: { ...chosen(metricsOf(state, found), FIGURES), twin: metricsOf(state, found).twin },
+        margins: { ...chosen(margins, MARGINS), curve: [0, 160, 320, 479].map((i) => margins.curve[i]) },
+        header: headerOf(state, found.results),
+    };
+    return { state, n: found.n, results: chosen(found.results, ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'OPTIONS', 'DEAD_S']),
+        advice: adviceOf(state, found, margins), ...more };
+}
+
+// By each rule and each word: the integers, and the gains that fold to them.
+function ruleRow(state) {
+    const found = experiment(state);
+    const words = Object.values(WORD);
+    const rows = found.rules.filter(({ robustness }) => words.includes(robustness));
+    return { state, n: found.n, status: found.results.STATUS, rules: rows.map(({ rule, robustness, has, results }) =>
+        ({ rule, robustness, has, reason: results.REASON, gains: has ? gainsOfRule(state, results) : null })) };
+}
+
+// A link that says all: opening it makes this state.
+const NUMBERS = Object.keys(PARAM).filter((name) => name !== 'CONTROLLER' && name !== 'PLANT');
+
+function linkRow(state) {
+    const events = state.events.map(({ at, what, a = 0, b = 0 }) => [what.toLowerCase(), at, a, b].join('_')).join('~');
+    const fragment = [`p=${state.preset}`, ...NUMBERS.map((name) => `${name.toLowerCase()}=${state[name]}`),
+        `unit=${encodeURIComponent(state.unit)}`, `rule=${state.rule}`, `events=${events}`].join('&');
+    const opened = stateOfFragment(fragment);
+    const lost = [...NUMBERS, 'PLANT', 'CONTROLLER', 'unit', 'rule'].filter((name) => opened[name] !== state[name]);
+    if (lost.length > 0 || opened.events.length !== state.events.length) {
+        throw new Error(`the link of ${state.preset} loses ${lost}`);
+    }
+    return { state, fragment };
+}
+
+function numberRow(value) {
+    return { value, text: String(value), short: short(value), digits: digits(value), percent: percent(value), whole: whole(value) };
+}
+
+const pids = SCENES.slice(0, 5);
+const NUMBERS_SHOWN = [0, 1, -1, 0.1 + 0.2, 2.5, 1234.5, -0.0005, 12345678, 1e21, 1e-7, 123456.5, 0.000244140625, 99.95, 2 / 3, -1e6];
+const table = {
+    fits: RECORDINGS.map(({ name, ...plant }) => {
+        const recording = recorded(plant);
+        return { name, ...recording, fit: fitStep(recording) };
+    }),
+    scenes: SCENES.map(sceneRow),
+    rules: pids.filter(({ PLANT: plant }) => plant !== PLANT.MOTOR).map(ruleRow),
+    links: [...pids, SCENES[7]].map(linkRow),
+    numbers: NUMBERS_SHOWN.map(numberRow),
+};
+
+// --- Against the file ----------------------------------------------------------------
+
+const list = (rows) => rows.map((row) => JSON.stringify(row, (_, x) => (Object.is(x, -0) ? 0 : x))).join(',\n');
+const escaped = (string) => string.replace(/[\u0080-\uFFFF]/g, (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, '0')}`);
+const text = escaped(`{\n${Object.entries(table).map(([name, rows]) => `"${name}": [\n${list(rows)}]`).join(',\n')}\n}\n`);
+if (options.includes('--update')) {
+    writeFileSync(TABLE, text);
+}
+const kept = JSON.parse(readFileSync(TABLE, 'utf8'));
+const now = JSON.parse(text);
+let failed = 0;
+for (const [name, rows] of Object.entries(now)) {
+    const different = rows.filter((row, i) => !isDeepStrictEqual(row, kept[name]?.[i]));
+    const good = different.length === 0 && kept[name].length === rows.length;
+    failed += good ? 0 : 1;
+    console.log(good ? `ok table of ${name}: ${rows.length} rows`
+        : `FAILED table of ${name}: ${different.length} of ${rows.length} rows differ; to renew ${TABLE}: node test/web/tuner/shared.mjs ${folder} --update`);
+}
+if (Object.keys(RULE).length !== 2 || Object.keys(kept).length !== Object.keys(now).length) {
+    console.log(`FAILED table: its lists are ${Object.keys(kept)}`);
+    failed += 1;
+}
+process.exit(failed > 0 ? 1 : 0);
