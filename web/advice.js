@@ -4,6 +4,7 @@
 import { CONTROLLER, LIMIT, OPTION, PLANT } from './built.js';
 import { digits, percent, whole } from './format.js';
 import { scaleSeconds } from './margins.js';
+import { actsWrongly } from './own.js';
 
 const COARSE = 50; // below it a step of the integer is more than 2 %
 const LIMIT_16 = 32767;
@@ -73,6 +74,9 @@ function loopAdvice(s, margins) {
 
 function sceneAdvice(s, run) {
     const found = [];
+    if (s.CONTROLLER === CONTROLLER.PID && actsWrongly(s)) {
+        found.push('More output moves this plant away from its setpoint: change “reverse acting” or the sign of its gain.');
+    }
     const high = s.SENSOR_LOW + s.SENSOR_RANGE;
     const goals = [s.SETPOINT, ...s.events.filter((event) => event.what === 'SETPOINT').map((event) => event.a)];
     if (s.PLANT !== PLANT.PENDULUM && goals.some((goal) => goal > high || goal < s.SENSOR_LOW)) {

@@ -3,9 +3,11 @@
 // the middle of each is a sensible value.
 import { CONTROLLER, PLANT, WORD } from './built.js';
 import { make } from './dom.js';
-import { digits, short } from './format.js';
+import { createField } from './fields.js';
+import { digits } from './format.js';
 import { countsGain, scaleSeconds } from './margins.js';
-import { presetState } from './state.js';
+import { KINDS, firstGains, plantOfKind, withPlant } from './own.js';
+import { WHOLE, currentState, presetState } from './state.js';
 
 // A range on a logarithmic scale `spread` times up and down.
 function around(value, spread, zero = false) {
@@ -17,8 +19,33 @@ function straight(low, high, step) {
     return { low, high, step };
 }
 
-const from = (s, key) => presetState(s.preset)[key];
-const likePreset = (key, spread) => (s) => around(from(s, key), spread);
+const isOwn = (s) => s.preset === 'own';
+
+// What a double click resets a number to.
+function from(s, key) {
+    return (isOwn(s) ? firstGains(s)[key] : undefined) ?? presetState(s.preset)[key];
+}
+
+// Around the preset's value; of a plant of one's own nothing is known before.
+const WIDE = { T1: [1e-3, 1e4], T2: [1e-3, 1e4], RATE: [0.1, 20000], SENSOR_RANGE: [0.1, 1e4] };
+
+function likePreset(key, spread) {
+    return (s) => {
+        if (!isOwn(s) || s.PLANT === PLANT.MOTOR && key === 'T1') {
+            return around(from(s, key), spread);
+        }
+        const [low, high] = WIDE[key] ?? [s.SENSOR_RANGE / 50, s.SENSOR_RANGE * 50];
+        return { low, high, log: true };
+    };
+}
+
+// Dead time and second lags, from 0.
+function upTo(part) {
+    return (s) => {
+        const most = isOwn(s) ? Math.max(scaleSeconds({ ...s, DEAD: 0, T2: 0 }), 10 / s.RATE) : part(s);
+        return straight(0, most, most / 250);
+    };
+}
 const sensor = (s) => straight(s.SENSOR_LOW, s.SENSOR_LOW + s.SENSOR_RANGE,
     s.SENSOR_RANGE / 500);
 const integrates = (s) => s.PLANT === PLANT.INTEGRATOR;
@@ -56,8 +83,8 @@ function plantControls(s) {
             integrates(s) ? `${s.unit}/s at full drive` : `${s.unit} at full drive`, likePreset('GAIN', 5)],
         ...(integrates(s) ? [] : [['T1', 'Lag', 's', likePreset('T1', 10)]]),
         ['T2', integrates(s) ? 'Lag' : 'Second lag', 's',
-            (now) => straight(0, 5 * Math.max(from(now, 'T2'), from(now, 'T1') / 10), from(now, 'T2') / 50)],
-        ['DEAD', 'Dead time', 's', (now) => straight(0, 5 * from(now, 'DEAD'), from(now, 'DEAD') / 50)],
+            upTo((now) => 5 * Math.max(from(now, 'T2'), from(now, 'T1') / 10))],
+        ['DEAD', 'Dead time', 's', upTo((now) => 5 * from(now, 'DEAD'))],
         ['START', 'At rest', s.unit, sensor],
     ];
     }
@@ -89,7 +116,7 @@ function gainControls(s) {
     ];
 }
 
-const duration = (s) => around(from(s, 'DURATION'), 10);
+const duration = (s) => around(isOwn(s) ? 12 * scaleSeconds(s) : from(s, 'DURATION'), 10);
 
 function sensorControls(s) {
     const notes = s.CONTROLLER !== CONTROLLER.PID;
@@ -124,7 +151,30 @@ function tunerControls() {
     ];
 }
 
+// In the order in which a user knows them: the hardware, the plant, and what follows.
+function ownSections(s) {
+    const hardware = [
+        ['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)],
+        ['SENSOR_LOW', 'Count 0 is', s.unit, (now) => straight(-now.SENSOR_RANGE, now.SENSOR_RANGE, now.SENSOR_RANGE / 200)],
+        ['SENSOR_RANGE', 'All counts are', s.unit, likePreset('SENSOR_RANGE', 5)],
+        ['OUTPUT_MIN', 'Lowest output', 'counts', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
+        ['OUTPUT_MAX', 'Highest output', 'counts', () => ({ low: 15, high: 32767, log: true, whole: true })],
+        ['RATE', 'Sample rate', 'steps per second', likePreset('RATE', 16)],
+    ];
+    const more = sensorControls(s).filter(([key]) => !hardware.some(([other]) => other === key));
+    return [
+        { title: '1 Your sensor, actuator, rate', open: true, head: [unitField], controls: hardware },
+        { title: '2 Your plant', open: true, head: [kindChoice], controls: plantControls(s) },
+        { title: '3 Your gains', open: true, head: [firstButton], controls: [...setpointControls(s), ...gainControls(s)] },
+        { title: 'Autotune', open: false, controls: tunerControls() },
+        { title: 'Noise, integral, time', open: false, controls: more },
+    ];
+}
+
 export function sectionsOf(s) {
+    if (isOwn(s)) {
+        return ownSections(s);
+    }
     return [
         { title: 'Gains', open: true, controls: [...setpointControls(s), ...gainControls(s)] },
         { title: 'Plant', open: true, controls: plantControls(s) },
@@ -162,58 +212,84 @@ function valueOf(range, position) {
     return Number(Math.min(range.high, Math.max(range.low, tidy)).toPrecision(6));
 }
 
+// What an arrow key moves a value of 0 by.
+function leastStep(range) {
+    return range.log ? range.low : (range.high - range.low) / POSITIONS;
+}
+
 // One control; returns { row, update(state) }. `note` is text beside its label.
 function createControl([key, label, unit, range], id, onInput) {
-    const number = make('input', { type: 'number', id, step: 'any', inputMode: 'decimal' });
     const slider = make('input', { type: 'range', min: 0, max: POSITIONS, step: 1 });
     slider.setAttribute('aria-label', `${label}, slider`);
     const note = make('em', {});
     const name = make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit }));
-    let now = null;
-    slider.addEventListener('input', () => onInput(key, valueOf(range(now), Number(slider.value))));
-    number.addEventListener('input', () => {
-        if (number.value !== '' && Number.isFinite(Number(number.value))) {
-            onInput(key, Number(number.value));
-        }
-    });
-    number.addEventListener('change', () => {
-        number.value = short(now[key]);
-    });
+    const number = createField(id, {}, { read: () => currentState()[key], onInput: (value) => onInput(key, value),
+        step: () => ({ least: leastStep(range(currentState())), whole: WHOLE.includes(key) }) });
+    slider.addEventListener('input', () => onInput(key, valueOf(range(currentState()), Number(slider.value))));
+    slider.addEventListener('dblclick', () => onInput(key, from(currentState(), key)));
+    slider.title = 'A double click resets it';
     function update(s, text = note.textContent) {
-        now = s;
-        if (document.activeElement !== number) { // not while it is typed in
-            number.value = short(s[key]);
-        }
+        number.update();
         const at = positionOf(range(s), s[key]);
         slider.value = at;
         slider.setAttribute('aria-valuetext', `${digits(s[key], 4)} ${unit}`);
         slider.style.setProperty('--part', `${Math.min(100, Math.max(0, at / POSITIONS * 100))}%`);
         note.textContent = text;
     }
-    return { key, row: make('div', { className: 'control' }, name, note, slider, number), update };
+    return { key, row: make('div', { className: 'control' }, name, note, slider, number.field, number.why), update };
+}
+
+// What stands above the controls of a section: { key, row, update(state) }. Each gets
+// what takes a change of the state.
+function unitField(onMore) {
+    const field = make('input', { type: 'text', id: 'c-unit', maxLength: 12, size: 5 });
+    field.addEventListener('input', () => onMore({ unit: field.value }));
+    return { row: make('label', { className: 'line' }, 'Unit of the measurement ', field),
+        update: (s) => {
+            if (document.activeElement !== field) {
+                field.value = s.unit;
+            }
+        } };
+}
+
+function kindChoice(onMore) {
+    const choice = make('select', { id: 'c-plant' }, ...KINDS.map(([kind, name, like]) =>
+        make('option', { value: kind, textContent: `${name}: ${like}` })));
+    choice.addEventListener('change', () => {
+        const s = currentState();
+        onMore(withPlant(s, plantOfKind(s, Number(choice.value))));
+    });
+    return { row: make('label', { className: 'line' }, 'Kind ', choice), update: (s) => {
+        choice.value = s.PLANT;
+    } };
+}
+
+function firstButton(onMore) {
+    const button = make('button', { type: 'button', id: 'first-gains', textContent: 'First gains for this plant' });
+    button.addEventListener('click', () => onMore(firstGains(currentState())));
+    return { row: button, update: () => {} };
 }
 
 // Fills the panel; returns update(state, notes), which builds it again only when
 // its controls are others.
-export function createPanel(place, onInput) {
+export function createPanel(place, onMore) {
     let [shape, controls] = ['', []];
+    const onInput = (key, value) => onMore({ [key]: value });
     function build(s) {
         const open = new Map([...place.querySelectorAll('details')].map((one) => [one.dataset.title, one.open]));
         controls = [];
         place.replaceChildren(...sectionsOf(s).map((section) => {
-            const rows = section.controls.map((one) => {
-                const control = createControl(one, `c-${one[0].toLowerCase()}`, onInput);
-                controls.push(control);
-                return control.row;
-            });
+            const made = [...(section.head ?? []).map((one) => one(onMore)),
+                ...section.controls.map((one) => createControl(one, `c-${one[0].toLowerCase()}`, onInput))];
+            controls.push(...made);
             const details = make('details', { open: open.get(section.title) ?? section.open },
-                make('summary', { textContent: section.title }), ...rows);
+                make('summary', { textContent: section.title }), ...made.map((one) => one.row));
             details.dataset.title = section.title;
             return details;
         }));
     }
     return (s, notes) => {
-        const wanted = JSON.stringify([s.preset, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);
+        const wanted = JSON.stringify([s.preset, s.PLANT, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);
         if (wanted !== shape) {
             shape = wanted;
             build(s);

@@ -3,6 +3,7 @@
 // moved by the arrow keys, and the same as a list of fields.
 import { CONTROLLER, LIMIT, PLANT } from './built.js';
 import { make } from './dom.js';
+import { createField } from './fields.js';
 import { percent, short } from './format.js';
 
 function loadOf(s) {
@@ -138,16 +139,6 @@ export function createFlags(place, plots, state, onEvents) {
     return update;
 }
 
-function numberField(label, value, onInput) {
-    const field = make('input', { type: 'number', step: 'any', value: short(value), 'aria-label': label });
-    field.addEventListener('input', () => {
-        if (field.value !== '' && Number.isFinite(Number(field.value))) {
-            onInput(Number(field.value));
-        }
-    });
-    return field;
-}
-
 // The list of fields; it is built again when a kind or their number changes, so
 // that a field keeps its focus while it is typed in.
 export function createEventList(place, state, onEvents) {
@@ -164,15 +155,17 @@ export function createEventList(place, state, onEvents) {
             const [a = 0, b = 0] = kinds[what.value].start;
             set({ what: what.value, a, b });
         });
-        const at = numberField(`Seconds, ${i + 1}`, event.at, (value) => set({ at: value }));
+        const number = (key, label) => createField(`e-${i}-${key}`, { 'aria-label': `${label}, ${i + 1}` },
+            { read: () => state().events[i]?.[key] ?? 0, onInput: (value) => set({ [key]: value }),
+                step: () => ({ least: key === 'at' ? state().DURATION / 1000 : 0.01 }) });
+        const at = number('at', 'Seconds');
         const kind = kinds[event.what] ?? {};
-        const values = ['a', 'b'].filter((key) => kind[key]).map((key) =>
-            ({ key, field: numberField(`${kind.name}, ${kind[key]}, ${i + 1}`, event[key], (value) => set({ [key]: value })) }));
+        const values = ['a', 'b'].filter((key) => kind[key]).map((key) => number(key, `${kind.name}, ${kind[key]}`));
         const remove = make('button', { type: 'button', className: 'quiet', textContent: '×', 'aria-label': `Remove ${textOf(s, event)}` });
         remove.addEventListener('click', () => onEvents(state().events.filter((_, k) => k !== i)));
-        fields.push({ i, key: 'at', field: at }, ...values.map((value) => ({ i, ...value })));
-        return make('div', { className: 'event' }, what, make('span', { className: 'at' }, at, ' s'),
-            make('span', { className: 'values' }, ...values.map((value) => value.field)), remove);
+        fields.push(at, ...values);
+        return make('div', { className: 'event' }, what, make('span', { className: 'at' }, at.field, ' s'),
+            make('span', { className: 'values' }, ...values.map((value) => value.field)), remove, ...[at, ...values].map((one) => one.why));
     }
 
     function build(s) {
@@ -194,10 +187,8 @@ export function createEventList(place, state, onEvents) {
             shape = wanted;
             build(s);
         }
-        for (const { i, key, field } of fields) {
-            if (Number(field.value) !== s.events[i][key] && document.activeElement !== field) {
-                field.value = short(s.events[i][key]);
-            }
+        for (const one of fields) {
+            one.update();
         }
     };
 }

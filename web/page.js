@@ -8,23 +8,27 @@ import { blank, find, make, setText } from './dom.js';
 import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
-import { fitStep, fittedAt, readRecording, stateOfFit } from './fit.js';
+import { readNumber } from './fields.js';
+import { fitStep, fittedAt, readRecording } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
 import { headerOf } from './header.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { createPendulum } from './pendulum.js';
+import { firstGains, round4 } from './own.js';
+import { createPast, wayOfKey } from './past.js';
 import { createPlots, color } from './plot.js';
 import { readRecord, recordText } from './record.js';
 import { tableOf, tableText } from './sensor.js';
-import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, presetState, stateOfFragment } from './state.js';
+import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
 
 let plots = null;
 let flags = null;
 let events = null;
 let panel = null;
 let pendulum = null;
+let past = null;
 let kept = null; // a run to compare with: { preset, seconds, value, output, text }
 let mode = 'run'; // or 'tune': which of the two the plots show
 let cursor = null;
@@ -269,7 +273,6 @@ function showHead(s) {
         find('#presets [aria-pressed=true]').scrollIntoView({ block: 'nearest', inline: 'nearest' });
         setText(find('#story'), s.story);
     }
-    history.replaceState(null, '', `#${fragmentOf(s)}`);
     for (const box of find('#options').querySelectorAll('input')) {
         box.checked = (s.OPTIONS & Number(box.value)) !== 0;
     }
@@ -335,6 +338,7 @@ function show() {
         showRefused(s, found);
     }
     setText(find('#said'), '');
+    past.later(); // last: what is shown does not depend on the link
 }
 
 // --- What a person does -----------------------------------------------------------
@@ -373,6 +377,10 @@ function keep() {
             text: `kp ${digits(s.KP)}, ki ${digits(s.KI)}, kd ${digits(s.KD)}:` };
     }
     show();
+}
+
+function linkOf(s) {
+    return `${location.href.replace(/#.*/, '')}#${fragmentOf(s)}`;
 }
 
 async function toClipboard(text, done) {
@@ -438,16 +446,17 @@ function useFit() {
     if (fit !== null) {
         mode = 'run';
         kept = null;
-        changeNow({ ...presetState('flow'), ...stateOfFit(currentState(), fit, step, find('#record-unit').value) });
+        changeNow(ownState(currentState(), { PLANT: PLANT.LAGS, GAIN: round4(fit.rise / step), T1: round4(fit.lag), T2: 0, DEAD: round4(fit.dead),
+            START: round4(fit.start), unit: find('#record-unit').value }));
         find('#view').scrollIntoView();
-        say('The plant is the one that was recorded.');
+        say('The plant is the one that was recorded; sensor, output and rate are yours.');
     }
 }
 
 // --- A sensor -----------------------------------------------------------------------
 
 function sensorOfPage() {
-    const number = (id) => (find(id).value === '' ? NaN : Number(find(id).value));
+    const number = (id) => readNumber(find(id).value).value ?? NaN;
     const scale = number('#s-scale');
     return { kind: find('#s-kind').value, r25: number('#s-r25'), beta: number('#s-beta'), series: number('#s-series'),
         supply: find('#s-supply').value !== '', bits: number('#s-bits'), microvolts: number('#s-microvolts'),
@@ -484,7 +493,8 @@ function chooseTable() {
 // --- From the start -----------------------------------------------------------------
 
 function buildHead() {
-    find('#presets').append(...PRESETS.map((one) => {
+    const [own, ...others] = [...PRESETS].reverse();
+    find('#presets').append(...[own, ...others.reverse()].map((one) => {
         const button = make('button', { type: 'button', textContent: one.name, value: one.preset });
         button.addEventListener('click', () => {
             mode = 'run';
@@ -509,7 +519,16 @@ function buildHead() {
 function listen() {
     find('#plots').addEventListener('keydown', moveCursor);
     find('#keep').addEventListener('click', keep);
-    find('#share').addEventListener('click', () => toClipboard(location.href, 'The link is copied: it has all settings.'));
+    find('#share').addEventListener('click', () => toClipboard(linkOf(currentState()), 'The link is copied: it has all settings.'));
+    find('#undo').addEventListener('click', () => past.travel(-1));
+    find('#redo').addEventListener('click', () => past.travel(1));
+    document.addEventListener('keydown', (event) => {
+        const way = wayOfKey(event);
+        if (way !== 0) {
+            event.preventDefault();
+            past.travel(way);
+        }
+    });
     find('#copy-record').addEventListener('click', () => toClipboard(recordText(tuned.found.record), 'The record is copied.'));
     find('#record').addEventListener('input', () => showRecord(currentState()));
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
@@ -521,11 +540,8 @@ function listen() {
     find('#sensor').addEventListener('input', changeSensor);
     find('#choose').addEventListener('click', chooseTable);
     find('#copy-table').addEventListener('click', () => toClipboard(find('#table').textContent, 'The table is copied.'));
-    window.addEventListener('hashchange', () => {
-        if (location.hash.slice(1) !== fragmentOf(currentState())) {
-            changeNow(stateOfFragment(location.hash.slice(1)));
-        }
-    });
+    window.addEventListener('popstate', () => past.arrived());
+    window.addEventListener('hashchange', () => past.arrived());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
         show();
         showFit();
@@ -539,12 +555,18 @@ async function startPage() {
     pendulum = createPendulum(find('#picture'), (seconds) => plots.cursorAt(seconds));
     flags = createFlags(find('#flags'), plots, currentState, (next) => change({ events: next }));
     events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
-    panel = createPanel(find('#panel'), (key, value) => change({ [key]: value }));
+    panel = createPanel(find('#panel'), change);
+    past = createPast({ fragment: () => fragmentOf(currentState()), go: (fragment) => changeNow(stateOfFragment(fragment)),
+        changed: ({ undo, redo }) => {
+            find('#undo').disabled = !undo;
+            find('#redo').disabled = !redo;
+        } });
     listen();
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
+    past.settle();
     // What the tests take hold of.
-    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, fitStep, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
+    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, firstGains, fitStep, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
         controllerOf, marginsOf, presetState, readRecording, recordText, recorded, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }

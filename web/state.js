@@ -3,6 +3,7 @@
 // the C by their names there, and a few of the page's own. A preset is a whole
 // state; a link has what differs from one.
 import { CONTROLLER, EVENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
+import { plantOfKind, withPlant } from './own.js';
 
 const common = {
     CONTROLLER: CONTROLLER.PID, GAIN: 100, T1: 1, T2: 0, DAMPING: 0.3, DEAD: 0, START: 0,
@@ -60,11 +61,20 @@ export const PRESETS = [
         OUTPUT_MIN: -1000, RATE: 256, DURATION: 12, SETPOINT: 0, KP: 900, KI: 80, KD: 800,
         events: [{ at: 6, what: 'LOAD', a: 6 }],
     }),
+    withPlant(preset('own', 'Your own', 'Your plant on your hardware: first your sensor, your actuator and your rate, which stay whatever is fitted or tuned; then your plant, or a step that you recorded; then its gains.', {
+        SENSOR_BITS: 10, SENSOR_RANGE: 300, OUTPUT_MAX: 255, RATE: 10, START: 20, unit: '°C',
+    }), plantOfKind({ SENSOR_RANGE: 300, RATE: 10 }, PLANT.LAGS)),
 ];
 
 export function presetState(id) {
     const found = PRESETS.find((one) => one.preset === id) ?? PRESETS[0];
     return structuredClone(found);
+}
+
+// The user's own plant on the hardware of this state.
+export function ownState(s, plant) {
+    const { preset: id, name, story } = presetState('own');
+    return withPlant({ ...s, preset: id, name, story, CONTROLLER: CONTROLLER.PID }, plant);
 }
 
 // --- What is within reason ---------------------------------------------------
@@ -82,7 +92,7 @@ const BOUNDS = {
     KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, EVERY_OPTION],
     INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
 };
-const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
+export const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
     'SWING', 'CYCLES', 'ROBUSTNESS'];
 
 function clamped(value, [low, high]) {
@@ -110,6 +120,7 @@ function ofPlant(s) {
 
 export function withinReason(s) {
     const found = { ...s };
+    found.PLANT = s.preset === 'own' ? clamped(Math.round(s.PLANT), [PLANT.LAGS, PLANT.MOTOR]) : presetState(s.preset).PLANT;
     for (const [name, bounds] of [...Object.entries(BOUNDS), ['RATE', ofPlant(s).RATE ?? REAL]]) {
         found[name] = clamped(found[name], bounds);
     }
@@ -158,7 +169,7 @@ export function change(more) {
 
 // --- The link ------------------------------------------------------------
 
-const NUMBERS = Object.keys(PARAM).filter((name) => name !== 'CONTROLLER' && name !== 'PLANT');
+const NUMBERS = Object.keys(PARAM).filter((name) => name !== 'CONTROLLER');
 
 function eventsText(events) {
     return events.map((event) =>

@@ -25,10 +25,11 @@ export function checkNone(name, found) {
 
 // In a container the user is root, whom Chromium's sandbox does not serve.
 const root = process.getuid() === 0;
-export const browser = await chromium.launch({
+export const launch = (...more) => chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--disable-gpu', ...(root ? ['--no-sandbox'] : [])],
+    args: ['--disable-gpu', ...(root ? ['--no-sandbox'] : []), ...more],
 });
+export const browser = await launch();
 
 // What axe-core has against the page as it is shown; by `rules` only, if there are any.
 export async function violations(page, rules) {

@@ -2,14 +2,17 @@
 // What the tests of the page share, beside what all pages' tests do.
 import { browser, PATIENCE } from '../browser/browser.mjs';
 
-export { AXE, check, checkNone, finish } from '../browser/browser.mjs';
+export { AXE, check, checkNone, finish, launch } from '../browser/browser.mjs';
 
 export const WORK = 'build/tuner';
 export const PAGE = `file://${process.cwd()}/${WORK}/index.html`;
 
+// A module of the page in Node.
+export const moduleOf = (name) => import(`${process.cwd()}/${WORK}/modules/${name}.js`);
+
 // A page that notes its errors and requests in `page.noted`.
-export async function open(fragment = '', options = {}) {
-    const page = await browser.newPage({ viewport: { width: 1360, height: 1000 }, ...options });
+export async function open(fragment = '', options = {}, within = browser) {
+    const page = await within.newPage({ viewport: { width: 1360, height: 1000 }, ...options });
     page.setDefaultTimeout(PATIENCE);
     page.noted = { errors: [], requests: [] };
     page.on('pageerror', (error) => page.noted.errors.push(error.message));
@@ -18,6 +21,45 @@ export async function open(fragment = '', options = {}) {
     await page.goto(`${PAGE}${fragment ? '#' : ''}${fragment}`);
     await page.waitForSelector('body[data-ready]');
     return page;
+}
+
+// After the frame in which the page shows what was changed.
+export const frame = (here) => here.evaluate(() => new Promise((done) => {
+    requestAnimationFrame(() => requestAnimationFrame(done));
+}));
+
+export async function press(here, ...keys) {
+    for (const key of keys) {
+        await here.keyboard.press(key);
+    }
+    await frame(here);
+}
+
+export const text = (here, selector) => here.locator(selector).first().textContent();
+
+// All that a person reads, but what is said in passing.
+function readable() {
+    const texts = ['#story', '#advice', '#metrics', '#found', '#rules', '#guard', '#stage', '#margins', '#header', '#chips-text', '#chips']
+        .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
+    const legends = [...document.querySelectorAll('figcaption, #flags, #presets button[aria-pressed=true]')].map((one) => one.textContent);
+    const fields = [...document.querySelectorAll('#panel input, #events input, #events select, #options input')]
+        .map((one) => (one.type === 'checkbox' ? one.checked : one.inputMode === 'decimal' ? Number(one.value) : one.value));
+    return [...texts, ...legends, `notes ${[...document.querySelectorAll('.control em')].map((one) => one.textContent)}`, `fields ${fields}`];
+}
+
+// Of what the page shows; its link gets it when nothing more changes.
+export const fragment = (here) => here.evaluate(() => window.tuner.fragmentOf(window.tuner.currentState()));
+
+// What differs from a page that is opened anew by the link of this one.
+export async function stale(here, tuning = false) {
+    const fresh = await open(await fragment(here));
+    if (tuning) {
+        await fresh.getByRole('button', { name: 'Autotune', exact: true }).click();
+    }
+    const [a, b] = [await here.evaluate(readable), await fresh.evaluate(readable)];
+    await fresh.close();
+    const differ = a.filter((text, i) => text !== b[i]).map((text) => `${text} / ${b[a.indexOf(text)]}`);
+    return a.length === b.length ? differ : [...differ, `${a.length} texts and ${b.length}`];
 }
 
 // The same numbers in each run.

@@ -156,7 +156,7 @@ function twinDistance(state) {
 }
 
 const TWINS = { // counts, and what of the scene is another
-    oven: [2], flow: [2], spring: [2], axis: [2], motor: [2], an937: [0],
+    oven: [2], flow: [2], spring: [2], axis: [2], motor: [2], own: [2], an937: [0],
     an964: [3, { NOISE: 0, DURATION: 0.5, KI: 16, events: [] }],
 };
 for (const preset of presets) {

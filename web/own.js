@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A plant of the user's own, on the user's own hardware: what a plant's kind is called,
+// its first gains, and a scene for it that leaves sensor, actuator and rate as they are.
+import { LIMIT, OPTION, PLANT } from './built.js';
+import { scaleSeconds } from './margins.js';
+import { unitsPerCount } from './metrics.js';
+
+export const KINDS = [
+    [PLANT.LAGS, 'Lag and dead time', 'most flows, pressures, temperatures'],
+    [PLANT.INTEGRATOR, 'Integrator', 'a level, the position of an axis'],
+    [PLANT.OSCILLATOR, 'Oscillating', 'a spring, a swing'],
+    [PLANT.MOTOR, 'DC motor', 'its speed'],
+];
+
+export const round4 = (x) => Number(x.toPrecision(4));
+
+// A motor without friction is two lags; the numbers are those of plant_motor.c.
+function motorAsLags(s) {
+    const [resistance, inductance, constant, viscous] = [2.4, 0.4e-3, 0.05, 1e-5];
+    const both = constant * constant + resistance * viscous;
+    return { gain: s.GAIN * constant / both, lags: [resistance * s.T1 * 1e-6 / both, inductance / resistance] };
+}
+
+// Skogestad's rules (SIMC) for the plant as kp, ki and kd see it, which are counts per
+// count. The hold is half a step of dead time; half of a second lag is dead time, and half
+// lengthens the first. The loop's time constant is the dead time, or a tenth of the lag
+// where that is more; of what oscillates it is 1 / the natural frequency.
+export function firstGains(s) {
+    const perCount = (gain) => Math.abs(gain) / unitsPerCount(s) / Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN);
+    const hold = s.DEAD + 0.5 / s.RATE;
+    if (s.PLANT === PLANT.OSCILLATOR) {
+        const k = perCount(s.GAIN) * (s.T1 + hold);
+        const filter = Math.min(7, Math.max(0, Math.floor(Math.log2(s.T1 * s.RATE / 10))));
+        return withGains(2 * s.DAMPING * s.T1 / k, 1 / k, s.T1 * s.T1 / k, filter);
+    }
+    if (s.PLANT === PLANT.INTEGRATOR) {
+        const dead = hold + s.T2 / 2;
+        const kp = 1 / (perCount(s.GAIN) * 2 * dead);
+        return withGains(kp, kp / (8 * dead));
+    }
+    const { gain, lags } = s.PLANT === PLANT.MOTOR ? motorAsLags(s) : { gain: s.GAIN, lags: [s.T1, s.T2] };
+    const [second, first] = lags.sort((a, b) => a - b);
+    const [lag, dead] = [first + second / 2, (s.PLANT === PLANT.MOTOR ? 0.5 / s.RATE : hold) + second / 2];
+    const wanted = dead + Math.max(dead, lag / 10);
+    const kp = lag / (perCount(gain) * wanted);
+    return withGains(kp, kp / Math.min(lag, 4 * wanted));
+}
+
+function withGains(kp, ki, kd = 0, filter = 0) {
+    return { KP: round4(kp), KI: round4(ki), KD: round4(kd), FILTER: filter, WEIGHT: 1 };
+}
+
+// Whether the loop acts against the plant: more output, less of what is measured.
+export function actsWrongly(s) {
+    return s.PLANT !== PLANT.PENDULUM && s.GAIN < 0 !== ((s.OPTIONS & OPTION.REVERSE) !== 0);
+}
+
+// Of a kind that was chosen anew: slow enough for the rate, and within the sensor.
+export function plantOfKind(s, kind) {
+    const [steps, span] = [1 / s.RATE, s.SENSOR_RANGE];
+    return { PLANT: kind, DAMPING: 0.3, ...{
+        [PLANT.LAGS]: { GAIN: 0.8 * span, T1: round4(600 * steps), T2: 0, DEAD: round4(50 * steps) },
+        [PLANT.INTEGRATOR]: { GAIN: round4(0.002 * span * s.RATE), T2: round4(10 * steps), DEAD: round4(5 * steps) },
+        [PLANT.OSCILLATOR]: { GAIN: 0.8 * span, T1: round4(50 * steps), DEAD: round4(2 * steps) },
+        [PLANT.MOTOR]: { GAIN: 24, T1: 26, T2: 4 },
+    }[kind] };
+}
+
+// What full drive moves the measurement by; of an integrator a part of the sensor.
+function rangeOfDrive(s) {
+    const reach = { [PLANT.MOTOR]: s.GAIN / 0.05, [PLANT.INTEGRATOR]: Math.sign(s.GAIN) * 0.4 * s.SENSOR_RANGE };
+    return reach[s.PLANT] ?? s.GAIN;
+}
+
+// A scene for this plant: `plant` has PLANT, GAIN and what else is of a plant, and maybe
+// its unit. The sensor, the output, the rate and its direction, if that was set, stay.
+export function withPlant(s, plant) {
+    const next = { ...s, ...plant };
+    const [low, high] = [next.SENSOR_LOW, next.SENSOR_LOW + next.SENSOR_RANGE];
+    const reach = rangeOfDrive(next);
+    const inside = (value) => round4(Math.min(high, Math.max(low, value)));
+    const seconds = round4(Math.min(12 * scaleSeconds(next), LIMIT.STEPS / next.RATE));
+    return {
+        ...next,
+        OPTIONS: next.GAIN < 0 ? next.OPTIONS | OPTION.REVERSE : next.OPTIONS,
+        DURATION: seconds, NOISE: s.NOISE, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
+        SETPOINT: inside(next.START + reach / 2),
+        events: [{ at: round4(0.4 * seconds), what: 'SETPOINT', a: inside(next.START + 0.65 * reach) },
+            { at: round4(0.72 * seconds), what: 'LOAD', a: -0.1 }],
+        ...firstGains(next),
+    };
+}
