@@ -3,26 +3,20 @@
 // to, shared.json: here it is compared with what the page's modules compute in node, and
 // python/test/tuner.py compares it with the package. `--update` writes it.
 //
-//   node test/web/tuner/shared.mjs FOLDER [--update]     FOLDER has built.js, of tools/tuner
+//   node test/web/tuner/shared.mjs FOLDER [--update]     FOLDER has the page's modules: see run
 //
 // More rows: another entry in RECORDINGS or SCENES, or another list beside them in `table`,
 // which python/test/tuner.py then reads.
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { isDeepStrictEqual } from 'node:util';
 
 const [folder, ...options] = process.argv.slice(2);
 const TABLE = 'test/web/tuner/shared.json';
-const copy = `${process.cwd()}/${folder}/shared`;
 
-// The modules as they are, where node takes them for modules. page.js needs a document: of
-// it only the function that makes gains of a rule's integers.
-mkdirSync(copy, { recursive: true });
-readdirSync('web').filter((name) => name.endsWith('.js')).forEach((name) => copyFileSync(`web/${name}`, `${copy}/${name}`));
-copyFileSync(`${folder}/built.js`, `${copy}/built.js`);
-writeFileSync(`${copy}/package.json`, '{"type": "module"}');
+// page.js needs a document: of it only the function that makes gains of a rule's integers.
 const [gains] = readFileSync('web/page.js', 'utf8').match(/^export function gainsOfRule[^]*?^}$/m);
-writeFileSync(`${copy}/gains.js`, `import { OPTION } from './built.js';\nimport { shortest } from './format.js';\n${gains}\n`);
-const load = (name) => import(`${copy}/${name}.js`);
+writeFileSync(`${folder}/gains.js`, `import { OPTION } from './built.js';\nimport { shortest } from './format.js';\n${gains}\n`);
+const load = (name) => import(`${process.cwd()}/${folder}/${name}.js`);
 const { PARAM, PLANT, RULE, WORD } = await load('built');
 const { experiment, run, startEngine } = await load('engine');
 const { fitStep } = await load('fit');
