@@ -158,12 +158,16 @@ end
 
 def autotune_temperature(plot, runs)
   over = taken_over_s(runs['PI'])
-  curves = [Plot.setpoint(runs['PI'], 'setpoint_c')]
+  curves = [Plot.setpoint(runs['PI'], 'setpoint_c', nil)]
   curves += runs.map do |rule, run|
-    Plot.curve(run, 'temperature_c', rule, TUNE_COLORS[rule])
+    Plot.curve(run, 'temperature_c', nil, TUNE_COLORS[rule])
   end
+  above = runs['PI'].values('temperature_c', 0.0, over).max - OVEN_SET_C
   plot.panel(0, 0, curves,
-             [*autotune_marks(over, 0.86, true), "set xrange [0:#{TUNE_END_S}]",
+             [*autotune_marks(over, 0.86, true), Plot.text("#{above.round} °C above the setpoint", 8.5, 124, Plot::MEASUREMENT),
+              Plot.text('setpoint', 101, 84, Plot::SETPOINT), Plot.text('PID', 150, 113, TUNE_COLORS['PID']),
+              Plot.text('PI', 146.5, 95, TUNE_COLORS['PI']),
+              "set xrange [0:#{TUNE_END_S}]",
               "set format x ''", 'set yrange [10:145]', 'set ytics 20',
               *y_label(0, 'temperature, °C')])
 end
@@ -171,7 +175,7 @@ end
 def autotune_drive(plot, runs)
   over = taken_over_s(runs['PI'])
   curves = runs.map do |rule, run|
-    Plot.curve(run, "(column('drive_counts')/10.23)", rule, TUNE_COLORS[rule],
+    Plot.curve(run, "(column('drive_counts')/10.23)", nil, TUNE_COLORS[rule],
                width: 1.2)
   end
   plot.panel(1, 0, curves,

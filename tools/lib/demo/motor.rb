@@ -96,37 +96,41 @@ end
 def motor_panels(plot, column, run, without, from, to, title)
   x_range = ["set xrange [#{from}:#{to}]"]
   speed_panel(plot, column, run, without, [*x_range, "set title '#{title}'"])
-  motor_terms_panel(plot, column, run,
+  motor_terms_panel(plot, column, run, to - from,
                     [*x_range, range_with_headroom(run, TERMS, from, to)])
   motor_drive_panel(plot, column, run, without, x_range)
 end
 
 def speed_panel(plot, column, run, without, settings)
-  curves = [Plot.curve(run, 'speed_rad_s', 'speed', Plot::MEASUREMENT),
-            Plot.setpoint(run, 'setpoint_rad_s')]
-  if column.zero?
-    curves << Plot.curve(without, 'speed_rad_s', 'without', Plot::WITHOUT)
-  end
+  curves = [Plot.curve(run, 'speed_rad_s', nil, Plot::MEASUREMENT),
+            Plot.setpoint(run, 'setpoint_rad_s', nil)]
+  curves << Plot.curve(without, 'speed_rad_s', nil, Plot::WITHOUT) if column.zero?
+  texts = [[Plot.text('without the limit', 0.105, 450, Plot::WITHOUT), Plot.text('speed, with the limit', 0.054, 315, Plot::MEASUREMENT),
+            Plot.text('setpoint', 0.002, 385, Plot::SETPOINT)],
+           [Plot.text('speed', 0.45, 362.5, Plot::MEASUREMENT)]][column]
   range = ['set yrange [0:600]', 'set yrange [350:372]'][column]
   plot.panel(0, column, curves,
-             [*settings, "set format x ''", range,
+             [*settings, *texts, "set format x ''", range,
               *y_label(column, 'speed, rad/s')])
 end
 
-def motor_terms_panel(plot, column, run, x_range)
-  plot.panel(1, column, Plot.terms(run),
-             [*x_range, "set format x ''", 'set ytics format "%g"',
+def motor_terms_panel(plot, column, run, span, x_range)
+  places = [[[0.019, 10500], [0.01, 22500], [0.01, -2200]], [[0.45, 170], [0.45, 1020], [0.45, -190]]][column]
+  plot.panel(1, column, Plot.terms(run, span: span),
+             [*x_range, *Plot.terms_text(*places), "set format x ''", 'set ytics format "%g"',
               *y_label(column, 'terms, duty counts')])
 end
 
 def motor_drive_panel(plot, column, run, without, x_range)
-  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
+  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
                        Plot::OUTPUT, width: 1.2)]
   if column.zero?
     curves << Plot.curve(without, "(column('drive_counts')/10.23)",
-                         'without', Plot::WITHOUT, width: 1.2)
+                         nil, Plot::WITHOUT, width: 1.2)
   end
+  texts = [[Plot.text('drive', 0.067, 60, Plot::OUTPUT), Plot.text('without the limit', 0.107, -85, Plot::WITHOUT)],
+           [Plot.text('drive', 0.45, 97, Plot::OUTPUT)]][column]
   plot.panel(2, column, curves,
-             [*x_range, "set xlabel 'time, s'", 'set yrange [-115:155]',
+             [*x_range, *texts, "set xlabel 'time, s'", 'set yrange [-115:155]',
               'set ytics -100,50,100', *y_label(column, 'drive, %')])
 end

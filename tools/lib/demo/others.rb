@@ -3,26 +3,26 @@
 
 # What one missing feature does: fixpid_pid beside its own law in double
 # precision, whole and without the feature.
-Scene = Struct.new(:name, :title, :what, :column, :label, :x, :x_step, :y, :key)
+Scene = Struct.new(:name, :title, :what, :column, :label, :x, :x_step, :y, :places)
 
 SCENES = [
   Scene.new('windup', 'anti-windup', 'from cold', '', 'process, counts',
-            [0, 400], 100, [0, 1050], 'bottom right'),
+            [0, 400], 100, [0, 1050], [[75, 590], [130, 930], [260, 760]]),
   Scene.new('sign_blind', 'anti-windup that sees the sign',
             'limit lowered at 300, setpoint 330 at 600', '', 'process, counts',
-            [0, 900], 300, [0, 1050], 'top right'),
+            [0, 900], 300, [0, 1050], [[630, 250], [640, 460], [310, 760]]),
   Scene.new('clamped', 'integral beyond the output\'s range',
             'with a setpoint weight of 0.7', '', 'process, counts',
-            [0, 9000], 3000, [0, 750], 'bottom right'),
+            [0, 9000], 3000, [0, 750], [[3400, 520], [3400, 400], [500, 640]]),
   Scene.new('kick', 'derivative of the measurement',
             'setpoint 10 % higher at 300', '_output', 'output, counts',
-            [280, 360], 20, [60, 290], 'top right'),
+            [280, 360], 20, [60, 290], [[306, 152], [303, 215]]),
   Scene.new('eight_bits', 'integral gain of 24 fractional bits',
             'ki 0.0015 per step is 0 with 8 of them', '', 'process, counts',
-            [0, 9000], 3000, [0, 750], 'bottom right'),
+            [0, 9000], 3000, [0, 750], [[3000, 630], [3400, 495], [6300, 640]]),
   Scene.new('no_seed', 'return from manual without a bump',
             'manual at 300, automatic at 450', '_output', 'output, counts',
-            [280, 560], 50, [60, 330], 'top right')
+            [280, 560], 50, [60, 330], [[485, 200], [480, 245]])
 ].freeze
 
 # The most steps until a loop stays within 2 %: a controller must be sooner than
@@ -235,20 +235,17 @@ end
 
 DASHED = 'linewidth 1.2 dashtype 2'
 
-# fixpid is drawn over the other and named before it.
+# fixpid is drawn over the other.
 def scene_panel(plot, row, column, scene, run)
   curves = [step_curve(run, "without#{scene.column}", Plot::WITHOUT),
-            step_curve(run, "fixpid#{scene.column}", Plot::MEASUREMENT),
-            Plot.entry('fixpid', Plot::MEASUREMENT), Plot.entry('without', Plot::WITHOUT)]
-  if scene.column.empty?
-    curves.unshift(step_curve(run, 'setpoint', Plot::SETPOINT, DASHED),
-                   Plot.entry('setpoint', Plot::SETPOINT, DASHED))
-  end
+            step_curve(run, "fixpid#{scene.column}", Plot::MEASUREMENT)]
+  curves.unshift(step_curve(run, 'setpoint', Plot::SETPOINT, DASHED)) if scene.column.empty?
+  names = [['fixpid', Plot::MEASUREMENT], ['without', Plot::WITHOUT], ['setpoint', Plot::SETPOINT]]
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{scene.title}}\\n#{scene.what}\"",
               "set xrange [#{scene.x.join(':')}]",
               "set yrange [#{scene.y.join(':')}]", "set xtics #{scene.x_step}",
-              "set key #{scene.key} vertical width 0",
+              *scene.places.zip(names).map { |place, (name, color)| Plot.text(name, *place, color) },
               "set ylabel '#{scene.label}' offset 0.7,0",
               *(row == 1 ? ["set xlabel 'step'"] : [])])
 end

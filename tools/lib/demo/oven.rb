@@ -92,16 +92,17 @@ def draw_oven(p_only, pi, pid, wire)
                   columns: [1.0, 1.0, 1.0, 1.0], rows: [1.6, 1.1, 1.1],
                   gap_x: 0.03)
   temperature_panel(plot, 0, 'P only: an offset stays (Figure 5)',
-                    p_only_curves(p_only))
+                    p_only_curves(p_only), [*p_only_texts(p_only), Plot.text('setpoint', 9, 86, Plot::SETPOINT)])
   { 1 => ['PI 48/3/0: no offset (Figure 6)', pi],
     2 => ['PID 136/6/205: sooner (Figure 7)', pid] }
     .each do |column, (title, run)|
       settled = format('within 2 %% after %.1f s', oven_settling(run))
-      temperature_panel(plot, column, title,
-                        [Plot.curve(run, 'temperature_c', settled, Plot::MEASUREMENT)])
+      temperature_panel(plot, column, title, [Plot.curve(run, 'temperature_c', nil, Plot::MEASUREMENT)],
+                        [Plot.text(settled, 5.5, 68, Plot::MEASUREMENT), Plot.text('setpoint', 9, 86, Plot::SETPOINT)])
     end
   temperature_panel(plot, 3, "PID: the wire breaks, acknowledged at #{OVEN_UP_S.round} s",
-                    [Plot.curve(wire, 'temperature_c', 'temperature', Plot::MEASUREMENT)])
+                    [Plot.curve(wire, 'temperature_c', nil, Plot::MEASUREMENT)],
+                    [Plot.text('temperature', 32, 60, Plot::MEASUREMENT)])
   [p_only[64], pi, pid, wire].each_with_index do |run, column|
     oven_terms_panel(plot, column, run)
     oven_drive_panel(plot, column, run)
@@ -123,29 +124,40 @@ def shared_y(column, text)
 end
 
 def p_only_curves(p_only)
-  p_only.zip(Plot::FAMILY).map do |(kp, run), color|
-    Plot.curve(run, 'temperature_c', "kp #{kp}", color)
+  p_only.values.zip(Plot::FAMILY).map do |run, color|
+    Plot.curve(run, 'temperature_c', nil, color)
   end
 end
 
-def temperature_panel(plot, column, title, curves)
-  plot.panel(0, column, [*curves, Plot.setpoint(nil, OVEN_SET_C)],
-             [*oven_time(column), "set title '#{title}'", "set format x ''",
-              'set yrange [0:100]', 'set key bottom right maxrows 2',
+def p_only_texts(p_only)
+  p_only.zip(Plot::FAMILY).map do |(kp, run), color|
+    beside = color == Plot::FAMILY.last ? 4 : -4.5 # the last two curves are near each other
+    Plot.text("kp #{kp}", 14.8, run.values('temperature_c', 14.0, 15.0).last + beside, color, 'right')
+  end
+end
+
+def temperature_panel(plot, column, title, curves, texts)
+  plot.panel(0, column, [*curves, Plot.setpoint(nil, OVEN_SET_C, nil)],
+             [*oven_time(column), *texts, "set title '#{title}'", "set format x ''",
+              'set yrange [0:100]',
               *shared_y(column, 'temperature, °C')])
 end
 
+# Where the names of P, I and D stand, by column.
+OVEN_TERMS = [[[1.7, 3600], [4.5, -700], [6.5, -700]], [[1.6, 3000], [9, 2100], [6.5, -1000]],
+              [[1.4, 7200], [6, 2200], [1.1, 11500]], [[4.0, 7200], [6, 2200], [3.0, 11500]]].freeze
+
 def oven_terms_panel(plot, column, run)
   plot.panel(1, column, Plot.terms(run),
-             [*oven_time(column), "set format x ''", 'set yrange [-4000:15000]',
-              'set ytics 4000', *(column.zero? ? ["set key title 'kp 64'"] : []),
+             [*oven_time(column), *Plot.terms_text(*OVEN_TERMS[column]), "set format x ''", 'set yrange [-4000:15000]',
+              'set ytics 4000', *(column.zero? ? [Plot.text('with kp 64', 8, 12000)] : []),
               *shared_y(column, 'terms, counts')])
 end
 
 def oven_drive_panel(plot, column, run)
-  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
+  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
                        Plot::OUTPUT, width: 1.2)]
   plot.panel(2, column, curves,
-             [*oven_time(column), "set xlabel 'time, s'", 'set yrange [0:110]',
+             [*oven_time(column), Plot.text('drive', [9, 9, 9, 38][column], 24, Plot::OUTPUT), "set xlabel 'time, s'", 'set yrange [0:110]',
               'set ytics 25', *shared_y(column, 'drive, %')])
 end

@@ -80,34 +80,39 @@ def y_label(column, text)
 end
 
 def angle_panel(plot, column, run, every, x_range)
-  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::MEASUREMENT,
+  curves = [Plot.curve(run, 'angle_degrees', nil, Plot::MEASUREMENT,
                        every: every),
-            Plot.setpoint(nil, '0'),
-            "1 title 'limit' linecolor '#{Plot::LIMIT}' dashtype 3",
+            Plot.setpoint(nil, '0', nil),
+            "1 notitle linecolor '#{Plot::LIMIT}' dashtype 3",
             "-1 notitle linecolor '#{Plot::LIMIT}' dashtype 3"]
   labels = [["set title 'release at 8 degrees, shove at 5 s'"],
             ["set title 'supply falls by 25 % from 10 to 30 s, KP follows'"]][column]
   range = ['set yrange [-6:9]', 'set yrange [-2:2]'][column]
+  texts = [[Plot.text('angle', 0.75, -3.2, Plot::MEASUREMENT), Plot.text('limit', 3.2, 1.7, Plot::LIMIT_TEXT)],
+           [Plot.text('angle', 19, -0.55, Plot::MEASUREMENT), Plot.text('limit', 19, 1.2, Plot::LIMIT_TEXT),
+            Plot.text('setpoint', 50, 0.4, Plot::SETPOINT)]][column]
   plot.panel(0, column, curves,
-             [*x_range, *labels, "set format x ''", range,
-              *(column.zero? ? ['set key vertical'] : []),
+             [*x_range, *labels, *texts, "set format x ''", range,
               *y_label(column, 'angle, degrees')])
 end
 
 def terms_panel(plot, row, column, run, every, ranges)
-  plot.panel(row, column, Plot.terms(run, every: every),
-             [*ranges, "set format x ''", *y_label(column, 'terms, counts')])
+  places = [[[0.15, 165], [0.5, 85], [0.35, -95]], [[19, 40], [23, 40], [27, 40]]][column]
+  plot.panel(row, column, Plot.terms(run, every: every, span: [8.0, 52.0][column]),
+             [*ranges, *Plot.terms_text(*places), "set format x ''", *y_label(column, 'terms, counts')])
 end
 
 def drive_panel(plot, row, column, run, every, x_range, full)
-  curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", 'drive',
+  curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", nil,
                        Plot::OUTPUT, every: every, width: 1.2)]
+  texts = [Plot.text('drive', [3.2, 19][column], 18, Plot::OUTPUT)]
   if run.values('time_s').last > 30.0 && column == 1
-    curves << Plot.curve(run, 'supply_percent', 'supply', Plot::DISTURBANCE,
+    curves << Plot.curve(run, 'supply_percent', nil, Plot::DISTURBANCE,
                          every: every)
+    texts << Plot.text('supply', 19, 105, Plot::LIMIT_TEXT)
   end
   plot.panel(row, column, curves,
-             [*x_range, "set format x ''", 'set yrange [-50:150]',
+             [*x_range, *texts, "set format x ''", 'set yrange [-50:150]',
               'set ytics -50,50,100', *y_label(column, 'drive, %')])
 end
 
@@ -116,10 +121,10 @@ BASE_AXIS = [["set ytics 0.5", "set yrange [-1.6:0.6]"],
 
 def base_panel(plot, column, run, without, every, x_range)
   curves = [Plot.curve(without, 'base_m', nil, Plot::WITHOUT, every: every),
-            Plot.curve(run, 'base_m', 'base', Plot::MEASUREMENT, every: every),
-            Plot.entry('without the drift offset', Plot::WITHOUT)]
+            Plot.curve(run, 'base_m', nil, Plot::MEASUREMENT, every: every)]
+  texts = [[Plot.text('base', 3.2, 0.12, Plot::MEASUREMENT), Plot.text('without the drift offset', 0.5, -1.1, Plot::WITHOUT)],
+           [Plot.text('base', 50, 13, Plot::MEASUREMENT), Plot.text('without the drift offset', 18, -75, Plot::WITHOUT)]][column]
   plot.panel(3, column, curves,
-             [*x_range, "set xlabel 'time, s'", *BASE_AXIS[column],
-              'set key bottom left vertical',
+             [*x_range, *texts, "set xlabel 'time, s'", *BASE_AXIS[column],
               *y_label(column, 'base at, m')])
 end

@@ -11,6 +11,7 @@ class Plot
   OUTPUT = '#CC79A7'
   SECOND = '#5E3C99' # another measurement, or another run
   LIMIT = '#888888'
+  LIMIT_TEXT = '#666666'
   DISTURBANCE = '#888888' # a line; a stretch of time is AREA
   AREA = '#E8E8E8'
   TERMS = { 'proportional' => ['P', '#56B4E9'], 'integral' => ['I', '#E69F00'], 'derivative' => ['D', '#009E73'] }.freeze
@@ -56,24 +57,42 @@ class Plot
   end
 
   # Three terms over time, in their colors. D is drawn first, because its noise
-  # would hide the others; the key has the usual order.
-  def self.terms(trace, scale: 1.0, **options)
-    TERMS.to_a.reverse.map do |name, (_, color)|
+  # would hide the others: over `span` seconds it is the band that the noise fills.
+  def self.terms(trace, scale: 1.0, span: nil, **options)
+    TERMS.to_a.reverse.flat_map do |name, (_, color)|
+      next band(trace, name, color, scale, span) if span && name == 'derivative'
+
       curve(trace, "(column('#{name}')*#{scale})", nil, color, width: 1.2,
                                                                **options)
-    end + TERMS.values.map { |title, color| entry(title, color) }
+    end
+  end
+
+  BAND_PARTS = 250 # of a span
+
+  # From the least to the greatest value of each part of the time.
+  def self.band(trace, column, color, scale, span)
+    path = "#{trace.path.delete_suffix('.csv')}_#{column}_#{(1000 * span).round}.csv"
+    rows = trace.times.zip(trace.values(column)).chunk_while { |one, other| [one, other].map { |t, _| (t * BAND_PARTS / span).floor }.uniq.size == 1 }
+    Report.replace(path, rows.map { |part| "#{part[0][0]},#{part.map(&:last).minmax.map { |value| value * scale }.join(',')}\n" }.join)
+    ["'#{path}' using 1:2:3 with filledcurves fillcolor '#{color}' fillstyle solid 0.35 noborder notitle",
+     *[2, 3].map { |edge| "'#{path}' using 1:#{edge} with lines linewidth 0.8 linecolor '#{color}' notitle" }]
+  end
+
+  # A name beside its curve, in the curve's colour.
+  def self.text(words, x, y, color = TEXT, align = 'left')
+    "set label '#{words}' at #{x},#{y} #{align} textcolor '#{color}' front"
+  end
+
+  # P, I and D beside their curves.
+  def self.terms_text(*places)
+    TERMS.values.zip(places).map { |(title, color), (x, y)| text(title, x, y, color) }
   end
 
   # A column that is the setpoint, or a number.
   def self.setpoint(trace, column = 'setpoint', title = 'setpoint')
     return curve(trace, column, title, SETPOINT, style: 'dashtype 2', width: 1.2) if trace
 
-    "#{column} title '#{title}' linecolor '#{SETPOINT}' linewidth 1.2 dashtype 2"
-  end
-
-  # A line of the key alone.
-  def self.entry(title, color, style = 'linewidth 1.8')
-    "keyentry with lines linecolor '#{color}' #{style} title '#{title}'"
+    "#{column} #{title ? "title '#{title}'" : 'notitle'} linecolor '#{SETPOINT}' linewidth 1.2 dashtype 2"
   end
 
   # A column of a trace over time.

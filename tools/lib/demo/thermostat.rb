@@ -178,33 +178,30 @@ def story
   end
 end
 
-# In the white between two stretches.
-def key_between(direction = 'horizontal')
-  ["set key at #{LOW_POWER.from - 0.5}, graph 0.99 #{direction}"]
-end
-
 def thermostat_temperature(plot, run)
   plot.panel(0, 0,
-             [Plot.curve(run, 'temperature_c', 'temperature', Plot::MEASUREMENT,
+             [Plot.curve(run, 'temperature_c', nil, Plot::MEASUREMENT,
                          width: 2.2),
-              Plot.setpoint(run, 'setpoint_c')],
-             [*stretches(1), *story, *key_between('vertical'), "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
+              Plot.setpoint(run, 'setpoint_c', nil)],
+             [*stretches(1), *story, Plot.text('temperature', 3.2, 60, Plot::MEASUREMENT),
+              Plot.text('setpoint', 3.2, 87, Plot::SETPOINT), "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:110]', 'set ytics 20', *y_label(0, 'temperature, °C')])
 end
 
 def thermostat_drive(plot, run)
   limit = "(column('selector') == 3 ? 12.5 : 100)"
   plot.panel(1, 0,
-             [Plot.curve(run, "(column('drive_counts')/10.23)", 'drive',
+             [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
                          Plot::OUTPUT),
-              Plot.curve(run, limit, 'limit', Plot::LIMIT, style: 'dashtype 3',
-                                                           width: 1.2)],
-             [*stretches(1), *key_between, "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
+              Plot.curve(run, limit, nil, Plot::LIMIT, style: 'dashtype 3',
+                                                       width: 1.2)],
+             [*stretches(1), Plot.text('drive', 6, 30, Plot::OUTPUT), Plot.text('limit', 6, 111, Plot::LIMIT_TEXT),
+              "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:130]', 'set ytics 50', *y_label(0, 'drive, %')])
 end
 
 def thermostat_terms(plot, run)
-  plot.panel(2, 0, Plot.terms(run, scale: 100.0 / 1023.0),
-             [*stretches(1), *key_between, "set xrange [0:#{THERMOSTAT_END_S}]", "set xlabel 'time, s'",
+  plot.panel(2, 0, Plot.terms(run, scale: 100.0 / 1023.0, span: THERMOSTAT_END_S),
+             [*stretches(1), *Plot.terms_text([6, -37], [6, 78], [6, 14]), "set xrange [0:#{THERMOSTAT_END_S}]", "set xlabel 'time, s'",
               'set yrange [-75:110]', 'set ytics 50', *y_label(0, 'P, I and D, %')])
 end

@@ -13,7 +13,7 @@ STAGES = [
   Stage.new('zero', '1 to 4', 'all zero: it falls, the base rests', 0, 0, 0, 0),
   Stage.new('kp_low', '5', 'KP too small: the base chases', 200, 0, 0, 0),
   Stage.new('kp', '6', 'KP: a little oscillation', 480, 0, 0, 0),
-  Stage.new('ki', '7', 'KI: upright, always oscillating', 480, 96, 0, 0),
+  Stage.new('ki', '7', 'KI: upright, and its swing grows', 480, 96, 0, 0),
   Stage.new('kd', '8 and 9', 'KD: the overshoot is gone', 480, 96, 400, 0),
   Stage.new('tuned', 'after', 'KP up by a quarter, and a shove', 600, 96, 400, 6)
 ].freeze
@@ -74,6 +74,8 @@ def check_balanced_stages(runs)
                   TUNING_S, 's')
   Report.at_least('KI 96: swings from side to side by', last_swing(runs['ki']),
                   4.0, 'degrees')
+  early, late = [[2.0, 5.0], [9.0, TUNING_S]].map { |from, to| runs['ki'].swing('angle_degrees', from, to) }
+  Report.at_least('KI 96: the swing of the last seconds, times that of the first', late / early, 1.2)
   Report.at_most('KD 400: the swing is down to', last_swing(runs['kd']), 1.5,
                  'degrees')
   Report.at_most('KP 600, shoved: back within 1 degree after',
@@ -93,16 +95,22 @@ def draw_tuning(runs)
   plot.draw
 end
 
+# Where the names of the two curves stand, on the left axis.
+NAMES_AT = { 'zero' => [[0.9, 15], [5, 2.5]], 'kp_low' => [[2.2, 15], [5, 10]], 'kp' => [[8.3, 12], [3.6, 5]],
+             'ki' => [[5, 6.5], [5, -6.5]], 'kd' => [[5, 3.5], [8, -4]], 'tuned' => [[8, -4], [8, 6]] }.freeze
+
 # Angle on the left and base on the right, each in its color and with one scale
 # for all panels.
 def stage_panel(plot, row, column, stage, run)
-  curves = [Plot.curve(run, 'angle_degrees', 'angle', Plot::MEASUREMENT, every: 4),
-            "#{Plot.curve(run, 'base_m', 'base', Plot::SECOND, every: 4)} " \
+  curves = [Plot.curve(run, 'angle_degrees', nil, Plot::MEASUREMENT, every: 4),
+            "#{Plot.curve(run, 'base_m', nil, Plot::SECOND, every: 4)} " \
             'axes x1y2']
+  angle, base = NAMES_AT.fetch(stage.name)
   plot.panel(row, column, curves,
              ["set title \"{/:Bold #{stage.setting}}\\n#{stage.title}\"",
               'set xrange [0:12]', 'set yrange [-24:24]',
-              'set y2range [-2.4:2.4]', 'set border 11', 'set key bottom',
+              'set y2range [-2.4:2.4]', 'set border 11',
+              Plot.text('angle', *angle, Plot::MEASUREMENT), Plot.text('base', *base, Plot::SECOND),
               *(row == 1 ? ["set xlabel 'time, s'"] : []),
               *stage_axes(column)])
 end

@@ -20,9 +20,12 @@ require_relative 'docs/other_chips'
 require_relative 'docs/packages'
 require_relative 'docs/prose_numbers'
 require_relative 'docs/recipes'
+require_relative 'docs/shown'
 require_relative 'docs/sums'
 
 Encoding.default_external = 'UTF-8'
+
+HOME = 'web/site/home.md' # of the site
 
 @failures = []
 
@@ -86,6 +89,10 @@ def renewed(path, text)
   when 'docs/recipes.md'
     @failures.concat(Recipes.missing(text).map { |name| "#{path} does not show #{name}" })
     Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }
+  when HOME
+    Numbers.renewed(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')))
+  when 'docs/start/download.md'
+    part(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')), 'release files', Shown.released)
   else
     text
   end
@@ -104,12 +111,12 @@ def check_named_tests(path, text, tests)
   end
 end
 
-documents = Dir['docs/*.md', '*.md'] # README.md has numbers of docs/
+documents = Dir['docs/**/*.md', '*.md', HOME] # README.md has numbers of docs/
 tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
 documents.each do |path|
   text = File.read(path)
-  new_text, wrong = CodeBlocks.new(path).renewed(renewed(path, text))
-  @failures.concat(wrong)
+  new_text, wrong = CodeBlocks.new(path).renewed(Shown.renewed(renewed(path, text)))
+  @failures.concat(wrong + Shown.failures(path, text))
   if ARGV == ['--update']
     File.write(path, new_text)
   elsif new_text != text

@@ -5,11 +5,13 @@
 # A block with a main is a program, linked with the whole library. Any other one
 # is compiled with all public headers, as a file or as the body of a function.
 # What it takes for granted stands before it: <!-- given: DECLARATIONS -->
+# A file that is shown has a test of its own.
 #
 # A block must compile as C++11, too, for a PC and for an Arduino, unless this
 # stands before it: <!-- C only: REASON -->
 require 'fileutils'
 require 'open3'
+require_relative 'shown'
 
 class CodeBlocks
   FOLDER = 'build/test/docs'.freeze
@@ -33,6 +35,8 @@ class CodeBlocks
     failures = text.gsub(/^```.*?^```$/m, '').scan(HIDDEN_CODE).map { |line| "#{@path}: C outside of ```c: #{line.strip}" }
     new_text = text.gsub(BLOCK) do |whole|
       match = Regexp.last_match
+      next whole if match.pre_match.match?(Shown::BEFORE)
+
       @number += 1
       program = match[:code].match?(/^int main\(/)
       printed = program ? run(match, failures) : fragment(match, failures)

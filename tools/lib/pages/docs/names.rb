@@ -4,7 +4,7 @@ require_relative '../../manifests'
 # What is written down more than once, and what the documents name.
 module DocumentNames
   FOLDERS = %w[docs examples include port python sim src test tools].freeze
-  DOCUMENTS = Dir['*.md', 'docs/*.md', '*.yml', 'test/**/*.yml'].sort.freeze
+  DOCUMENTS = Dir['*.md', 'docs/**/*.md', 'web/site/*.md', '*.yml', 'test/**/*.yml'].sort.freeze
   FILES = Dir["{#{FOLDERS.join(',')}}/**/*", '*'].sort.freeze
   SOURCES = FILES.grep(%r{\A(?:#{FOLDERS.join('|')})/}).grep_v(/\.(?:md|png|csv)\z/).select { |path| File.file?(path) }.freeze
   EXTENSIONS = 'c|h|cc|hh|asm|rb|sh|cmake|txt|csv|yml|md|json'.freeze
@@ -12,6 +12,8 @@ module DocumentNames
   # Names in documents of what is not among this project's files.
   ELSEWHERE = {
     'fixpid_pid_single.h' => 'made by tools/release',
+    'fixpid_..._single.h' => 'made by tools/release',
+    'build_flags' => 'of PlatformIO',
     'fixpid_config.h' => "the user's own",
     'arm_pid_q15' => 'of CMSIS-DSP',
     'arm_pid_init_q15' => 'of CMSIS-DSP',

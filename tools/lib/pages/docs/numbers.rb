@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# The numbers in README.md's sentences. Each stands behind its name, as in
-# `<!-- proofs -->375`, and comes from a table that a tool makes.
+# The numbers in the sentences of README.md and of the site's first page. Each stands behind
+# its name, as in `<!-- proofs -->375`, and comes from a table that a tool makes.
 module Numbers
   NAMED = /<!-- (\w+) -->\K\d+/.freeze
   README = 'README.md'.freeze
+  HOME = 'web/site/home.md'.freeze
   AVR = 'ATmega328P'.freeze
 
   class << self
@@ -12,15 +13,9 @@ module Numbers
     end
 
     def failures
-      named = File.read(README).scan(NAMED).flatten
-      (named - all.keys).map { |name| "#{README}: no number is called #{name}" } +
-        (all.keys - named).map { |name| "#{README} does not say the number of #{name}" }
-    end
-
-    private
-
-    def all
-      costs.merge(claims, tuner, 'chips' => chips.size, 'minutes' => minutes)
+      named = [README, HOME].to_h { |path| [path, File.read(path).scan(NAMED).flatten] }
+      named.flat_map { |path, names| (names - all.keys).map { |name| "#{path}: no number is called #{name}" } } +
+        (all.keys - named[README]).map { |name| "#{README} does not say the number of #{name}" }
     end
 
     # The cells of a table by the names of their columns; the first one has none.
@@ -28,6 +23,12 @@ module Numbers
       text = File.read(page)[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1]
       head, _, *rows = text.lines.map { |line| line.split('|')[1...-1].map(&:strip) }
       rows.map { |cells| head.zip(cells).to_h }
+    end
+
+    private
+
+    def all
+      costs.merge(claims, tuner, 'chips' => chips.size, 'minutes' => minutes)
     end
 
     # The bounds of our steps, and the worst that was found of the other's.

@@ -11,7 +11,7 @@ Encoding.default_external = 'UTF-8'
 
 module ProseNumbers
   TABLE = 'tools/lib/pages/docs/prose_numbers.txt'.freeze
-  FILES = Dir['include/*.h', 'docs/*.md', 'README.md', 'SECURITY.md'].sort.freeze
+  FILES = Dir['include/*.h', 'docs/**/*.md', 'README.md', 'SECURITY.md', 'web/site/home.md'].sort.freeze
   NUMBER = /(?<!\w)(?<!\w\.)(?:0x\h+|\d+(?: \d{3})+(?!\d)|\d+(?:\.\d+)*)/.freeze
   IN_TABLE = /(?:0x\h+|\d+(?: \d{3})+(?!\d)|\d+(?:\.\d+)*)/.freeze # in a sentence of the table
 

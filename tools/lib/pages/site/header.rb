@@ -1,70 +1,60 @@
 # SPDX-License-Identifier: MIT
 require 'cgi'
+require_relative 'blocks'
+require_relative 'functions'
 require_relative 'names'
 
-# A header as a page: its comments are the prose, what stands between them is the code,
-# all in its order. Each function, structure and enumeration has a heading, and so has
-# each comment about macros. Names are links. Nothing in the header changes.
+# A header as a page: its comments are the prose, what stands between them is the code, in its
+# order, without what is private. Each function, structure and enumeration has a heading, and so
+# has each comment about macros. Names are links. A function's declaration comes first.
 class Header
-  # What only the compiler needs.
-  SKIPPED = %r{^(?:#include (?!"fixpid_config).*|FIXPID_C_(?:BEGIN|END)|#ifndef FIXPID\w*_H|#define FIXPID\w*_H)$}.freeze
   NAME = /\b(?:(?:struct|union|enum) )?(?:fixpid|FIXPID)_\w+(?:\.h\b)?|\bfixpid\.h\b/.freeze
   TOKEN = %r{//[^\n]*|^#(?:[^\n]*\\\n)*[^\n]*|"[^"\n]*"|#{NAME}|\b[A-Za-z_]\w*\b}.freeze
   TYPES = /\A(?:u?int\d+_t|bool|void|char|unsigned|int)\z/.freeze
   KEYWORDS = /\A(?:struct|union|enum|const|volatile|extern|template|static|inline)\z/.freeze
   TYPE = /\A(struct|union|enum) /.freeze
 
-  def initialize(path, names)
+  def initialize(path, names, functions)
     @file = File.basename(path)
     @names = names
-    @text = File.read(path).sub(%r{\A/\*.*?(?=^//)}m, '').delete_suffix("#endif\n")
+    @functions = functions
+    @blocks = Blocks.of(path)
     @own = [] # names that need no link where they are explained
   end
 
   def page
-    first, *rest = blocks
+    first, *rest = @blocks
     ["# #{@file}\n", prose(first[0]), *rest.map { |comment, code| section(comment, code) }].join("\n")
   end
 
+  # What it says of itself first.
+  def about
+    @blocks[0][0].map { |line| line.delete_prefix('//').delete_prefix(' ') }.join("\n")
+  end
+
   private
-
-  # [lines of comment, lines of code] in the header's order. The code ends where the next
-  # comment at the left edge begins, or at an empty line outside of braces.
-  def blocks
-    found = [[[], []]]
-    depth = 0
-    logical_lines.each do |line|
-      next if depth.zero? && line.match?(SKIPPED)
-
-      comment = depth.zero? && line.start_with?('//')
-      found << [[], []] if depth.zero? && (line.empty? || (comment && found.last[1].any?))
-      found.last[comment ? 0 : 1] << line unless line.empty? && depth.zero?
-      code = line.start_with?('#') ? '' : line.sub(%r{//.*}, '')
-      depth += code.count('{') - code.count('}')
-    end
-    found.reject { |pair| pair.all?(&:empty?) }
-  end
-
-  # A macro of several lines is one.
-  def logical_lines
-    @text.split("\n").slice_when { |line, _| !line.end_with?('\\') }.map { |lines| lines.join("\n") }
-  end
 
   # A block with its headings. Each function of several under one comment has its own.
   def section(comment, code)
     @own = Names.declared(code).map(&:last)
     parts = functions(code)
     titles = parts.map { |part| Names.declared(part).find { |kind, _| kind == :function } }
-    return ["#{heading(comment, code)}\n", prose(comment), listing(code)].join("\n") unless titles.all? && parts.any?
+    return ["#{heading(comment, code)}\n", prose(comment), listing(shortened(code))].join("\n") unless titles.all? && parts.any?
 
     parts.each_with_index.map do |part, i|
-      "## `#{titles[i][1]}` { ##{titles[i][1]} }\n\n#{prose(comment) if i.zero?}\n#{listing(part)}\n"
+      "## `#{titles[i][1]}` { ##{titles[i][1]} }\n\n#{listing(part)}\n#{prose(comment)}\n#{@functions.about(part, comment)}\n"
     end.join
+  end
+
+  # Of a macro with arguments, how it is called.
+  def shortened(code)
+    code.map { |line| line.match?(/\A# *define \w+\([^)]*\) *\\\n/) ? "#{line[/\A[^\n]*?\)/]} ..." : line }
   end
 
   # The code cut after each declaration; what follows the last one belongs to it.
   def functions(code)
     parts = code.slice_after { |line| line.match?(%r{;\s*(?://.*)?\z}) }.to_a
+    parts.pop if parts.size > 1 && parts[-1].all? { |line| line.start_with?('#endif') }
     parts[-2..] = [parts[-2] + parts[-1]] if parts.size > 1 && parts[-1].all? { |line| line.start_with?('#') }
     parts
   end

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Every name of the headers, and where the site explains it.
+require_relative 'blocks'
+
+# Every name of the headers that is not private, and where the site explains it.
 class Names
   # A declaration at the beginning of a line.
   FORMS = { function: /^(?!static)[\w ]*?[ *](fixpid_\w+)\(/, struct: /^struct (fixpid_\w+) \{/,
@@ -23,7 +25,7 @@ class Names
     headers.each do |path|
       file = File.basename(path)
       @places[file] = [file, nil]
-      Names.declared(File.readlines(path)).each { |kind, name| explain(kind, name, [file, Names.anchor(kind, name)]) }
+      Blocks.of(path).flat_map { |_, code| Names.declared(code) }.each { |kind, name| explain(kind, name, [file, Names.anchor(kind, name)]) }
     end
   end
 

@@ -6,6 +6,29 @@ require 'fileutils'
 # that one of them links to.
 class Pages
   LINK = /\]\(([^)#\s]+)(#[^)\s]*)?\)/.freeze
+  HOME = 'web/site/home.md'.freeze
+  # What is elsewhere on the site; mkdocs takes a README.md for a folder's first page.
+  PLACES = { HOME => 'index.md', 'README.md' => 'overview.md', 'tools/tuner' => 'tuner/index.html' }.freeze
+  CARD = 'docs/images/thermostat.png'.freeze # of a page without a picture
+  DESCRIPTION = 160 # characters, which is what searches show
+
+  # The files that a navigation, or a part of one, names.
+  def self.named(part)
+    case part
+    when Hash then part.values.flat_map { |value| named(value) }
+    when Array then part.flat_map { |value| named(value) }
+    else [part]
+    end
+  end
+
+  # Its documents by their places on the site.
+  def self.navigation(part)
+    case part
+    when Hash then part.transform_values { |value| navigation(value) }
+    when Array then part.map { |value| navigation(value) }
+    else PLACES.fetch(part, part)
+    end
+  end
 
   def initialize(folder)
     @folder = folder
@@ -13,21 +36,47 @@ class Pages
     @linked = []
   end
 
-  def write(path, text)
+  # What the page tells about itself stands at its head, where HTML has it in quotation marks.
+  def write(path, text, about)
     place = "#{@folder}/#{path}"
     FileUtils.mkdir_p(File.dirname(place))
-    File.write(place, text)
+    about = about.merge('description' => CGI.escapeHTML(about['description']))
+    File.write(place, "#{YAML.dump(about)}---\n\n#{text}")
     @written << path
   end
 
   def document(path)
-    write(path, rewritten(path, File.read(path)))
+    text = File.read(path)
+    picture = text[/\]\(([^)\s]+\.png)\)/, 1]
+    card = picture ? whole(path, picture) : CARD
+    place = PLACES.fetch(path, path)
+    write(place, rewritten(path, text), 'description' => Pages.description(text), 'card' => card,
+                                        'hide' => place == 'index.md' ? %w[navigation toc] : [])
+  end
+
+  def header(path, names)
+    page = Header.new(path, names, Functions.new(@linked))
+    write("#{path}.md", page.page, 'description' => Pages.description(page.about), 'card' => CARD)
+  end
+
+  # The first paragraph of a document in plain words, as far as they are whole.
+  def self.description(text)
+    paragraph = text.gsub(/^```.*?^```$|<!--.*?-->/m, '').split(/\n{2,}/).map { |part| part.sub(/\A\n+/, '') }
+                    .find { |part| part.match?(/\A[*]{0,2}[A-Z`\[a-z]/) && part.match?(/[.:]/) }
+    words = paragraph.gsub(/\{ \.\w+ \}\z/, '').gsub(/!?\[([^\]]*)\]\([^)]*\)/, '\1').gsub(/`|[*]{2}/, '').split
+    whole = words.join(' ')
+    return whole if whole.size <= DESCRIPTION
+
+    whole[0...DESCRIPTION][/\A.*[.](?= )/] || "#{whole[0...(DESCRIPTION - 1)][/\A.*(?= )/].sub(/[,;:]\z/, '')}…"
   end
 
   # Pages of files that are no documents, until no page links to a new one.
   def follow_links
     until (wanted = @linked.uniq.reject { |path| @written.include?("#{path}.md") }).empty?
-      wanted.each { |path| write("#{path}.md", File.directory?(path) ? listing(path) : source(path)) }
+      wanted.each do |path|
+        write("#{path}.md", File.directory?(path) ? listing(path) : source(path),
+              'description' => "#{path} of fixpid, as it is in the sources.", 'card' => CARD, 'source' => true)
+      end
     end
   end
 
@@ -45,13 +94,19 @@ class Pages
   end
 
   def address(path, link)
-    return link if link.match?(/\A[a-z]+:|\.(?:md|png)\z/)
+    return link if link.match?(/\A[a-z]+:/)
 
-    target = File.join(File.dirname(path), link).delete_prefix('./')
-    target = File.expand_path(target, '/').delete_prefix('/')
+    target = whole(path, link)
+    up = '../' * PLACES.fetch(path, path).count('/')
+    return "#{up}#{PLACES.fetch(target, target)}" if PLACES.key?(target) || target.match?(/\.(?:md|png)\z/)
+
     @linked << target unless target.match?(%r{\Ainclude/\w+\.h\z})
-    up = '../' * path.count('/')
     "#{up}#{target}.md"
+  end
+
+  # A link from the project's folder on.
+  def whole(path, link)
+    File.expand_path(File.join(File.dirname(path), link), '/').delete_prefix('/')
   end
 
   def outside_of_code(text)

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The site's search without a browser: search.mjs SITE. The theme's own worker is asked what
+// people type, and must show a guide first.
+import { readFileSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import vm from 'node:vm';
+
+const [site] = process.argv.slice(2);
+
+// What is typed, and the page that must be the first result.
+const QUERIES = [
+    ['getting started', 'docs/start/index.html'],
+    ['bumpless', 'docs/start/glossary.html'],
+    ['FreeRTOS', 'docs/start/rtos.html'],
+    ['STM32', 'docs/start/stm32.html'],
+    ['ESP32', 'docs/start/esp32.html'],
+    ['MPLAB', 'docs/start/mplabx.html'],
+    ['XC8', 'docs/start/mplabx.html'],
+    ['deadband', 'docs/recipes.html'],
+    ['kd', 'docs/start/glossary.html'],
+    ['license', 'docs/start/download.html'],
+    ['download', 'docs/start/download.html'],
+    ['Arduino Uno', 'docs/start/arduino.html'],
+    ['PlatformIO', 'docs/start/platformio.html'],
+    ['find_package', 'docs/start/cmake.html'],
+    ['Zephyr', 'docs/start/zephyr.html'],
+    ['ESP-IDF', 'docs/start/esp_idf.html'],
+    ['install', 'docs/installing.html'],
+    ['overflow', 'docs/scaling.html'],
+    ['overshoot', 'docs/tuning.html'],
+    ['Ziegler Nichols', 'docs/tuning.html'],
+    ['autotune', 'docs/tuning.html'],
+    ['anti-windup', 'docs/behaviour.html'],
+    ['cascade', 'docs/recipes.html'],
+    ['EEPROM', 'docs/recipes.html'],
+    ['interrupt', 'docs/recipes.html'],
+    ['FastPID', 'docs/migrating.html'],
+    ['flash size', 'docs/cost.html'],
+    ['MISRA', 'docs/assurance.html'],
+    ['watchdog', 'docs/faults.html'],
+    ['numpy', 'python/index.html'],
+    ['simulator', 'docs/chips.html'],
+    ['setpoint weight', 'docs/scaling.html'],
+];
+
+// What is in one header only: its page is among the first.
+const NAMES = [
+    ['fixpid_pid_track', 'include/fixpid_pid.h.html'],
+    ['FIXPID_SLEW_RATE', 'include/fixpid_slew.h.html'],
+    ['fixpid_tpo_step', 'include/fixpid_tpo.h.html'],
+];
+const AMONG = 3;
+
+const workers = join(site, 'assets/javascripts/workers');
+const worker = readdirSync(workers).find((name) => /^search\..*\.js$/.test(name));
+let listener;
+let answered;
+const world = {
+    addEventListener: (_, heard) => { listener = heard; },
+    postMessage: (message) => answered(message),
+    importScripts: () => { throw new Error('the search wants another language'); },
+    console,
+};
+world.self = world;
+vm.runInNewContext(readFileSync(join(workers, worker), 'utf8'), world);
+
+function ask(type, data) {
+    return new Promise((resolve) => {
+        answered = resolve;
+        listener({ data: { type, data } });
+    });
+}
+
+const { config, docs } = JSON.parse(readFileSync(join(site, 'search/search_index.json'), 'utf8'));
+const options = { pipeline: ['trimmer', 'stopWordFilter'], suggestions: false };
+await ask(0, { config, docs, options });
+
+let failures = 0;
+function judge(name, problem) {
+    failures += problem ? 1 : 0;
+    console.log(problem ? `FAILED ${name}: ${problem}` : `ok ${name}`);
+}
+
+// Pages, the best first.
+async function found(words) {
+    const { data } = await ask(2, words);
+    return data.items.map(([first]) => first.location.replace(/#.*/, ''));
+}
+
+for (const [words, wanted] of QUERIES) {
+    const pages = await found(words);
+    judge(`search for ${words}`, pages[0] === wanted ? '' : `${wanted} is not before ${pages.slice(0, 4)}`);
+}
+for (const [words, wanted] of NAMES) {
+    const pages = await found(words);
+    judge(`search for ${words}`, pages.slice(0, AMONG).includes(wanted) ? '' : `${wanted} is not among ${pages.slice(0, AMONG)}`);
+}
+const sources = docs.map(({ location }) => location).filter((name) => /^(examples|port|sim|src|test|tools)\//.test(name));
+judge('search without sources', sources.length > 0 ? sources.slice(0, 3).join(' ') : '');
+process.exit(failures > 0 ? 1 : 0);

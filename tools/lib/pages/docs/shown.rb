@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+require_relative '../../project'
+
+# Files that a document shows whole, between markers that name them: what a page tells people to
+# write is what a test builds. A page for beginners shows no other code but C, which is compiled.
+module Shown
+  MARKED = /^<!-- shown (\S+):begin -->\n.*?^<!-- shown \1:end -->\n/m.freeze
+  BEFORE = /<!-- shown \S+:begin -->\n\z/.freeze # a block that is a file's
+  LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini' }.freeze
+  BEGINNERS = %r{\A(?:docs/start/|web/site/)}.freeze
+  RELEASED = /^  (\S+) {2,}(.*(?:\n {33}.*)*)/.freeze # in the usage of tools/release
+
+  class << self
+    def renewed(text)
+      text.gsub(MARKED) { "<!-- shown #{$1}:begin -->\n#{block($1)}<!-- shown #{$1}:end -->\n" }
+    end
+
+    def failures(path, text)
+      return [] unless path.match?(BEGINNERS)
+
+      text.gsub(MARKED, '').scan(/^```(\w*)$.*?^```$/m).flatten.reject { |language| language == 'c' }
+          .map { |language| "#{path}: a block of #{language.empty? ? 'no language' : language} shows no file" }
+    end
+
+    # The newest heading of the changelog: version and day.
+    def version
+      "Version #{File.read('CHANGELOG.md')[/^## (.*)$/, 1]}: [what is new](%s).\n"
+    end
+
+    # What tools/release says that it makes.
+    def released
+      rows = File.read('tools/release')[/^Makes, in .*?\n\n(.*?)\n\n/m, 1].scan(RELEASED)
+      "| file | what it is |\n|---|---|\n#{rows.map { |name, what| "| `#{name}` | #{what.split.join(' ')} |\n" }.join}"
+    end
+
+    private
+
+    # Without the line of the licence.
+    def block(path)
+      lines = File.readlines(path).reject { |line| line.match?(/\A(?:#|\/\/) SPDX-/) }
+      "```#{LANGUAGES.fetch(File.extname(path))}\n#{lines.join}```\n"
+    end
+  end
+end

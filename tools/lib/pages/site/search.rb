@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+# Finishes what the search of a site knows: search.rb SITE PAGES, where PAGES is what site.rb
+# made. Pages of source files are taken out, what stands twice, and the words that people type
+# for a page, of web/site/words.yml, are put beside it. The index is written once more as a script, for a site that
+# is opened from a file.
+require 'json'
+require 'yaml'
+require_relative 'pages'
+
+# Titles, text and words of the pages that the navigation names.
+class Search
+  WORDS = 'web/site/words.yml'.freeze
+
+  def initialize(site, config)
+    @folder = "#{site}/search"
+    @index = JSON.parse(File.read("#{@folder}/search_index.json", encoding: 'UTF-8'))
+    @guides = Pages.named(config['nav']).map { |path| page(path) }
+  end
+
+  def finish
+    @index['docs'].select! { |entry| @guides.include?(entry['location'][/\A[^#]*/]) }
+    lost = words.keys - @index['docs'].map { |entry| entry['location'] }
+    abort "#{WORDS} names no #{lost.join(', ')}" unless lost.empty?
+
+    cut = @index['docs'].map { |entry| entry['location'][/\A(.*)#/, 1] }.compact.uniq
+    @index['docs'].each do |entry|
+      entry['text'] = '' if cut.include?(entry['location']) # its sections have it
+      entry['tags'] = words[entry['location']] if words.key?(entry['location'])
+    end
+    text = JSON.generate(@index)
+    File.write("#{@folder}/search_index.json", text)
+    File.write("#{@folder}/search_index.js", "__search.index = Promise.resolve(#{text});\n")
+  end
+
+  private
+
+  def page(path)
+    path.sub(%r{(\A|/)README\.md\z}, '\1index.md').sub(/\.md\z/, '.html')
+  end
+
+  def words
+    @words ||= YAML.load_file(WORDS).to_h { |path, list| [page(path), list.split] }
+  end
+end
+
+site, pages = ARGV
+Search.new(site, YAML.load_file("#{pages}/mkdocs.yml")).finish
