@@ -17,9 +17,13 @@
 // An error in offset binary, which compares without a sign: error + 32768.
 #define FIXPID_OFFSET_BINARY(error) ((uint16_t)((uint16_t)(error) ^ 0x8000u))
 
-// In two's complement, in which an AVR and a RISC-V are faster, whatever their
-// multiplier.
+// Defined if numbers are in two's complement, in which an AVR and a RISC-V are
+// faster, whatever their multiplier.
 #if (FIXPID_MULTIPLIER_BITS >= 16) || defined(__AVR__) || defined(__riscv)
+#define FIXPID_AN937_TWOS_COMPLEMENT
+#endif
+
+#ifdef FIXPID_AN937_TWOS_COMPLEMENT
 
 FIXPID_INLINE void fixpid_number_set(
     FIXPID_DATA union fixpid_an937_number *number, int16_t value)
@@ -103,14 +107,14 @@ FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
 // The other forms of what Equation 4 needs.
 #elif defined(__SDCC_pic16)
 #include "fixpid_an937_pic18.h"
+#elif !defined(FIXPID_AN937_TWOS_COMPLEMENT)
+#include "fixpid_an937_narrow.h"
 #elif defined(__AVR__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_an937_avr.h"
 #elif defined(__AVR__)
 #include "fixpid_an937_words_avr.h"
-#elif defined(__riscv)
+#else // a RISC-V without a multiplier
 #include "fixpid_an937_turns.h"
-#else
-#include "fixpid_an937_narrow.h"
 #endif
 
 #if !defined(__SDCC_pic16) // whose header has an Equation 4 of its own

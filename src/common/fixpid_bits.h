@@ -13,9 +13,9 @@
 // words of the result's size, and narrow, from bytes. The width chooses between
 // them, except where the other one was measured to be faster.
 #if defined(__SDCC_pic14) || defined(_PIC14) || defined(_PIC14E) ||            \
-    defined(__SDCC_pdk13) || defined(__SDCC_pdk14) || defined(__SDCC_pdk15) || \
-    defined(__SDCC_z80) || defined(__SDCC_z180) || defined(__SDCC_sm83) ||     \
-    defined(__SDCC_tlcs90) || defined(__MSP430__) ||                           \
+    defined(_PIC14EX) || defined(__SDCC_pdk13) || defined(__SDCC_pdk14) ||     \
+    defined(__SDCC_pdk15) || defined(__SDCC_z80) || defined(__SDCC_z180) ||    \
+    defined(__SDCC_sm83) || defined(__SDCC_tlcs90) || defined(__MSP430__) ||   \
     (defined(__AVR__) && !defined(__AVR_HAVE_MUL__)) ||                        \
     (defined(__riscv) && !defined(__riscv_mul))
 #define FIXPID_MULTIPLIER_BITS 0
@@ -48,8 +48,9 @@
 #endif
 
 // Hides from gcc what made `word`: it is in one register then, not in two
-// copies of different widths, and what made it seldom is behind a jump.
-#if defined(__GNUC__) && !defined(FIXPID_NO_ASSEMBLY)
+// copies of different widths, and what made it seldom is behind a jump. XC8 may
+// call itself GNU, as its front end does, but has no assembly with operands.
+#if defined(__GNUC__) && !defined(__XC8) && !defined(FIXPID_NO_ASSEMBLY)
 #define FIXPID_OPAQUE(word) __asm__("" : "+r"(word))
 #else
 #define FIXPID_OPAQUE(word) ((void)0)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The functions for points in PROGMEM. Where there is one kind of memory, they
-// are those for any points.
+// The functions for points in PROGMEM. Where there is one kind of memory, and
+// for XC8, they are those for any points.
 #ifndef TABLE_IN_FLASH_H
 #define TABLE_IN_FLASH_H
 
-#ifdef __AVR__
+#if defined(__AVR__) && !defined(__XC8)
 #include <avr/pgmspace.h>
 #else
 #define PROGMEM

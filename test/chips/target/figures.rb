@@ -14,7 +14,8 @@ TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
 NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(&:name).freeze
 PROCESSORS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
 POINTER_AND_OBJECT = MODES.reverse.freeze
-MACHINES = { 'avr' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3',
+MACHINES = { 'avr' => 'AVR', 'xc8_pic14' => 'AVR, as XC8 for a PIC16', 'xc8_pic18' => 'AVR, as XC8 for a PIC18',
+             'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3',
              'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,

@@ -57,12 +57,45 @@ class Machine
     qemu(core, ['riscv64-unknown-elf-gcc', "-march=#{core}", "-mabi=#{abi}"], 'riscv', 'riscv32', '-M', 'virt', '-bios', 'none', *options)
   end
 
+  # An AVR whose library is XC8's for a PIC of that class: its text, as XC8 preprocesses
+  # it, by avr-gcc, whose types are the same, without inlining.
+  class AsXc8 < Machine
+    CHIP = 'atmega2560'
+    CLASSES = %w[_PIC14 _PIC14E _PIC14EX _PIC18].freeze
+    TEXT = %W[-mmcu=#{CHIP} -std=c99 -ffreestanding -funsigned-char -include test/support/as_xc8.h].freeze
+
+    def initialize(of_chip)
+      @of_chip = of_chip
+      super("xc8#{of_chip.downcase}", %W[avr-gcc -mmcu=#{CHIP} -std=gnu99 -D__XC8], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program, CHIP] }
+    end
+
+    # The sources of the library apart, once for all programs that define the same of it.
+    def program(name, words)
+      library, others = words.partition { |word| File.basename(word).match?(/\Afixpid_\w+\.c\z/) }
+      super(name, others + library.map { |source| object(source, others.grep(/\A-(I|DFIXPID_)/)) })
+    end
+
+    # What XC8's compiler proper gets of a source for a chip of that class.
+    def self.text(source, of_chip)
+      said('avr-gcc', *TEXT, "-D#{of_chip}", '-E', '-P', '-Iinclude', source)
+    end
+
+    private
+
+    def object(source, options)
+      folder = written("#{WORK}/#{name}/#{Digest::SHA256.hexdigest(options.join(' '))[0, 12]}/options", options.join(' ')).delete_suffix('/options')
+      output = "#{folder}/#{File.basename(source, '.c')}.o"
+      BUILT.command(output, 'avr-gcc', *TEXT, "-D#{@of_chip}", '-O2', '-fno-inline', '-Wall', '-Wextra', '-Werror', '-Iinclude', *options, '-c', source, '-o', output)
+    end
+  end
+
   ALL = [
     arm('cortex-m0', 'microbit'), arm('cortex-m3', 'lm3s6965evb'), arm('cortex-m4', 'mps2-an386'),
     riscv('rv32imc', 'ilp32'), riscv('rv32ec', 'ilp32e', '-cpu', 'rv32,m=false'),
     *{ 'avr' => 'atmega2560', 'atmega328p' => 'atmega328p' }.map do |name, chip|
       new(name, ['avr-gcc', "-mmcu=#{chip}"], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program, chip] }
     end,
+    *%w[_PIC14 _PIC18].map { |of_chip| AsXc8.new(of_chip) },
     new('host', ['gcc', SHIM]) { |program| [program] },
     new('sanitized', ['gcc', '-fsanitize=undefined', '-fno-sanitize-recover=all', SHIM]) { |program| [program] }
   ].to_h { |machine| [machine.name, machine] }.freeze

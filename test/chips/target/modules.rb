@@ -17,6 +17,9 @@ class CalledModule
   AVR = Machine.new('atmega1284p', %w[avr-gcc -mmcu=atmega1284p -std=gnu99], %w[test/chips/avr/avr_stdio.c]) { |program| ['test/chips/avr/run', program] }
   OTHERS = { 'avr' => AVR, 'cortex_m0' => Machine::ALL.fetch('cortex-m0'), 'cortex_m3' => Machine::ALL.fetch('cortex-m3') }.freeze
 
+  # What XC8 makes of a module depends on the chip's class in few of them.
+  XC8_MACHINES = Hash.new(%w[xc8_pic14]).update('table' => XC8).freeze
+
   # What is metered, if not `step`.
   FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result],
                 'step_error' => %w[step_error state restore], 'table' => %w[at] }.freeze
@@ -38,11 +41,15 @@ class CalledModule
   # name => what is done
   def tests
     { 'host' => -> { compared? ? against_definition('src') : answers }, 'seeded' => -> { seeded }, 'pic18' => -> { pic18 }, **by_name,
-      **OTHERS.transform_values { |machine| -> { Target.same(answers, digests(machine)) } } }
+      **others.transform_values { |machine| -> { Target.same(answers, digests(machine)) } } }
       .transform_keys { |test| "#{test} #{@name}" }
   end
 
   private
+
+  def others
+    OTHERS.merge(XC8_MACHINES[@name].to_h { |name| [name, Machine::ALL.fetch(name)] })
+  end
 
   def compared?
     @name != 'autotune'

@@ -20,6 +20,7 @@ INTERRUPTED = (ON_CHIPS + CONTROLLERS.map(&:name).uniq.product(%w[atmega328p])).
 TICKING = %w[an937 pic18f4520].freeze
 PORTS = %w[pic16f684 pic18f4520 pic18f26k22 pic18f4431 atmega328p].freeze
 MACHINES = %w[cortex-m0 cortex-m3 cortex-m4 rv32imc rv32ec avr].freeze
+XC8 = %w[xc8_pic14 xc8_pic18].freeze
 # Of fixpid_pid: none of its features, and all but one.
 FEATURE_SETS = %w[0x00 0xFE 0xFD 0xFB 0xF7 0xEF 0xDF 0xBF 0x7F].freeze
 EXAMPLES = { 'pendulum' => 'an964', 'pendulum_8bit' => 'an964_8bit', 'motor' => 'an937', 'oven' => 'an937',
@@ -30,9 +31,9 @@ NARROW = '-D_PIC14'
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.
-Amount = Struct.new(:random, :machine, :avr, :sanitized, :calls, :rows_apart)
-SHORT = Amount.new(100_000, 200_000, 10_000, 1_000_000, 1_000_000, 31).freeze
-LONG = Amount.new(500_000, 1_000_000, 50_000, 20_000_000, 10_000_000, 1).freeze
+Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart)
+SHORT = Amount.new(100_000, 200_000, 10_000, 1000, 1_000_000, 1_000_000, 31).freeze
+LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1).freeze
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
@@ -168,12 +169,31 @@ module Target
 
     # A machine prints the same lines as this one, which has the library of src/.
     def machine(name, mode, *options, source: 'src', steps: nil)
-      compared = steps || (name == 'avr' ? 200 : amount.machine)
-      steps ||= name == 'avr' ? amount.avr : amount.machine
+      slow = { 'avr' => amount.avr, **XC8.to_h { |xc8| [xc8, amount.xc8] } }[name]
+      compared = steps || (slow ? 200 : amount.machine)
+      steps ||= slow || amount.machine
       host, machine = [[Machine::ALL.fetch('host'), 'src'], [Machine::ALL.fetch(name), source]].map do |one, from|
         one.printed(questions(one, mode, from, steps, compared, options))
       end
       same(host, machine)
+    end
+
+    # What XC8 makes of a source for a class is what it makes for one that runs, and has
+    # no other compiler's words.
+    def xc8_classes
+      Dir.glob('src/**/fixpid_*.c').sort.map { |source| classes_of(source, Machine::AsXc8::CLASSES.to_h { |one| [one, Machine::AsXc8.text(source, one)] }) }.join
+    end
+
+    def classes_of(source, texts)
+      words = texts.values.flat_map { |text| text.scan(/\b__\w+/) }.uniq
+      raise Host::Failure, "#{source} has #{words.join(' ')}" unless words.empty?
+
+      others = texts.keys.reject { |one| texts[one] == texts['_PIC14'] }
+      name = source.split('/')[1]
+      both = CONTROLLERS.map(&:name).include?(name) || CalledModule::XC8_MACHINES[name] == XC8
+      raise Host::Failure, "#{source} is another one for #{others.join(', ')}, which does not run" unless others.empty? || (both && others == %w[_PIC18])
+
+      "#{source} #{others.join}\n"
     end
 
     # Every answer is the definition's, and nothing is undefined on the way.
@@ -311,6 +331,8 @@ class Table
 
   def machines
     BOTH.product(MACHINES) { |mode, name| test('machines', 'machine', name, mode) { Target.machine(name, mode) } }
+    BOTH.product(XC8) { |mode, name| test('machines', 'machine', name, mode) { Target.machine(name, mode) } }
+    test('machines', 'xc8_classes') { Target.xc8_classes }
     # Where the machine has assembly: without.
     test('machines', 'machine_plain-avr-object') { Target.machine('avr', 'object', PLAIN) }
     # Without the features of fixpid_pid.
@@ -389,7 +411,7 @@ class Table
   # Wrong answers to recorded rows, or to random questions.
   def seeded_machines
     { 'wide' => ['cortex-m0', %w[an937 an964 an964_8bit pid]], 'narrow' => ['host', %w[an937], NARROW],
-      'avr' => ['avr', %w[an937 an964 an964_8bit pid]], 'arm' => ['cortex-m4', %w[pid]] }.each do |form, (machine, controllers, *options)|
+      'avr' => ['avr', %w[an937 an964 an964_8bit pid]], 'xc8' => ['xc8_pic18', %w[an964]], 'arm' => ['cortex-m4', %w[pid]] }.each do |form, (machine, controllers, *options)|
       controllers.each do |controller|
         test('seeded', "seeded_#{form}", controller) do
           Target.noticed(/^#{controller} (rows|random) .*different [1-9]/) do

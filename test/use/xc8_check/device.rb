@@ -4,7 +4,7 @@
 # device.rb PORT_FOLDER: what gputils' header and linker script of the chip say
 # against what a port's configuration.h, registers.h and port.c say, and the chip's
 # registers with their bits on standard output, as C for xc.h. Says what is wrong
-# and exits with 1.
+# and exits with 1. Without such a folder, the registers of the chip with its name.
 require_relative '../../../tools/lib/build/gputils'
 require_relative '../../../tools/lib/build/pic_port'
 
@@ -69,4 +69,5 @@ class Check
   end
 end
 
-Check.new(ARGV.fetch(0)).check
+folder = ARGV.fetch(0)
+File.directory?(folder) ? Check.new(folder).check : puts(Device.new(PicPort.new(folder).chip).c_text)

@@ -21,7 +21,9 @@ class Device
     @bits = {}
     @options = {} # of the configuration words: WDT => { ON => 0xFF }
     heading = nil
-    File.foreach("#{Gputils.folder('header')}/p#{chip}.inc") do |line|
+    header = "#{Gputils.folder('header')}/p#{chip}.inc"
+    abort "gputils has no pic#{chip}" unless File.exist?(header)
+    File.foreach(header) do |line|
       heading = Regexp.last_match(1) if line =~ /^;-----\s*(\w.*?)\s*-*$/
       take(heading, Regexp.last_match(1), Regexp.last_match(2).hex) if line =~ /^(\w+)\s+EQU\s+H'(\h+)'/
     end
