@@ -119,6 +119,18 @@ class Pid(_Noun, noun="pid"):
         """New gains for the next step, as pid_gains makes them."""
         _accept(lib.fixpid_pid_set_gains(self.c, _new("pid_gains", gains)), "set_gains")
 
+    def state(self):
+        """All that the next step depends on besides the configuration, as bytes."""
+        state = ffi.new("uint8_t[]", lib.FIXPID_PID_STATE_SIZE)
+        lib.fixpid_pid_state(self.c, state)
+        return bytes(state)
+
+    def restore(self, state):
+        """Goes on from what `state` returned, of a controller with the same configuration."""
+        accepted = len(state) == lib.FIXPID_PID_STATE_SIZE and \
+            lib.fixpid_pid_restore(self.c, ffi.new("uint8_t[]", list(state)))
+        _accept(accepted, "the state")
+
 
 def _causes(name, noun, advice):
     """An enum of C whose members say what to do: `advice` has a sentence for each."""

@@ -223,6 +223,18 @@ def records_come_back():
     assert refuses(ValueError, fixpid.record_unpack, record[:-1])
 
 
+def states_come_back():
+    pid, other = fixpid.Pid(**CONFIG), fixpid.Pid(**CONFIG)
+    pid.steps(50, range(40))
+    state = pid.state()
+    other.restore(state)
+    assert other.state() == state
+    same(other.steps(50, range(60)).tolist(), pid.steps(50, range(60)).tolist())
+    assert refuses(ValueError, other.restore, state[:-1])
+    assert refuses(ValueError, other.restore, state[:2] + b"\x80" + state[3:])
+    assert other.state() == pid.state()
+
+
 def experiment():
     """On an integrator with a dead time of 5 steps, and the progress after each step."""
     tuner = fixpid.Autotune(output_min=-100, output_max=100, measurement_min=-32768,
@@ -336,7 +348,7 @@ TESTS = (code_of_the_page_runs, every_function_has_a_method, steps_are_those_of_
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
          table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
-         records_come_back, autotune_finds_gains,
+         records_come_back, states_come_back, autotune_finds_gains,
          autotune_says_what_to_do, experiments_come_back,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 failed = 0

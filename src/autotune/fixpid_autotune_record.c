@@ -4,6 +4,7 @@
 #include "fixpid_autotune.h"
 
 #include "../common/fixpid_bytes.h"
+#include "../common/fixpid_check.h"
 #include "fixpid_autotune_private.h"
 
 // Where each number begins. The configuration and what follows the sums are

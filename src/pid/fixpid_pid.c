@@ -23,8 +23,7 @@
 
 #define FEEDFORWARD (HAS_FEEDFORWARD ? SELF.feedforward : 0)
 #define KI_KEPT_MAX 32767u
-#define KI_MIDDLE_MAX UINT32_C(8388479)    // rounds to 32767 * 256
-#define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
+#define KI_MIDDLE_MAX UINT32_C(8388479) // rounds to 32767 * 256
 
 // The signals of one step. A compiler that inlines keeps them in registers;
 // SDCC, where it gives locals fixed addresses or reaches them through a stack
@@ -57,7 +56,6 @@ FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
 // fit is 0 or -1, and of a flipped `previous` any 16 bits.
 // Deviation 20.9: UINT_MAX is a macro of <limits.h>.
 #if UINT_MAX > 65535u
-#define NO_PREVIOUS INT32_C(0x7FFF7FFF)
 #define ASKED_FIRST 0u
 FIXPID_INLINE signal_word fall_from(int32_t previous, int32_t input)
 {
@@ -71,7 +69,6 @@ FIXPID_INLINE signal_word fall_from(int32_t previous, int32_t input)
     return (signal_word)fitting;
 }
 #else
-#define NO_PREVIOUS 0
 #define ASKED_FIRST FIXPID_PID_FIRST
 #define fall_from sub16_sat
 #endif

@@ -11,6 +11,7 @@
 
 #ifndef FIXPID_PID_PRIVATE_H
 #define FIXPID_PID_PRIVATE_H
+#include <limits.h>
 
 // SDCC reaches the operands of its assembly for a PIC18 in places that are
 // fixpid_pid's own.
@@ -51,6 +52,16 @@
 // Bits of `status` under which `integral` holds the output to return instead of
 // an integral.
 #define HELD (HAS_MANUAL ? (FIXPID_PID_SEEDED | FIXPID_PID_MANUAL) : 0u)
+
+#define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
+
+// `previous` before the first step: with 32 bits it says so itself.
+// Deviation 20.9: UINT_MAX is a macro of <limits.h>.
+#if UINT_MAX > 65535u
+#define NO_PREVIOUS INT32_C(0x7FFF7FFF)
+#else
+#define NO_PREVIOUS 0
+#endif
 
 // The largest number of counts that 16 bits can hold, in 1/256.
 #define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)

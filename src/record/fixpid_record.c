@@ -2,6 +2,7 @@
 #include "fixpid_record.h"
 
 #include "../common/fixpid_bytes.h"
+#include "../common/fixpid_check.h"
 
 // Where each number begins.
 #define VERSION_AT 0u

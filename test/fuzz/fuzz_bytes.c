@@ -4,6 +4,7 @@
 // they stand in the object.
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
@@ -87,6 +88,22 @@ static void an964_steps(void)
     }
 }
 
+// A controller goes on from some bytes, or nothing of it changes.
+static void pid_state(void)
+{
+    struct fixpid_pid before;
+    uint8_t state[FIXPID_PID_STATE_SIZE];
+
+    memcpy(&before, &pid, sizeof pid);
+    fixpid_pid_state(&pid, state);
+    spoil(state, sizeof state);
+    if (!fixpid_pid_restore(&pid, state) &&
+        (memcmp(&before, &pid, sizeof pid) != 0)) {
+        fprintf(stderr, "a refused state changed the controller\n");
+        abort();
+    }
+}
+
 static void pid_call(void)
 {
     const int16_t value = numbers_int16();
@@ -120,6 +137,9 @@ static void pid_call(void)
         within(pid.output_min, pid.output_max,
                fixpid_pid_step_error(&pid, (int32_t)value * 2,
                                      (int32_t)value * 65536));
+        break;
+    case 9:
+        pid_state();
         break;
     default:
         break;

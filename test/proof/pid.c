@@ -27,6 +27,7 @@ static struct fixpid_pid_config any_config(void)
 #include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_error.c"
 #include "pid/fixpid_pid_more.c"
+#include "pid/fixpid_pid_state.c"
 #include "pid/fixpid_pid_track.c"
 
 struct signals nondet_signals(void);
@@ -1035,6 +1036,109 @@ void prove_read(void)
     claim(same(&c, &was));
 }
 #endif
+
+struct state {
+    uint8_t bytes[FIXPID_PID_STATE_SIZE];
+};
+struct state nondet_state(void);
+
+// The signed number of `size` bytes, the lowest first.
+static number number_at(const struct state *state, unsigned at, unsigned size)
+{
+    number value = (int8_t)state->bytes[at + size - 1u];
+
+    for (unsigned i = size - 1u; i > 0u; i--) {
+        value = (value * 256) + state->bytes[at + i - 1u];
+    }
+    return value;
+}
+
+// What no controller has: a flag that is none, and what needs a feature.
+static bool known(uint8_t flags, number feedforward)
+{
+    return ((flags & (0x17u | HOLDING)) == flags) &&
+           (HAS(FIXPID_PID_HAS_FEEDFORWARD, true) || (feedforward == 0));
+}
+
+void prove_state(void)
+{
+    struct state state = nondet_state();
+    struct fixpid_pid was;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    fixpid_pid_state(&c, state.bytes);
+    claim(number_at(&state, 0, 2) == c.output);
+    claim(state.bytes[2] ==
+          (refused(&c) ? (c.status | FIXPID_PID_REFUSED) : c.status));
+    claim(number_at(&state, 3, 4) == c.integral);
+    claim(state.bytes[7] == c.integral_fraction);
+    claim(number_at(&state, 8, 4) == c.derivative);
+    claim(number_at(&state, 12, 2) == c.feedforward);
+    claim(number_at(&state, 14, 2) ==
+          (((c.status & FIXPID_PID_FIRST) != 0u) ? 0 : c.previous));
+    claim(number_at(&state, 16, 2) == c.proportional_error);
+    claim(same(&c, &was));
+}
+
+// Of any bytes.
+void prove_restore(void)
+{
+    const struct state state = nondet_state();
+    const uint8_t flags = state.bytes[2];
+    const number integral = number_at(&state, 3, 4);
+    const number derivative = number_at(&state, 8, 4);
+    const number feedforward = number_at(&state, 12, 2);
+    struct fixpid_pid was;
+    bool possible;
+
+    c = nondet_pid();
+    assume(sound(&c));
+    was = c;
+    if ((flags & HOLDING) != 0u) {
+        possible = ((integral & 0xFFFF) == 0) &&
+                   inside(floor_by(integral, 16), c.output_min, c.output_max);
+    } else {
+        possible = inside((integral * 256) + state.bytes[7],
+                          c.integral_min * PART, c.integral_max * PART);
+    }
+    possible = possible && !refused(&c) && known(flags, feedforward) &&
+               inside(derivative, -D_MAX, D_MAX);
+    claim(fixpid_pid_restore(&c, state.bytes) == possible);
+    if (possible) {
+        was.output = (int16_t)number_at(&state, 0, 2);
+        was.status = flags;
+        was.integral = (int32_t)integral;
+        was.integral_fraction = state.bytes[7];
+        was.derivative = (int32_t)derivative;
+        was.feedforward = (int16_t)feedforward;
+        was.previous = ((flags & FIXPID_PID_FIRST) != 0u)
+                           ? UNSEEN
+                           : (int)number_at(&state, 14, 2);
+        was.proportional_error = (int16_t)number_at(&state, 16, 2);
+    }
+    claim(same(&c, &was));
+    claim(sound(&c));
+}
+
+// A controller of the same settings, in any state, is the same afterwards.
+void prove_going_on(void)
+{
+    struct state state = nondet_state();
+    struct fixpid_pid was;
+
+    c = nondet_pid();
+    assume(sound(&c) && !refused(&c) && known(c.status, c.feedforward));
+    was = c;
+    fixpid_pid_state(&c, state.bytes);
+    c = nondet_pid();
+    c.feedforward = was.feedforward;
+    assume(sound(&c) && same_settings(&c, &was));
+    c.feedforward = nondet_int16();
+    claim(fixpid_pid_restore(&c, state.bytes));
+    claim(same(&c, &was));
+}
 
 void prove_refused(void)
 {

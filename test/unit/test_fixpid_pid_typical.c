@@ -15,6 +15,7 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_error.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
+TEST_SOURCE_FILE("src/pid/fixpid_pid_state.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 TEST_SOURCE_FILE("test/support/reference.c")
 
@@ -239,4 +240,31 @@ void test_typical_reset_clears_what_no_function_sets(void)
     fixpid_pid_reset(&pid_controller);
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FIRST, fixpid_pid_flags(&pid_controller));
     TEST_ASSERT_EQUAL_INT16(0, fixpid_pid_step(&pid_controller, 0, 0));
+}
+
+// Nor does a state with what only a feature has come back.
+void test_typical_restore_goes_on_and_refuses_what_no_function_sets(void)
+{
+    uint8_t state[FIXPID_PID_STATE_SIZE];
+    int16_t next;
+
+    init_accepts();
+    (void)fixpid_pid_step(&pid_controller, 100, 0);
+    fixpid_pid_state(&pid_controller, state);
+    next = fixpid_pid_step(&pid_controller, 100, 70);
+    init_accepts();
+    TEST_ASSERT_TRUE(fixpid_pid_restore(&pid_controller, state));
+    TEST_ASSERT_EQUAL_INT16(next, fixpid_pid_step(&pid_controller, 100, 70));
+    state[12] = 1; // the feed-forward
+    TEST_ASSERT_FALSE(fixpid_pid_restore(&pid_controller, state));
+    state[12] = 0;
+    state[13] = 0x80;
+    TEST_ASSERT_FALSE(fixpid_pid_restore(&pid_controller, state));
+    state[13] = 0;
+    state[2] = FIXPID_PID_MANUAL;
+    TEST_ASSERT_FALSE(fixpid_pid_restore(&pid_controller, state));
+    state[2] = FIXPID_PID_SEEDED;
+    TEST_ASSERT_FALSE(fixpid_pid_restore(&pid_controller, state));
+    state[2] = FIXPID_PID_AT_MAX;
+    TEST_ASSERT_TRUE(fixpid_pid_restore(&pid_controller, state));
 }

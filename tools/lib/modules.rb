@@ -85,7 +85,10 @@ module Modules
               # A turn for each place of the derivative filter, and the test that ends it.
               { object: 'pid_errors', part: 'step_error', calls: 5000, functions: { 'fixpid_pid_step_error' => 'step_error' },
                 program: %w[test/support/numbers_control.c test/support/numbers_pid.c],
-                flags: %w[-DCALLS_WITHOUT_ROWS], turns: %w[fixpid_pid_step differentiate].to_h { |name| [name, 8] } }]
+                flags: %w[-DCALLS_WITHOUT_ROWS], turns: %w[fixpid_pid_step differentiate].to_h { |name| [name, 8] } },
+              { object: 'pid_errors', part: 'step_error', calls: 1000,
+                functions: { 'fixpid_pid_state' => 'state', 'fixpid_pid_restore' => 'restore' },
+                program: %w[test/support/numbers_control.c test/support/numbers_pid.c], flags: %w[-DCALLS_WITHOUT_ROWS] }]
     },
     'autotune' => {
       title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // fixpid_pid's two steps by turns: recorded ones, and random ones of which some
-// calls are exact, so that both steps would do the same. A PIC18F4520 has no
-// room for the rows: -DCALLS_WITHOUT_ROWS.
+// calls are exact, so that both steps would do the same. Before each one the
+// state is taken out and restored. A PIC18F4520 has no room for the rows:
+// -DCALLS_WITHOUT_ROWS.
 #include "calls.h"
 #include "fixpid_pid.h"
 #include "numbers.h"
@@ -87,6 +88,18 @@ static void answer(int32_t given, uint32_t defined)
     calls_answer((uint32_t)given, defined);
 }
 
+// As if another controller went on: all that a reset leaves are the settings.
+static void go_on(void)
+{
+    uint8_t state[FIXPID_PID_STATE_SIZE];
+
+    fixpid_pid_state(&pid_errors, state);
+    if ((state[2] & FIXPID_PID_REFUSED) == 0u) {
+        fixpid_pid_reset(&pid_errors);
+        (void)fixpid_pid_restore(&pid_errors, state);
+    }
+}
+
 #define ANSWER(given, definition)                                              \
     answer((given), DEFINED((definition), (uint32_t)(given)))
 
@@ -104,12 +117,14 @@ static void answer_all(int16_t output)
 
 static void step(int16_t setpoint, int16_t now)
 {
+    go_on();
     DEFINE((void)reference_pid_step(&reference, setpoint, now));
     answer_all(fixpid_pid_step(&pid_errors, setpoint, now));
 }
 
 static void step_error(int32_t error, int32_t rise)
 {
+    go_on();
     DEFINE((void)reference_pid_step_error(&reference, error, rise));
     answer_all(fixpid_pid_step_error(&pid_errors, error, rise));
 }

@@ -19,7 +19,7 @@ class CalledModule
 
   # What is metered, if not `step`.
   FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result],
-                'step_error' => %w[step_error], 'table' => %w[at] }.freeze
+                'step_error' => %w[step_error state restore], 'table' => %w[at] }.freeze
 
   # Whether a machine has the same of the autotuner's record, too.
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze

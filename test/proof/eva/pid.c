@@ -5,6 +5,7 @@
 #include "pid/fixpid_pid_check.c"
 #include "pid/fixpid_pid_error.c"
 #include "pid/fixpid_pid_more.c"
+#include "pid/fixpid_pid_state.c"
 #include "pid/fixpid_pid_track.c"
 
 static struct fixpid_pid_gains any_gains(void)
@@ -39,9 +40,24 @@ static void set_any(struct fixpid_pid *c)
     }
 }
 
+// Of its own bytes, of which some are any.
+static void go_on(struct fixpid_pid *c)
+{
+    uint8_t state[FIXPID_PID_STATE_SIZE];
+    uint8_t at;
+
+    fixpid_pid_state(c, state);
+    for (at = 0; at < FIXPID_PID_STATE_SIZE; at++) {
+        if (GOES_ON) {
+            state[at] = ANY_UINT8;
+        }
+    }
+    (void)fixpid_pid_restore(c, state);
+}
+
 static void call_any(struct fixpid_pid *c)
 {
-    switch (ANY_OF(9)) {
+    switch (ANY_OF(10)) {
     case 1:
         fixpid_pid_reset(c);
         break;
@@ -65,6 +81,9 @@ static void call_any(struct fixpid_pid *c)
         break;
     case 8:
         (void)fixpid_pid_step_error(c, ANY_INT32, ANY_INT32);
+        break;
+    case 9:
+        go_on(c);
         break;
     default:
         (void)fixpid_pid_proportional(c);

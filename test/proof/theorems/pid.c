@@ -79,6 +79,7 @@ void prove_integral_inside(void)
 {
     const struct fixpid_pid_config config = any_config();
     const struct fixpid_pid_gains gains = nondet_pid_gains();
+    const struct state state = nondet_state();
     const int16_t a = nondet_int16();
     const int16_t b = nondet_int16();
 
@@ -117,6 +118,9 @@ void prove_integral_inside(void)
             break;
         case 9:
             fixpid_pid_track(&c, a, nondet_uint8());
+            break;
+        case 10:
+            (void)fixpid_pid_restore(&c, state.bytes);
             break;
         default:
             fixpid_pid_reset(&c);

@@ -18,10 +18,10 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
     part || id
   end
 
-  # Of the library, without the check, the record and the step by the error, which only a
-  # program that calls them links.
+  # Of the library, without the check, the record, the state and the step by the error, which
+  # only a program that calls them links.
   def files
-    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_error\.c\z/)
+    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_(?:error|state)\.c\z/)
   end
 
   # Of its recorded rows.
