@@ -83,12 +83,13 @@ static bool is_possible(FIXPID_DATA const struct fixpid_pid *self,
                         const uint8_t state[])
 {
     const int32_t derivative = (int32_t)get32(&state[DERIVATIVE_AT]);
-    const uint16_t lacking =
-        (uint16_t)(get(&state[FEEDFORWARD_AT]) & NO_FEEDFORWARD);
+    uint16_t lacking = get(&state[FEEDFORWARD_AT]);
 
     // Both at once, because SDCC warns of a condition that is never true where
     // no feature is missing.
-    if ((lacking | (state[FLAGS_AT] & UNKNOWN_FLAGS)) != 0u) {
+    lacking &= NO_FEEDFORWARD;
+    lacking |= state[FLAGS_AT] & UNKNOWN_FLAGS;
+    if (lacking != 0u) {
         return false;
     }
     if (derivative > DERIVATIVE_MAX) {

@@ -45,10 +45,10 @@ void tearDown(void)
 {
 }
 
-static void write(uint8_t at, int64_t value, uint8_t bytes)
+static void write(uint8_t at, int32_t value, uint8_t bytes)
 {
     for (uint8_t i = 0; i < bytes; i++) {
-        state[at + i] = (uint8_t)((uint64_t)value >> (8 * i));
+        state[at + i] = (uint8_t)((uint32_t)value >> (8 * i));
     }
 }
 
@@ -114,19 +114,19 @@ static void as_defined(void)
 
     fixpid_pid_state(&pid_controller, found);
     memcpy(state, found, SIZE);
-    write(OUTPUT, reference.output, 2);
+    write(OUTPUT, (int32_t)reference.output, 2);
     write(FLAGS, reference_pid_flags(&reference), 1);
-    write(INTEGRAL, reference_pid_integral(&reference), 4);
+    write(INTEGRAL, (int32_t)reference_pid_integral(&reference), 4);
     if (!held) {
-        write(FRACTION, reference.integral, 1);
+        write(FRACTION, (int32_t)(reference.integral & 0xFF), 1);
     }
-    write(DERIVATIVE, reference.derivative, 4);
-    write(FEEDFORWARD, reference.feedforward, 2);
+    write(DERIVATIVE, (int32_t)reference.derivative, 4);
+    write(FEEDFORWARD, (int32_t)reference.feedforward, 2);
     if (!reference.seen) {
         write(PREVIOUS, 0, 2);
     }
     if (reference.accepted) {
-        write(ERROR, reference.proportional_error, 2);
+        write(ERROR, (int32_t)reference.proportional_error, 2);
     }
     TEST_ASSERT_EQUAL_HEX8_ARRAY(state, found, SIZE);
 }
@@ -361,7 +361,7 @@ void test_restore_unknown_flags_are_refused(void)
     fixpid_pid_state(&pid_controller, state);
     write(INTEGRAL, 0, 4);
     write(FRACTION, 0, 1);
-    for (unsigned bit = 1; bit < 0x100u; bit <<= 1) {
+    for (uint8_t bit = 1; bit != 0u; bit = (uint8_t)(bit << 1)) {
         write(FLAGS, bit, 1);
         if ((bit & (0x08u | FIXPID_PID_REFUSED)) != 0u) {
             refuses();
