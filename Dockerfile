@@ -20,7 +20,7 @@ RUN apt-get update && \
         python3-dev python3-kconfiglib python3-matplotlib python3-numpy \
         python3-scipy python3-setuptools python3-venv python3-wheel \
         qemu-system-arm qemu-system-misc ruby sdcc sdcc-libraries sdcc-ucsim \
-        shellcheck simavr util-linux xz-utils zlib1g-dev \
+        shellcheck simavr tcc util-linux xz-utils zlib1g-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN gem install --no-document ceedling -v 1.2.1
 COPY tools/lib/setup.sh /tmp/fixpid/

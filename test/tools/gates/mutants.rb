@@ -77,11 +77,11 @@ Gate.refused('a test that fails before anything is broken', mutants(high: 'TEST_
 Gate.refused('a test that does not compile', mutants(high: 'nothing;'), /do not pass before/, /test_fixpid_toy\.c:\d+:\d+: error: .nothing. undeclared/)
 Gate.refused('a source without a test', mutants(more: { 'src/toy/fixpid_more.c' => "int fixpid_more(int x);\nint fixpid_more(int x)\n{\n    return x + 1;\n}\n" }),
              %r{^FAILED src/toy/fixpid_more\.c has no test/unit/test_fixpid_more\.c$})
-Gate.refused('a compiler that has no room', mutants(programs: { 'gcc' => <<~TEXT }), /the compiler does not work/)
+Gate.refused('a compiler that has no room', mutants(programs: { 'tcc' => <<~TEXT }), /the compiler does not work/)
   case $* in
-  *program*) echo 'ld: No space left on device: error: nothing' >&2; exit 1 ;;
+  *program*) echo 'tcc: No space left on device: error: nothing' >&2; exit 1 ;;
   esac
-  exec /usr/bin/gcc "$@"
+  exec /usr/bin/tcc "$@"
 TEXT
 
 # What is broken of a line: from, to.

@@ -22,11 +22,12 @@ EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
 UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
 OF_LIBRARY = '/test_fixpid'.freeze # and of no example or port
-LINKER = (system('ld.gold', '--version', out: File::NULL, err: File::NULL) ? %w[-fuse-ld=gold] : []).freeze # it is faster
 LINKING = Mutex.new
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
+# tcc does not fold real constants, and takes no branch for __GNUC__.
+OF_GCC = %r{\Ainclude/|/fixpid_(?:bits|signed\w*)\.h\z}.freeze
 OF_CHIPS = 'src/*/*_{arm,avr,pic14,pic18,sdcc}.[ch]'.freeze
 FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Itest/tools/cost -Itest/model/autotune].freeze
 CONDITION = /\A[ \t]*#[ \t]*(?:if|el|endif)/.freeze
@@ -42,8 +43,16 @@ end
 POOL = Dir['{include,src,port,sim,examples,test/unit,test/support,test/tools/cost,test/model}/**/*.[ch]'].sort.freeze
 NAMED = /^[ \t]*#[ \t]*include[ \t]+["<](?:.*\/)?(?:mock_)?([^">\/]+)[">]|^TEST_SOURCE_FILE\(".*?([^"\/]+)"\)/.freeze
 
-# A test, what is compiled anew for it, and how.
-Run = Struct.new(:test, :sources, :options) do
+# A test, what is compiled anew for it, and how: tcc takes a tenth of gcc's time.
+Run = Struct.new(:test, :sources, :options, :compiler) do
+  def initialize(test, sources, options = [], compiler = 'tcc')
+    super
+  end
+
+  def by(compiler)
+    Run.new(test, sources, options, compiler)
+  end
+
   def objects
     fresh = sources.map { |source| "#{File.basename(source, '.c')}.o" }
     Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].reject { |object| fresh.include?(File.basename(object)) }
@@ -62,32 +71,39 @@ end
 # With all that it has of src/ compiled anew, too.
 def whole_run_of(test)
   objects = Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].map { |object| File.basename(object, '.o') }
-  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }], [])
+  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }], [], 'gcc')
 end
 
 # Of fixpid_autotune also the recorded experiments.
 def autotune_runs(sources)
-  %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources, []) }
+  %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources) }
 end
 
 # Of fixpid_pid with all features and with none.
 def pid_runs(sources)
-  [Run.new('test_fixpid_pid', sources, []), Run.new('test_fixpid_pid_error', sources, []),
+  [Run.new('test_fixpid_pid', sources), Run.new('test_fixpid_pid_error', sources),
    Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
 def state_runs(sources)
-  [Run.new('test_fixpid_pid_state', sources, []), Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
+  [Run.new('test_fixpid_pid_state', sources), Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
-# The runs in which a file is compiled, by its name.
+# The runs in which a file is compiled: what tcc's do not notice or do not reach, gcc's
+# are asked.
 def runs_of(file)
+  runs = runs_by_name(file)
+  by_gcc = runs.map { |run| run.by('gcc') }
+  file.match?(OF_GCC) ? by_gcc : runs | by_gcc
+end
+
+def runs_by_name(file)
   name = File.basename(file, '.*')
   return [run_of('test_fixpid_constants'), whole_run_of("test_#{name}")] if file.start_with?('include/')
   return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
   return state_runs([file]) if file.end_with?('fixpid_pid_state.c')
   return pid_runs([file]) if file.match?(/fixpid_pid\w*\.c\z/)
-  return [Run.new("test_#{noun(name)}", [file], [])] if file.end_with?('.c')
+  return [Run.new("test_#{noun(name)}", [file])] if file.end_with?('.c')
 
   case name
   when 'fixpid_bits' then [run_of('test_fixpid_bits'), *runs_of('src/common/fixpid_signed.h')] # a shift of the second
@@ -98,9 +114,9 @@ def runs_of(file)
   when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
   when 'fixpid_table_text' then runs_of('src/table/fixpid_table.c')
   when 'fixpid_difference'
-    %w[guard table].map { |noun| Run.new("test_fixpid_#{noun}", ["src/#{noun}/fixpid_#{noun}.c"], []) }
+    %w[guard table].map { |noun| Run.new("test_fixpid_#{noun}", ["src/#{noun}/fixpid_#{noun}.c"]) }
   when 'fixpid_bytes' then [*runs_of('src/common/fixpid_check.h'), *state_runs(%w[src/pid/fixpid_pid_state.c])]
-  when 'fixpid_check' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c], []), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
+  when 'fixpid_check' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c]), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
   when 'fixpid_an937_turns' then [run_of('test_fixpid_an937_arith', %w[-D__riscv])]
   when 'fixpid_signed_riscv'
     [run_of('test_fixpid_pid_arith', %w[-D__riscv]), run_of('test_fixpid_pid_arith', %w[-D__riscv -D__riscv_mul])]
@@ -156,7 +172,7 @@ def in_tree(source, tree)
 end
 
 def compiler(run, tree, *arguments)
-  ['gcc', *FLAGS, *run.options, "-I#{tree}/include", "-I#{tree}/src", "-I#{UNITY}", *arguments,
+  [run.compiler, *FLAGS, *run.options, "-I#{tree}/include", "-I#{tree}/src", "-I#{UNITY}", *arguments,
    *run.sources.map { |source| in_tree(source, tree) }]
 end
 
@@ -175,7 +191,7 @@ end
 # without a word about the code says nothing about a break.
 def build(run, tree)
   program = "#{tree}/program"
-  output, status = Open3.capture2e(*compiler(run, tree, *LINKER, '-o', program), rest_of(run))
+  output, status = Open3.capture2e(*compiler(run, tree, '-o', program), rest_of(run))
   return program if status.success?
 
   output.match?(COMPLAINT) && !output.match?(/No space left|internal compiler error|Cannot allocate/) or
@@ -329,7 +345,7 @@ end
 
 # Whether all mutants of a file are noticed, now or when they were tried.
 def good?(file, equivalents)
-  tests = runs_of(file).map { |run| [run.test, run.options] }
+  tests = runs_of(file).map { |run| [run.test, run.options] }.uniq
   inputs = made_from([file, *tests.map { |test, _| program_of(test) }.compact])
   told = TOLD.size
   verdict = REMEMBERED.of(file, files: inputs, words: [tests, equivalents.of(file)]) { verdict_of(file, equivalents) }
@@ -380,8 +396,7 @@ def try_unbroken(run)
 end
 
 REMEMBERED = Remembered.new('mutants', files: %w[project.yml test/support/vectors/**/*],
-                                       tools: [*%w[gcc ld ld.gold ceedling].flat_map { |name| Inputs.tool(name) }, *Inputs.gem('ceedling'), *Inputs.c_library],
-                                       words: [LINKER])
+                                       tools: [*%w[tcc gcc ld ceedling].flat_map { |name| Inputs.tool(name) }, *Inputs.gem('ceedling'), *Inputs.c_library])
 PASSED = [] # without a break, and :objects once they are made
 TOLD = []
 UNBROKEN = {}

@@ -252,7 +252,7 @@ part_bare() {
 }
 
 part_gates() {
-    need ruby cc:gcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
+    need ruby cc:gcc tcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
         avr-g++:gcc-avr :avr-libc gpasm:gputils dash
     need_ceedling
     for gate in test/tools/gates/*.rb; do
@@ -272,7 +272,7 @@ part_assembly() {
 }
 
 part_mutants() {
-    need ruby cc:gcc :libc6-dev
+    need ruby cc:gcc tcc :libc6-dev
     need_ceedling
     count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
 }
