@@ -311,53 +311,34 @@ def chip_table
   end
 end
 
-# Of panels at most. Whatever their number is, no place is empty: the panels of a shorter
-# row are wider.
-COLUMNS = 4
-
+# One row for each firmware, and in it one dot for each stretch in which it is compared, the later
+# one lower: the greatest difference as a part of the one that is allowed, the line at the right.
 def draw_chips
-  rows = in_rows(CHIPS)
-  plot = Plot.new('chip', 'Simulated chip minus host: the same sources, the ' \
-                          'same scenario (grey: where and how far they may differ)',
-                  width: 1800, height: 1000, rows: [1.0] * rows.size, gap_x: 0.05, gap_y: 0.085,
-                  margins: { left: 0.05, top: 0.91, right: 0.985 })
-  rows.each_with_index do |ones, row|
-    ones.each_with_index { |one, i| difference_panel(plot, [row, i, ones.size], one, row == rows.size - 1) }
+  rows = CHIPS.each_with_index.flat_map do |one, i|
+    parts = AGREEMENTS.fetch(one.name)
+    parts.each_with_index.map { |part, k| [greatest(one, part), CHIPS.size - i + (parts.size - 1 - 2 * k) * 0.22, part] }
   end
+  path = "#{Host.folder}/chip_differences.csv"
+  Report.replace(path, rows.map { |most, row, part| "#{most / part.most},#{row},#{said(most, part)}\n" }.join)
+  plot = Plot.new('chip', 'The same program on a simulated chip and on this machine: how far they ever differ',
+                  width: 1000, height: 680, margins: { left: 0.30, right: 0.97, top: 0.90, bottom: 0.12 })
+  plot.panel(0, 0, ["'#{path}' using 1:2 with points pointtype 7 pointsize 1.3 linecolor '#{Plot::MEASUREMENT}' notitle",
+                    "'#{path}' using 1:2:3 with labels left offset 1.2,0 textcolor '#{Plot::TEXT}' notitle"], dots)
   plot.draw
 end
 
-# The longer rows are the lower ones.
-def in_rows(ones)
-  size = (ones.size.to_f / COLUMNS).ceil
-  few, more = ones.size.divmod(size)
-  left = ones.dup
-  Array.new(size) { |row| left.shift(few + (row >= size - more ? 1 : 0)) }
+def greatest(one, part)
+  part.differences(one).map { |_, off| off.abs }.max
 end
 
-def difference_panel(plot, place, one, last)
-  parts = AGREEMENTS.fetch(one.name)
-  path = "#{Host.folder}/chip-#{one.name}_difference.csv"
-  rows = parts.flat_map { |part| part.differences(one) }
-  Report.replace(path, "time_s,difference\n" +
-                       rows.map { |pair| "#{pair.join(',')}\n" }.join)
-  top = 1.25 * parts.map(&:most).max
-  plot.panel_of(*place,
-                [Plot.curve(Trace.new(path), 'difference', nil, Plot::MEASUREMENT, width: 1.2)],
-                [*allowed(parts), "set title \"{/:Bold #{one.title}}\"",
-              "set xrange [#{parts.first.from}:#{parts.last.to}]",
-              "set yrange [#{-top}:#{top}]",
-              "set ylabel '#{AXES.fetch(parts.first.column)}'",
-              *(last ? ["set xlabel 'time, s'"] : [])])
+def said(most, part)
+  format('%.2g of %g %s', most, part.most, part.unit == 'C' ? '°C' : part.unit)
 end
 
-AXES = { 'angle_degrees' => 'angle, degrees', 'speed_rad_s' => 'speed, rad/s',
-         'temperature_c' => 'temperature, °C' }.freeze
-
-def allowed(parts)
-  parts.each_with_index.map do |part, i|
-    "set object #{i + 1} rectangle from #{part.from}, #{-part.most} to " \
-      "#{part.to}, #{part.most} behind fillcolor '#{Plot::AREA}' fillstyle solid " \
-      'noborder'
-  end
+def dots
+  names = CHIPS.each_with_index.map { |one, i| "'#{one.title}' #{CHIPS.size - i}" }
+  ["set ytics (#{names.join(', ')}) scale 0", "set yrange [0.3:#{CHIPS.size + 0.7}]", 'set xrange [0:1.25]',
+   'set xtics 0.25', "set xlabel 'the greatest difference, as a part of what is allowed'",
+   "set arrow from 1, graph 0 to 1, graph 1 nohead linecolor '#{Plot::LIMIT}' linewidth 1.6",
+   "set label 'allowed' at 1, graph 1.02 center textcolor '#{Plot::TEXT}'"]
 end
