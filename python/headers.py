@@ -10,6 +10,7 @@ import pprint
 import re
 import textwrap
 
+EXTENDED = ("Autotune", "Pid")  # classes of which Python has more: not for `from ._nouns import *`
 TRAILING = 8  # a comment that begins further to the right goes on with the line above
 FUNCTION = re.compile(r"(?:static inline )?((?:const )?[\w ]+?[ *]+)(fixpid_\w+)\(([^{;]*)\)\s*[;{]")
 ARGUMENT = re.compile(r"(?:FIXPID_DATA )?(.*?)\s*(\*?)(\w+)$")
@@ -136,9 +137,11 @@ class Headers:
         """The text of `_nouns.pyi`."""
         enumerators = [name for fields in self.fields.values() for name in fields if name.startswith("FIXPID_")]
         nouns = [line for noun in self.nouns if f"fixpid_{noun}_init" in self.functions for line in self._noun(noun)]
+        constants = [name[len("FIXPID_"):] for name in sorted({*self.constants, *enumerators})]
+        classes = [line[len("class "):-len("(Noun):")] for line in nouns if line.startswith("class ")]
+        exported = ["Noun", *(name for name in classes if name not in EXTENDED), *constants]
         lines = ["# Written by headers.py from include/.", "from typing import Any, Optional, TypedDict", "",
-                 "lib: Any", "ffi: Any", "",
-                 *(f"{name[len('FIXPID_'):]}: int" for name in sorted({*self.constants, *enumerators}))]
+                 *textwrap.wrap(f"__all__ = {exported}", 100), "", *(f"{name}: int" for name in constants)]
         for kind in sorted(self.inside):
             lines += ["", f"class {self._type(kind)}(TypedDict, total=False):"]
             lines += [f"    {name}: {self._type(own)}" for name, (_, own) in self.fields[kind[len("struct "):]].items()]
@@ -154,7 +157,7 @@ def write(folder, paths):
               for owner, all_fields in headers.fields.items()}
     with open(os.path.join(folder, "_headers.py"), "w", encoding="utf-8") as file:
         file.write("# Written by headers.py from include/.\n")
-        for name, value in (("NOUNS", headers.nouns), ("FUNCTIONS", functions), ("FIELDS", fields)):
+        for name, value in (("EXTENDED", EXTENDED), ("NOUNS", headers.nouns), ("FUNCTIONS", functions), ("FIELDS", fields)):
             file.write(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}\n")
     with open(os.path.join(folder, "_nouns.pyi"), "w", encoding="utf-8") as file:
         file.write(headers.classes())

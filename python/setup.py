@@ -63,7 +63,7 @@ setup(
                  "Programming Language :: Python :: 3", "Topic :: Scientific/Engineering", "Typing :: Typed"],
     python_requires=">=3.8",
     packages=["fixpid"],
-    package_data={"fixpid": ["py.typed"]},
+    package_data={"fixpid": ["py.typed", "*.pyi"]},
     cffi_modules=["build_library.py:ffi"],
     libraries=[build_library.PAGE_LIBRARY],
     install_requires=["cffi"],

@@ -14,11 +14,11 @@ Structures come back as dictionaries, and are given as keywords.
 Who passes what is no whole number gets a TypeError, what does not fit an OverflowError, and
 what C refuses by returning false a ValueError; each names the value.
 """
+from ._core import __version__
 from ._library import ffi, lib
-from ._nouns import *  # noqa: F403, the constants, and the classes that C alone makes
-from ._nouns import Noun, __version__  # isort: skip, what follows takes the place of some
 from ._loop import Fit, Loop, Plant, fit, simulate, tune
 from ._modules import (Autotune, AutotuneCause, AutotuneState, Table, gains_from_milli, gains_to_milli,
                        guard_config, record_pack, record_unpack, sat16, slew_rate, table)
+from ._nouns import *  # noqa: F403, the constants, and the classes that C alone makes
 from ._pid import Pid, pid_gains
 from ._units import Actuator, Sensor

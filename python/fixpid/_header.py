@@ -2,9 +2,9 @@
 """The header for the firmware, as the tuner page writes it: web/header.js in Python."""
 import re
 
+from ._core import __version__
 from ._format import number, short
 from ._library import lib
-from ._nouns import __version__
 from ._scene import CONTROLLER, DERIVATIVE_ON_ERROR, PROPORTIONAL_ON_MEASUREMENT, REVERSE
 
 KI_FINE = 0x7FFF7F  # the largest without FIXPID_PID_HAS_COARSE_KI

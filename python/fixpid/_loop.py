@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 from . import _scene
 from ._advice import advice_of
+from ._core import numpy
 from ._fit import fit_step, shape, state_of_fit
 from ._header import header_of
 from ._margins import margins_of
 from ._metrics import limited_steps, metrics_of, unit_per_count, units_of
 from ._modules import AutotuneCause, AutotuneState
-from ._nouns import AUTOTUNE_DONE, numpy
+from ._nouns import AUTOTUNE_DONE
 from ._pid import Pid
 from ._units import Actuator, Sensor, number
 
@@ -69,20 +70,20 @@ class Fit:
         self.worth = 1 - self.error**2 * len(y) / sum((one - mean)**2 for one in y)
 
     @property
-    def gain(self):
+    def gain(self) -> float:
         """What a unit of u makes of the measurement."""
         return self.rise / self.step
 
     @property
-    def rest(self):
+    def rest(self) -> float:
         """The measurement with no output."""
         return self.start - self.gain * self.before
 
-    def at(self, t):
+    def at(self, t) -> float:
         """The fitted response at t seconds after the step."""
         return self.start + self.rise * shape(t, self.lag, self.dead)
 
-    def plant(self, full=1.0):
+    def plant(self, full: float = 1.0) -> Plant:
         """The Plant for `simulate`; `full` is full drive in units of u."""
         return Plant(gain=self.gain * full, lag=self.lag, dead=self.dead, start=self.rest)
 
@@ -152,7 +153,7 @@ def _step_of(rows):
     return at, before, sum(u[at:]) / len(u[at:]) - before
 
 
-def fit(t, u, y):
+def fit(t, u, y) -> Fit:
     """A Fit of a recorded step response: times, what the actuator got, and the measurement, of
     lists, arrays or pandas Series; the times may be uneven, or dates. The step is found in u; a
     single number is a step of so much, from no output, at the first time. ValueError where there is no step."""
@@ -200,13 +201,13 @@ class Loop:
         self.flags, self.limited = _array(series["FLAGS"]), _array(limited_steps(state, run))
 
     @property
-    def gains(self):
+    def gains(self) -> tuple:
         """kp, ki and kd in units of the actuator and the sensor."""
         factor = self._actuator.unit_per_count / unit_per_count(self.state)
         return tuple(self.state[name] * factor for name in ("KP", "KI", "KD"))
 
     @property
-    def pid(self):
+    def pid(self) -> Pid:
         """A new Pid like that of this loop, with its sensor and its actuator."""
         s, per_count = self.state, self._actuator.unit_per_count
         kp, ki, kd = self.gains
@@ -219,11 +220,11 @@ class Loop:
                    integral_limits=None if ends == (0, 0) else tuple(one * per_count for one in ends),
                    derivative_on_error=bool(s["OPTIONS"] & _scene.DERIVATIVE_ON_ERROR))
 
-    def header(self):
+    def header(self) -> str:
         """The header for the firmware, as the page writes it."""
         return header_of(self.state, self._run["results"])
 
-    def link(self, page=""):
+    def link(self, page: str = "") -> str:
         """A link that opens this loop in the tuner page, whose address is `page`."""
         return f"{page}#{_scene.fragment(self.state)}"
 
@@ -268,7 +269,7 @@ def _events(events):
     return found
 
 
-def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0):
+def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0) -> Loop:
     """The loop of a Plant, or of a Fit, and a Pid, from rest: a Loop.
 
     It lasts `duration` seconds, at most 20000 steps; without one, ten times what matters of the
@@ -302,7 +303,7 @@ def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0):
     return Loop(state, actuator)
 
 
-def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe"):
+def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe") -> Loop:
     """The Loop with the gains of a rule for a Fit.
 
     `rule` is PI or PID, as fixpid_autotune finds them in its experiment on the fitted plant, with

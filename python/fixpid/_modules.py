@@ -6,7 +6,7 @@ import operator
 import textwrap
 
 from . import _nouns
-from ._nouns import accept as _accept, counts as _counts, ffi, fields_of as _fields, lib, new as _new, numpy
+from ._core import accept as _accept, counts as _counts, ffi, fields_of as _fields, lib, new as _new, numpy
 
 
 def _causes(name, noun, advice):

@@ -3,7 +3,8 @@
 import math
 
 from . import _nouns
-from ._nouns import PID_FILTER_MAX, PID_KD_MAX, PID_KI_MAX, PID_KP_MAX, PID_MANUAL, accept, each, ffi, lib, new, numpy
+from ._core import accept, each, ffi, lib, new, numpy
+from ._nouns import PID_FILTER_MAX, PID_KD_MAX, PID_KI_MAX, PID_KP_MAX, PID_MANUAL
 from ._units import Actuator, Sensor, number, pair
 
 CONFIG = ("gains", "output_min", "output_max", "integral_min", "integral_max", "setpoint_weight_q8")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a wheel has to do alone, where there is cffi and no numpy: bare.py WHEEL."""
+import ast
 import copy
 import os
 import sys
@@ -19,6 +20,10 @@ def comes_from_the_wheel():
     with zipfile.ZipFile(WHEEL) as wheel:
         names = set(wheel.namelist())
         metadata = wheel.read(next(name for name in names if name.endswith("/METADATA"))).decode()
+    for name in names:
+        if name.endswith(".py"):
+            with zipfile.ZipFile(WHEEL) as wheel:
+                ast.parse(wheel.read(name), name, feature_version=(3, 8))
     assert {"fixpid/_nouns.pyi", "fixpid/_headers.py", "fixpid/py.typed"} <= names, names
     assert [name for name in names if name.endswith(".so")] == ["fixpid/_library.abi3.so"], names
     for line in "Requires-Dist: cffi", "Requires-Python: >=3.8", "Description-Content-Type: text/markdown":
@@ -36,4 +41,14 @@ def lists_do_for_arrays():
     same(fixpid.table(lambda x: x * x, 0, 9, points=10).at(3), 9)
 
 
-run((comes_from_the_wheel, lists_do_for_arrays))
+def a_recording_becomes_a_header():
+    t = [0.5 * i for i in range(400)]
+    u = [int(s > 20) for s in t]
+    found = fixpid.fit(t, u, [50 + 30 * (1 - 2 ** (-max(0, s - 24) / 20)) for s in t])
+    loop = fixpid.tune(found, "PI", rate=5)
+    assert isinstance(loop.output, list) and loop.margins["stable"] and "LOOP_GAINS" in loop.header()
+    same(loop.pid.run(loop.setpoint, loop.measurement), loop.output)
+    assert refuses(ImportError, found.plot)
+
+
+run((comes_from_the_wheel, lists_do_for_arrays, a_recording_becomes_a_header))

@@ -6,6 +6,7 @@ import inspect
 import math
 import os
 import pickle
+import sys
 
 import numpy
 
@@ -163,19 +164,22 @@ def repr_makes_it_again():
 
 
 def classes_of_the_stub():
-    """{class: {method: argument names}} of `_nouns.pyi`, and its constants."""
+    """{class: {method: argument names}} of `_nouns.pyi`, its constants, and what `*` takes."""
     with open(os.path.join(os.path.dirname(fixpid.__file__), "_nouns.pyi"), encoding="utf-8") as file:
         body = ast.parse(file.read()).body
     classes = {node.name: {part.name: part for part in node.body if isinstance(part, ast.FunctionDef)}
                for node in body if isinstance(node, ast.ClassDef)}
-    return classes, {node.target.id for node in body if isinstance(node, ast.AnnAssign)}
+    exported = next(ast.literal_eval(node.value) for node in body if isinstance(node, ast.Assign))
+    return classes, {node.target.id for node in body if isinstance(node, ast.AnnAssign)}, exported
 
 
 def stubs_are_what_there_is():
     """Every class, verb and constant is in the stub with its arguments, and nothing else."""
-    classes, constants = classes_of_the_stub()
+    classes, constants, exported = classes_of_the_stub()
     known = {name[len("FIXPID_"):] for name in dir(fixpid.lib) if name.startswith("FIXPID_")}
-    same(sorted(known ^ (constants - {"lib", "ffi"})), [])
+    same(sorted(known ^ constants), [])
+    same(sorted(exported), sorted(sys.modules["fixpid._nouns"].__all__))
+    same([name for name in exported if not hasattr(fixpid, name)], [])
     nouns = {noun.__name__: noun for noun in fixpid.Noun.__subclasses__()}
     same(set(classes) - {"Noun", "PidGains"}, set(nouns))
     seen = 0
