@@ -45,6 +45,9 @@ def units_are_those_of_sensor_and_actuator():
     same(half._said[1]["gains"]["kp_q8"], math.floor(2 * (100 / 1023) / (2 / 500) * 256 + 0.5))
     same(half.output_limits, (-2, 1))
     same((fine.counts(50), fine.units(1023)), (512, 100))
+    for weight, q8, on_measurement in ((1, 256, False), (0.25, 64, False), (0, 0, True)):
+        config = oven(setpoint_weight=weight)._said[1]
+        same((config["setpoint_weight_q8"], config["proportional_on_measurement"]), (q8, on_measurement))
 
 
 def arrays_run():
