@@ -31,7 +31,8 @@ const THOUSANDS = {
 // text, and `why` where it is text that was meant to be more.
 export function readCell(cell, decimal) {
     const plain = PLAIN[decimal].exec(cell);
-    if (plain !== null) {
+    const beyond = plain !== null && !Number.isFinite(Number(plain[1].replace(',', '.')));
+    if (plain !== null && !beyond) {
         return { kind: 'number', value: Number(plain[1].replace(',', '.')), unit: plain[2] };
     }
     if (THOUSANDS[decimal].test(cell)) {
@@ -41,7 +42,7 @@ export function readCell(cell, decimal) {
     if (HOLES.test(cell)) {
         return { kind: 'hole', value: NaN };
     }
-    if (/^[+-]?inf(inity)?$/i.test(cell)) {
+    if (beyond || /^[+-]?inf(inity)?$/i.test(cell)) {
         return { kind: 'hole', value: NaN, why: `“${cell}” is no measurement` };
     }
     return clockOf(cell);
@@ -133,7 +134,7 @@ function formOf(lines) {
         .reduce((best, one) => (one.score > best.score + 1e-9 ? one : best), { score: 0, width: 0 });
 }
 
-function namesOf(cells, width) {
+function headOf(cells, width) {
     return cells.length === width ? cells.map((cell) => cell.slice(0, 24)) : [];
 }
 
@@ -194,7 +195,7 @@ export function* readTable(text) {
         }
         const cells = cutLine(line, form);
         if (numbers.length === 0 && !isData(cells, decimal)) {
-            names = namesOf(cells, width);
+            names = headOf(cells, width);
             continue;
         }
         if (cells.length !== width) {

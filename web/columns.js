@@ -20,7 +20,7 @@ export function median(values) {
     return quantile(values, 0.5);
 }
 
-const known = (column) => column.filter((value) => !Number.isNaN(value));
+const knownOf = (column) => column.filter((value) => !Number.isNaN(value));
 
 // Every so many: enough to judge a column by.
 function sampled(column, most) {
@@ -30,7 +30,7 @@ function sampled(column, most) {
 
 // The share of a column's steps that do not go back; 0 where it mostly stands still.
 function risingPart(column) {
-    const values = known(column);
+    const values = knownOf(column);
     let [forward, still] = [0, 0];
     for (let i = 1; i < values.length; i++) {
         forward += values[i] >= values[i - 1] ? 1 : 0;
@@ -81,12 +81,12 @@ function driveColumn({ names, columns }, time, value) {
     return (found.find(({ name }) => DRIVE_NAME.test(name)) ?? found.find(({ name }) => !GOAL_NAME.test(name)) ?? { i: -1 }).i;
 }
 
-// The first column that is left and moves.
+// The first column that is left and moves, but not as a drive does.
 function valueColumn({ names, columns }, time, drive) {
-    const left = columns.map((column, i) => ({ i, moves: new Set(sampled(known(column), 200)).size > 1, name: names[i] }))
+    const left = columns.map((column, i) => ({ i, moves: new Set(sampled(knownOf(column), 200)).size > 1, name: names[i] }))
         .filter(({ i }) => i !== time && i !== drive);
-    const own = left.filter(({ name }) => !GOAL_NAME.test(name) && !DRIVE_NAME.test(name));
-    return (own.find(({ moves }) => moves) ?? left.find(({ moves }) => moves) ?? left[0] ?? { i: -1 }).i;
+    const own = left.filter(({ i, name, moves }) => moves && !GOAL_NAME.test(name) && !DRIVE_NAME.test(name) && (left.length < 2 || jumpOf(columns[i]) === null));
+    return (own[0] ?? left.find(({ moves }) => moves) ?? left[0] ?? { i: -1 }).i;
 }
 
 // { unit, why }: of a column of times, from its name, its size or its steps.
@@ -176,7 +176,7 @@ function without(rows, places) {
 }
 
 // What has to be said of the reading.
-function notesOf1(table, rows, far, { unit, why }, chosen) {
+function readingNotes(table, rows, far, { unit, why }, chosen) {
     const plural = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
     const notes = [`Time is in ${unit}, ${chosen ? 'as you chose' : `as ${why}`}.`];
     const say = (yes, text) => yes && notes.push(text);
@@ -221,7 +221,7 @@ export function* understood(text, choices = {}) {
         return refused('No column is left for the measurement: choose another.');
     }
     yield;
-    const found = choices.unit in UNITS ? { unit: choices.unit } : unitOfTime(table.names[roles.time], table.kinds[roles.time], known(table.columns[roles.time]));
+    const found = choices.unit in UNITS ? { unit: choices.unit } : unitOfTime(table.names[roles.time], table.kinds[roles.time], knownOf(table.columns[roles.time]));
     const all = rowsOf(table, roles, UNITS[found.unit]);
     if (all.times.length < LEAST_ROWS || all.times.at(-1) <= 0) {
         return refused(all.times.length < LEAST_ROWS ? `${all.times.length} lines have a time and a measurement; at least ${LEAST_ROWS} are needed.`
@@ -230,7 +230,7 @@ export function* understood(text, choices = {}) {
     yield;
     const far = yield* outliersOf(all.values);
     yield;
-    const notes = notesOf1(table, all, far, found, choices.unit in UNITS);
+    const notes = readingNotes(table, all, far, found, choices.unit in UNITS);
     const rows = without(all, far);
     const jump = rows.drive ? jumpOf(rows.drive) : null;
     if (roles.drive >= 0 && jump === null) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Models of a recorded step: a lag, two lags, an integrator and an oscillator, each
-// with dead time. They are fitted by least squares that far values move little; one is
-// chosen, or all are refused with the reason; and the first gains for it.
+// Models of a recorded step: a lag, two lags, an integrator and an oscillator,
+// each with dead time. They are fitted by least squares that far values move little, and one
+// is chosen, or all are refused with the reason.
 import { median, thinned, understood } from './columns.js';
 import { digits, percent } from './format.js';
 
-const COARSE = 300; // points that a search looks at first
+const FEW_POINTS = 300; // points that a search looks at first
 const FITS_WELL = 0.015; // residual as a part of the rise
 const FITS_BADLY = 0.04;
 const SETTLED = 0.8; // the part of the rise that must be seen
@@ -43,7 +43,7 @@ export function modelAt(model, t) {
 
 // What a search moves, any real numbers, and the plant's numbers of them.
 const limited = (x, low, high) => Math.min(high, Math.max(low, x));
-const NUMBERS = {
+const NUMBERS_OF = {
     first: ([a, dead]) => ({ T1: Math.exp(a), dead: Math.abs(dead) }),
     second: ([a, dead, b]) => ({ T1: Math.exp(a), T2: Math.exp(a) / (1 + Math.exp(limited(b, -30, 30))), dead: Math.abs(dead) }),
     integrating: ([a, dead]) => ({ T2: Math.exp(a), dead: Math.abs(dead) }),
@@ -117,10 +117,10 @@ const GRID = {
 // A kind's best fit: by a grid and a search over few points, once more with the
 // weights of what is left, and a last time over all.
 function* fitted(kind, data, span) {
-    const few = { ...thinned(data.times, data.values, COARSE) };
+    const few = { ...thinned(data.times, data.values, FEW_POINTS) };
     few.weights = new Float64Array(few.times.length).fill(1);
     const size = kind === 'second' || kind === 'ringing' ? 3 : 2;
-    const errorOf = (points) => (x) => projected(points, kind, NUMBERS[kind](x)).error;
+    const errorOf = (points) => (x) => projected(points, kind, NUMBERS_OF[kind](x)).error;
     const [lags, deads, thirds] = GRID[kind];
     const places = lags.flatMap((lag) => deads.flatMap((dead) => thirds.map((third) =>
         [Math.log(lag * span), dead * span, third].slice(0, size))));
@@ -142,11 +142,13 @@ function* fitted(kind, data, span) {
     }
     const all = { ...data, weights: new Float64Array(data.times.length).fill(1) };
     for (const points of [few, few, all, all]) {
-        points.weights = weightsOf(points, projected(points, kind, NUMBERS[kind](x)));
+        for (let i = 0; i < 6; i++) { // the start and the rise move with the weights
+            points.weights = weightsOf(points, projected(points, kind, NUMBERS_OF[kind](x)));
+        }
         x = lowest(errorOf(points), x, [0.02, 0.003 * span, 0.05], 60);
         yield;
     }
-    return projected(all, kind, NUMBERS[kind](x));
+    return projected(all, kind, NUMBERS_OF[kind](x));
 }
 
 // Huber's: what is far from the model counts by its distance, not by its square.
@@ -253,7 +255,10 @@ export function* fitModels({ times, values, stepAt, every }) {
         found[kind] = yield* fitted(kind, data, span);
     }
     const { ramp, ...others } = found;
-    const models = Object.values(others).map((one) => ({ ...one, refused: refusalOfModel(one, ramp, facts), ...worthOf(one, span, facts.noise) }));
+    // What is far shorter than the time between lines is none.
+    const none = (seconds) => (seconds < every / 100 ? 0 : seconds);
+    const models = Object.values(others).map((one) => ({ ...one, dead: none(one.dead), ...(one.T2 === undefined ? {} : { T2: none(one.T2) }) }))
+        .map((one) => ({ ...one, refused: refusalOfModel(one, ramp, facts), ...worthOf(one, span, facts.noise) }));
     const best = chosenOf(models, span, facts.noise, after);
     return { models, chosen: best.kind, span, noise: facts.noise };
 }
@@ -264,7 +269,7 @@ export function* recordingOf(text, choices) {
     return { read, fit: read.refused === undefined ? yield* fitModels(read) : null };
 }
 
-// --- Words and gains ------------------------------------------------------------
+// --- Words -----------------------------------------------------------------------
 
 // A model's numbers, for a step of this part of full drive.
 export function modelText(model, step, unit) {
@@ -276,35 +281,4 @@ export function modelText(model, step, unit) {
     case 'ringing': return `Gain ${per} ${unit} at full drive, rings every ${digits(2 * Math.PI * model.T1 / Math.sqrt(1 - model.damping ** 2))} s with damping ${digits(model.damping)}, ${dead}`;
     default: return `Gain ${per} ${unit} at full drive, lag ${digits(model.T1)} s, ${dead}`;
     }
-}
-
-// The time constant that the closed loop gets, plus the dead time: two and a half times
-// the dead time with half a step of the sampling, and a tenth of the lag (an
-// oscillator's whole 1/omega, as its damping is seldom known well).
-export function paceOf({ kind, T1, T2, dead }, rate) {
-    const lag = { first: T1, second: T1, integrating: T2, ringing: 4 * T1 }[kind];
-    return 2.5 * (dead + 0.5 / rate + lag / 10);
-}
-
-// First gains by internal model control (Skogestad's rules where it integrates): in
-// drive (1 is full) per unit of measurement; KI per second, KD times seconds.
-export function firstGains(model, gain, rate) {
-    const pace = paceOf(model, rate);
-    const size = 1 / (Math.abs(gain) * pace);
-    switch (model.kind) {
-    case 'integrating': {
-        const reset = 4 * pace;
-        return { KP: size * (1 + model.T2 / reset), KI: size / reset, KD: size * model.T2, WEIGHT: 0.5 };
-    }
-    case 'second': return { KP: size * (model.T1 + model.T2), KI: size, KD: size * model.T1 * model.T2, WEIGHT: 1 };
-    case 'ringing': return { KP: size * 2 * model.damping * model.T1, KI: size, KD: size * model.T1 ** 2, WEIGHT: 1 };
-    default: return { KP: size * model.T1, KI: size, KD: 0, WEIGHT: 1 };
-    }
-}
-
-// The derivative's filter, 2^FILTER steps: about an eighth of the derivative time, a
-// quarter of 1/omega of an oscillator.
-export function filterOf({ KP, KD }, { kind, T1 }, rate) {
-    const seconds = kind === 'ringing' ? T1 / 4 : KD / KP / 8;
-    return KD === 0 ? 0 : Math.round(limited(Math.log2(Math.max(seconds * rate, 1)), 0, 7));
 }

@@ -4,22 +4,23 @@ import { CAUSE, CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION 
 import { adviceOf, notesOf } from './advice.js';
 import { drawNyquist, figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
-import { blank, find, make, setText } from './dom.js';
+import { find, make, setText } from './dom.js';
 import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
 import { readNumber } from './fields.js';
-import { fitStep, fittedAt, readRecording } from './fit.js';
 import { digits, short, shortest, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
 import { headerOf } from './header.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
+import { recordingOf } from './models.js';
 import { createPendulum } from './pendulum.js';
-import { firstGains, round4 } from './own.js';
+import { firstGains } from './own.js';
 import { createPast, wayOfKey } from './past.js';
-import { createPlots, color } from './plot.js';
+import { createPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
+import { createRecorder, serveRecordings } from './recorder.js';
 import { tableOf, tableText } from './sensor.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
 
@@ -29,6 +30,7 @@ let events = null;
 let panel = null;
 let pendulum = null;
 let past = null;
+let recorder = null;
 let kept = null; // a run to compare with: { preset, seconds, value, output, text }
 let mode = 'run'; // or 'tune': which of the two the plots show
 let cursor = null;
@@ -400,57 +402,12 @@ function download() {
 
 // --- A recording --------------------------------------------------------------------
 
-function fitOfPage() {
-    const recording = readRecording(find('#recording').value);
-    const fit = recording === null ? null : fitStep(recording);
-    const step = Number(find('#record-step').value) / 100;
-    return { recording, fit: Number.isFinite(step) && step !== 0 ? fit : null, step };
-}
-
-function showFit() {
-    const { recording, fit, step } = fitOfPage();
-    const unit = find('#record-unit').value;
-    const empty = find('#recording').value.trim() === '';
-    let text = empty ? '' : 'This is no step response yet: at least eight lines of time and value.';
-    if (fit !== null) {
-        text = `Gain ${digits(fit.rise / step)} ${unit} at full drive, lag ${digits(fit.lag)} s, dead time ${digits(fit.dead)} s; ` +
-            `the fit is ${digits(fit.error, 2)} ${unit} away on average.`;
-    }
-    setText(find('#fit'), text);
-    find('#use-fit').disabled = fit === null;
-    find('#fit-plot').hidden = fit === null;
-    if (fit !== null) {
-        drawFit(find('#fit-plot'), recording, fit);
-    }
-}
-
-function drawFit(canvas, { times, values }, fit) {
-    const { context, width, height } = blank(canvas);
-    const [low, high] = [Math.min(...values, fit.start), Math.max(...values, fit.start + fit.rise)];
-    const x = (t) => 6 + (width - 12) * t / fit.seconds;
-    const y = (value) => height - 6 - (height - 12) * (value - low) / (high - low || 1);
-    context.fillStyle = color('kept');
-    times.forEach((t, i) => context.fillRect(x(t) - 1.5, y(values[i]) - 1.5, 3, 3));
-    context.strokeStyle = color('measured');
-    context.lineWidth = 1.75;
-    context.beginPath();
-    for (let i = 0; i <= 200; i++) {
-        const t = fit.seconds * i / 200;
-        context.lineTo(x(t), y(fittedAt(fit, t)));
-    }
-    context.stroke();
-}
-
-function useFit() {
-    const { fit, step } = fitOfPage();
-    if (fit !== null) {
-        mode = 'run';
-        kept = null;
-        changeNow(ownState(currentState(), { PLANT: PLANT.LAGS, GAIN: round4(fit.rise / step), T1: round4(fit.lag), T2: 0, DEAD: round4(fit.dead),
-            START: round4(fit.start), unit: find('#record-unit').value }));
-        find('#view').scrollIntoView();
-        say('The plant is the one that was recorded; sensor, output and rate are yours.');
-    }
+function useRecorded(plant) {
+    mode = 'run';
+    kept = null;
+    changeNow(ownState(currentState(), plant));
+    find('#view').scrollIntoView();
+    say('The plant is the one that was recorded; sensor, output and rate are yours.');
 }
 
 // --- A sensor -----------------------------------------------------------------------
@@ -533,10 +490,6 @@ function listen() {
     find('#record').addEventListener('input', () => showRecord(currentState()));
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
     find('#save').addEventListener('click', download);
-    for (const id of ['#recording', '#record-step', '#record-unit']) {
-        find(id).addEventListener('input', showFit);
-    }
-    find('#use-fit').addEventListener('click', useFit);
     find('#sensor').addEventListener('input', changeSensor);
     find('#choose').addEventListener('click', chooseTable);
     find('#copy-table').addEventListener('click', () => toClipboard(find('#table').textContent, 'The table is copied.'));
@@ -544,7 +497,7 @@ function listen() {
     window.addEventListener('hashchange', () => past.arrived());
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
         show();
-        showFit();
+        recorder.draw();
     });
 }
 
@@ -561,14 +514,20 @@ async function startPage() {
             find('#undo').disabled = !undo;
             find('#redo').disabled = !redo;
         } });
+    recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX });
     listen();
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     past.settle();
     // What the tests take hold of.
-    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, firstGains, fitStep, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
-        controllerOf, marginsOf, presetState, readRecording, recordText, recorded, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
+    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, firstGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
+        controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }
 
-startPage();
+// A worker that fits recordings has this script, too, and no document.
+if (typeof document === 'undefined') {
+    serveRecordings();
+} else {
+    startPage();
+}

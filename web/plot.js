@@ -182,7 +182,7 @@ function drawBands(context, pane, view, area, x) {
     }
 }
 
-function drawGrid(context, { low, high, area, x, y, hasAxis, duration }) {
+export function drawGrid(context, { low, high, area, x, y, hasAxis, duration }) {
     context.font = '12px system-ui, sans-serif';
     context.fillStyle = color('dim');
     const tall = ticks(low, high, Math.max(2, (area.bottom - area.top) / 44));

@@ -292,8 +292,15 @@ for (const [gain, lag, dead, start, size] of [[80, 12, 2, 20, 0], [300, 90, 8, 2
         const value = start + (t > dead ? gain * (1 - Math.exp(-(t - dead) / lag)) : 0) + size * (noise() - 0.5);
         lines.push(`${t.toFixed(4)}; ${value.toFixed(3)}`);
     }
-    const fit = await page.evaluate((text) => window.tuner.fitStep(window.tuner.readRecording(text)), lines.join('\n'));
-    const away = Math.max(Math.abs(fit.rise / gain - 1), Math.abs(fit.lag / lag - 1), Math.abs(fit.dead - dead) / lag);
+    const fit = await page.evaluate((text) => {
+        const parts = window.tuner.recordingOf(text, {});
+        let part = parts.next();
+        while (!part.done) {
+            part = parts.next();
+        }
+        return part.value.fit.models.find((one) => one.kind === 'first');
+    }, lines.join('\n'));
+    const away = Math.max(Math.abs(fit.rise / gain - 1), Math.abs(fit.T1 / lag - 1), Math.abs(fit.dead - dead) / lag);
     check(`a recording of ${gain}, ${lag} s, ${dead} s is fitted within ${(100 * away).toFixed(2)} %`, away < 0.01);
 }
 checkNone('no error in the page', page.noted.errors);

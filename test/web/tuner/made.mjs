@@ -16,10 +16,10 @@ const PLANTS = {
 };
 
 // Lines { t, u, y } of a plant: `gain` for a drive of 1, which goes from 0 to `step` after
-// `rest` seconds. `load` takes a part of the step away later, `back` all of it. `random`
-// makes a generator of a seed.
+// `rest` seconds. `load` takes a part of the step away later, `back` all of it; `spikes` moves
+// a line now and then. `random` makes a generator of a seed.
 export function record(random, { plant, gain = 1, step = 0.3, dead = 0, start = 20, rest = 0, n = 300, every = 2, uneven = 0.2, noise = 0, grid = 0,
-    seed = 1, load = null, back = null, ...numbers }) {
+    seed = 1, load = null, back = null, spikes = null, ...numbers }) {
     const draw = random(seed);
     const normal = () => Math.sqrt(-2 * Math.log(draw())) * Math.cos(2 * Math.PI * draw());
     const shape = PLANTS[plant](numbers);
@@ -29,7 +29,7 @@ export function record(random, { plant, gain = 1, step = 0.3, dead = 0, start = 
     for (let i = 0; i < n; i++) {
         const u = t >= rest && !(back !== null && t >= back) ? step : 0;
         const pushed = answer(t - rest) - (load === null ? 0 : load.part * answer(t - load.at)) - (back === null ? 0 : answer(t - back));
-        const y = start + gain * step * pushed + noise * normal();
+        const y = start + gain * step * pushed + noise * normal() + (spikes !== null && i % spikes.every === 0 ? spikes.size : 0);
         lines.push({ t, u, y: grid > 0 ? Math.round(y / grid) * grid : y });
         t += every * (1 + uneven * (2 * draw() - 1));
     }

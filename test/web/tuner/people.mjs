@@ -152,6 +152,8 @@ async function tabTo(here, selector) {
     const lines = Array.from({ length: 80 }, (_, i) => `${i}, ${(20 + (i > 5 ? 60 * (1 - Math.exp(-(i - 5) / 12)) : 0)).toFixed(3)}`);
     await here.fill('#recording', lines.join('\n'));
     await here.fill('#record-unit', '°F');
+    const fitted = () => here.waitForSelector('#recorder[data-done]:not([data-busy])');
+    await fitted();
     check('a recording is fitted', /^Gain 60\.0 °F .* lag 12\.0 s, dead time 5\.0/.test(await text(here, '#fit')), await text(here, '#fit'));
     await here.click('#use-fit');
     await frame(here);
@@ -160,7 +162,8 @@ async function tabTo(here, selector) {
     check('its first gains are sound', /stable/.test(margins) && !/unstable/.test(margins), margins);
     checkNone('a fitted plant leaves nothing stale', await stale(here));
     await here.fill('#recording', 'nonsense');
-    check('what is none is said', (await text(here, '#fit')).includes('no step response') && await here.isDisabled('#use-fit'));
+    await fitted();
+    check('what is none is said', (await text(here, '#fit')).includes('No line has a number') && await here.isDisabled('#use-fit'));
     await here.close();
 }
 

@@ -7,7 +7,7 @@
 module Modules
   IMPORT = %r!^import (?:\{[^}]*\} from )?'\./([\w.]+)';\n!.freeze
   NAMED = %r!^import \{([^}]*)\} from '\./([\w.]+)';\n!.freeze
-  NAME = /^(?:export )?(?:async )?(?:function|const|let|class) (\w+)/.freeze
+  NAME = /^(?:export )?(?:async )?(?:function\*?|const|let|class) (\w+)/.freeze
 
   class << self
     # `built` stands for the module of that name.
