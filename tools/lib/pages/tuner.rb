@@ -4,6 +4,7 @@
 # Builds the tuner page into a folder: the C of sim/tuner as WebAssembly, and the
 # modules of web/ in one file with it.
 require 'json'
+require 'zlib'
 require_relative 'tuner/costs'
 require_relative 'tuner/modules'
 require_relative 'tuner/names'
@@ -17,7 +18,7 @@ exit 1 unless system(*Sources.wasm(wasm))
 
 # What the modules import from built.js.
 built = { **Names.lists, COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
-          WASM: [File.binread(wasm)].pack('m0') }
+          WASM: [Zlib.gzip(File.binread(wasm), level: Zlib::BEST_COMPRESSION)].pack('m0') }
 text = built.map { |name, value| "export const #{name} = #{JSON.generate(value)};\n" }.join
 File.write("#{folder}/built.js", text)
 
