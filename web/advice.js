@@ -2,9 +2,9 @@
 // What a person should know of these settings: what the controller refuses, and
 // where a gain is coarse, the loop has little margin or the sensor ends.
 import { CONTROLLER, LIMIT, OPTION, PLANT } from './built.js';
-import { digits, percent, whole } from './format.js';
+import { digits, percent, time, whole } from './format.js';
 import { scaleSeconds } from './margins.js';
-import { actsWrongly } from './own.js';
+import { actsWrongly, notesLimits } from './own.js';
 
 const COARSE = 50; // below it a step of the integer is more than 2 %
 const LIMIT_16 = 32767;
@@ -59,7 +59,8 @@ function pidAdvice(r) {
 
 function notesAdvice(r, s) {
     const least = s.CONTROLLER === CONTROLLER.AN937 ? '1/16' : '1/1023';
-    return ['KP', 'KI', 'KD'].flatMap((name) => (r[name] < 10 ? coarse(name.toLowerCase(), r[name], least) : []));
+    const ends = s.PLANT === PLANT.PENDULUM || s.preset === 'an937' ? [] : notesLimits(s);
+    return [...ends, ...['KP', 'KI', 'KD'].flatMap((name) => (r[name] < 10 ? coarse(name.toLowerCase(), r[name], least) : []))];
 }
 
 function loopAdvice(s, margins) {
@@ -74,7 +75,7 @@ function loopAdvice(s, margins) {
 
 function sceneAdvice(s, run) {
     const found = [];
-    if (s.CONTROLLER === CONTROLLER.PID && actsWrongly(s)) {
+    if (actsWrongly(s)) {
         found.push('More output moves this plant away from its setpoint: change “reverse acting” or the sign of its gain.');
     }
     const high = s.SENSOR_LOW + s.SENSOR_RANGE;
@@ -112,6 +113,7 @@ export function notesOf(s, r) {
     }
     const kept = keptKi(r.KI);
     const ki = kept === r.KI ? `${whole(r.KI)} / 2²⁴` : `${whole(r.KI)} → ${whole(kept)}`;
-    return { KP: `${whole(r.KP)} / 256`, KI: ki, KD: `${whole(r.KD)} / 256`,
+    const [ti, td] = [s.KP > 0 && s.KI > 0 ? `, Ti ${time(s.KP / s.KI)}` : '', s.KP > 0 && s.KD > 0 ? `, Td ${time(s.KD / s.KP)}` : ''];
+    return { KP: `${whole(r.KP)} / 256`, KI: `${ki}${ti}`, KD: `${whole(r.KD)} / 256${td}`,
         WEIGHT: `${whole(r.WEIGHT)} / 256` };
 }

@@ -29,6 +29,7 @@ export function figuresOf(s, found) {
         ...(pendulum ? [['Base’s way', `${digits(found.travel)} m`]] : step),
         ...(found.load === null ? [] : [[pendulum ? 'Shove, at most' : 'Load, at most', `${digits(found.load)} ${s.unit}`]]),
         ['Mean error', `${digits(found.meanError)} ${s.unit}`],
+        ['IAE', `${digits(found.iae)} ${s.unit} s`, 'Integral of the absolute error over all that is shown'],
         ['Output limited', percent(found.limited, 0)],
         ['Output moves', `${digits(found.moved)} / step`, 'Mean change of the output from step to step, in counts'],
         ['Integers cost', `${digits(found.twin.most)} counts`,
@@ -153,6 +154,18 @@ export function costsOf(s, results) {
     });
 }
 
+// The part of the time at the state's clock, of which a PIC's cycle takes four.
+export function shareOf({ chip, most }, s) {
+    const clocks = chip.startsWith('PIC') ? 4 : 1;
+    return INSTRUCTIONS.test(chip) ? null : most * clocks * s.RATE / (s.CLOCK * 1e6);
+}
+
+// Of instructions nobody knows the cycles here.
+function shareText(row, s) {
+    const share = shareOf(row, s);
+    return share === null ? '–' : share < 0.0005 ? '< 0.1 %' : share > 1 ? `${percent(share, 0)}: too slow` : percent(share, share < 0.1 ? 1 : 0);
+}
+
 const INSTRUCTIONS = /^(Cortex|RV32)/;
 
 export function fillChips(text, place, s, results) {
@@ -161,15 +174,15 @@ export function fillChips(text, place, s, results) {
         const unit = INSTRUCTIONS.test(row.chip) ? 'instr.' : 'cycles';
         const flash = row.unit === 'bytes' ? '' : ` ${row.unit}`;
         return { cells: [`${row.chip}${row.all ? ' *' : ''}`, `${whole(row.most)} ${unit}`, `${whole(row.flash)}${flash}`,
-            `${row.ram}`, whole(row.most * s.RATE)] };
+            `${row.ram}`, whole(row.most * s.RATE), shareText(row, s)] };
     });
-    text.replaceChildren(`A step of ${NOUN[s.CONTROLLER]} at most, flash of step and init and RAM of one controller in bytes; ` +
-        'as docs/cost.md has measured them.');
+    text.replaceChildren(`What a step of ${NOUN[s.CONTROLLER]} takes at most, by the code’s bound; flash of step and init and RAM of one controller in bytes, ` +
+        'as docs/cost.md has them.');
     if (s.CONTROLLER === CONTROLLER.PID) {
         text.append(' Built with ', make('code', { textContent: `-DFIXPID_PID_FEATURES=${hex(featuresOf(s, results))}` }),
             ', which is what these settings need.');
     }
     text.append(costs.some((row) => row.all) ? ' * with all features, as single ones were not measured there.' : '');
-    place.replaceChildren(table(`At ${short(s.RATE)} steps per second`,
-        ['Chip', 'A step', 'Flash', 'RAM', 'A second'], rows));
+    place.replaceChildren(table(`At most, at ${short(s.RATE)} steps per second`,
+        ['Chip', 'A step', 'Flash', 'RAM', 'A second', 'Of the time'], rows));
 }

@@ -5,9 +5,10 @@ import { CONTROLLER, PLANT, WORD } from './built.js';
 import { make } from './dom.js';
 import { createField } from './fields.js';
 import { digits } from './format.js';
+import { helpFor } from './help.js';
 import { countsGain, scaleSeconds } from './margins.js';
-import { KINDS, firstGains, plantOfKind, withPlant } from './own.js';
-import { WHOLE, currentState, presetState } from './state.js';
+import { KINDS, gainsFor, plantOfKind, withPlant } from './own.js';
+import { WHOLE, currentState, presetState, withController } from './state.js';
 
 // A range on a logarithmic scale `spread` times up and down.
 function around(value, spread, zero = false) {
@@ -23,7 +24,7 @@ const isOwn = (s) => s.preset === 'own';
 
 // What a double click resets a number to.
 function from(s, key) {
-    return (isOwn(s) ? firstGains(s)[key] : undefined) ?? presetState(s.preset)[key];
+    return (isOwn(s) || s.CONTROLLER !== presetState(s.preset).CONTROLLER ? gainsFor(s)[key] : undefined) ?? presetState(s.preset)[key];
 }
 
 // Around the preset's value; of a plant of one's own nothing is known before.
@@ -119,26 +120,27 @@ function gainControls(s) {
 const duration = (s) => around(isOwn(s) ? 12 * scaleSeconds(s) : from(s, 'DURATION'), 10);
 
 function sensorControls(s) {
-    const notes = s.CONTROLLER !== CONTROLLER.PID;
+    const notes = s.preset === 'an937';
     const rate = ['RATE', 'Sample rate', 'steps per second', likePreset('RATE', 16)];
     const bits = ['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)];
     const noise = ['NOISE', 'Noise ±', 'counts', () => straight(0, 20, 0.2)];
     const range = ['SENSOR_RANGE', 'Range', s.unit, likePreset('SENSOR_RANGE', 5)];
     const show = ['DURATION', 'Show', 's', duration];
-    if (s.CONTROLLER === CONTROLLER.AN964) {
+    if (s.PLANT === PLANT.PENDULUM) {
         return [noise, show];
     }
     return [rate, ...(notes ? [] : [bits]), range, noise,
         ...(notes ? [] : [
             ['OUTPUT_MIN', 'Lowest output', 'counts', () => straight(-1000, 0, 10)],
             ['OUTPUT_MAX', 'Highest output', 'counts', () => ({ low: 15, high: 32767, log: true, whole: true })],
+        ]), ...(s.CONTROLLER !== CONTROLLER.PID ? [] : [
             ['INTEGRAL_MIN', 'Integral, lowest', 'counts; 0 and 0: free', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
             ['INTEGRAL_MAX', 'Integral, highest', 'counts', (now) => straight(0, Math.max(now.OUTPUT_MAX, 1), 1)],
         ]), show];
 }
 
 function setpointControls(s) {
-    return s.CONTROLLER === CONTROLLER.AN964 ? []
+    return s.PLANT === PLANT.PENDULUM ? []
         : [['SETPOINT', 'Setpoint', s.unit, sensor]];
 }
 
@@ -165,8 +167,8 @@ function ownSections(s) {
     return [
         { title: '1 Your sensor, actuator, rate', open: true, head: [unitField], controls: hardware },
         { title: '2 Your plant', open: true, head: [kindChoice], controls: plantControls(s) },
-        { title: '3 Your gains', open: true, head: [firstButton], controls: [...setpointControls(s), ...gainControls(s)] },
-        { title: 'Autotune', open: false, controls: tunerControls() },
+        { title: '3 Your gains', open: true, head: [controllerChoice, firstButton], controls: [...setpointControls(s), ...gainControls(s)] },
+        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
         { title: 'Noise, integral, time', open: false, controls: more },
     ];
 }
@@ -176,7 +178,7 @@ export function sectionsOf(s) {
         return ownSections(s);
     }
     return [
-        { title: 'Gains', open: true, controls: [...setpointControls(s), ...gainControls(s)] },
+        { title: 'Gains', open: true, head: s.PLANT === PLANT.PENDULUM ? [] : [controllerChoice], controls: [...setpointControls(s), ...gainControls(s)] },
         { title: 'Plant', open: true, controls: plantControls(s) },
         { title: 'Sensor, actuator, rate', open: false, controls: sensorControls(s) },
         ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
@@ -222,7 +224,7 @@ function createControl([key, label, unit, range], id, onInput) {
     const slider = make('input', { type: 'range', min: 0, max: POSITIONS, step: 1 });
     slider.setAttribute('aria-label', `${label}, slider`);
     const note = make('em', {});
-    const name = make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit }));
+    const name = make('span', { className: 'name' }, make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit })), helpFor(key, label));
     const number = createField(id, {}, { read: () => currentState()[key], onInput: (value) => onInput(key, value),
         step: () => ({ least: leastStep(range(currentState())), whole: WHOLE.includes(key) }) });
     slider.addEventListener('input', () => onInput(key, valueOf(range(currentState()), Number(slider.value))));
@@ -264,9 +266,19 @@ function kindChoice(onMore) {
     } };
 }
 
+const CONTROLLERS = [[CONTROLLER.PID, 'fixpid_pid'], [CONTROLLER.AN937, 'fixpid_an937, the note’s'], [CONTROLLER.AN964, 'fixpid_an964, the note’s']];
+
+function controllerChoice(onMore) {
+    const choice = make('select', { id: 'c-controller' }, ...CONTROLLERS.map(([value, textContent]) => make('option', { value, textContent })));
+    choice.addEventListener('change', () => onMore(withController(currentState(), Number(choice.value))));
+    return { row: make('label', { className: 'line' }, 'Controller ', choice), update: (s) => {
+        choice.value = s.CONTROLLER;
+    } };
+}
+
 function firstButton(onMore) {
     const button = make('button', { type: 'button', id: 'first-gains', textContent: 'First gains for this plant' });
-    button.addEventListener('click', () => onMore(firstGains(currentState())));
+    button.addEventListener('click', () => onMore(gainsFor(currentState())));
     return { row: button, update: () => {} };
 }
 
@@ -289,7 +301,7 @@ export function createPanel(place, onMore) {
         }));
     }
     return (s, notes) => {
-        const wanted = JSON.stringify([s.preset, s.PLANT, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);
+        const wanted = JSON.stringify([s.preset, s.PLANT, s.CONTROLLER, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);
         if (wanted !== shape) {
             shape = wanted;
             build(s);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The header for the firmware: the integers that the page has run, as an
 // initialiser that every compiler takes, with their real units beside them.
-import { CONTROLLER, FEATURE, LIMIT, OPTION, VERSION } from './built.js';
-import { short } from './format.js';
+import { CONTROLLER, FEATURE, LIMIT, OPTION, PLANT, VERSION } from './built.js';
+import { digits, short } from './format.js';
+import { errorPerCount, marginsOf } from './margins.js';
+import { fragmentOf } from './state.js';
 
 // FIXPID_PID_FEATURES of this configuration and of what its scene calls.
 export function featuresOf(s, results) {
@@ -23,11 +25,15 @@ export function hex(value) {
     return `0x${value.toString(16).toUpperCase().padStart(2, '0')}`;
 }
 
-// A macro of lines, their backslashes under each other.
+// Lines of a macro, their backslashes under each other.
+function macroOf(name, lines) {
+    const all = [`#define ${name}`, ...lines.map((line) => `    ${line}`)];
+    const width = Math.max(...all.slice(0, -1).map((line) => line.length)) + 1;
+    return [...all.slice(0, -1).map((line) => `${line.padEnd(width)}\\`), all.at(-1)];
+}
+
 function macro(name, lines) {
-    const all = [`#define ${name}`, '    {', ...lines.map((line) => `        ${line}`)];
-    const width = Math.max(...all.map((line) => line.length)) + 1;
-    return [...all.map((line) => `${line.padEnd(width)}\\`), '    }'];
+    return macroOf(name, ['{', ...lines.map((line) => `    ${line}`), '}']);
 }
 
 // An integer, what it is called and what it means.
@@ -74,6 +80,23 @@ function pidLines(s, r) {
     ];
 }
 
+// What the loop passes to a note's controller.
+function errorText(s) {
+    const scale = s.CONTROLLER === CONTROLLER.AN937 ? errorPerCount(s) : 1;
+    const error = (s.OPTIONS & OPTION.REVERSE) !== 0 ? 'measurement - setpoint' : 'setpoint - measurement';
+    return s.PLANT === PLANT.PENDULUM ? '// Its error is the angle, with the drift offset of examples/pendulum.'
+        : `// Its error is ${scale === 1 ? error : `(${error}) * ${scale}`}, in counts.`;
+}
+
+function limitLines() {
+    const limits = ['SUM', 'TERM', 'OUTPUT'].map((name) => [`FIXPID_AN964_${name}_LIMIT`, LIMIT[`AN964_${name}`]]);
+    return [
+        '// Its limits are chosen when it is compiled; the page has run with these:',
+        ...limits.map(([name, value]) => `// -D${name}=${value}`),
+        ...limits.flatMap(([name, value]) => [`#if ${name} != ${value}`, `#error "these gains are for ${name} ${value}"`, '#endif']),
+    ];
+}
+
 function an937Lines(s, r) {
     return [
         '// static const struct fixpid_an937_config config = LOOP_CONFIG;',
@@ -101,10 +124,49 @@ function an964Lines(s, r) {
 export const NOUN = { [CONTROLLER.PID]: 'fixpid_pid', [CONTROLLER.AN937]: 'fixpid_an937',
     [CONTROLLER.AN964]: 'fixpid_an964' };
 
+// What a header may say: nothing that ends a comment or is not ASCII.
+function plain(text) {
+    return text.replace(/[^\x20-\x7E]/g, '').replace(/[\\*?]/g, '');
+}
+
+function plantText(s, unit) {
+    const second = s.T2 > 0 ? ` and ${short(s.T2)} s` : '';
+    const dead = `dead time ${short(s.DEAD)} s`;
+    switch (s.PLANT) {
+    case PLANT.MOTOR: return `motor of ${short(s.GAIN)} V, inertia ${short(s.T1)}e-6 kg m2, friction ${short(s.T2)} mN m`;
+    case PLANT.PENDULUM: return `pendulum of ${short(s.T2)} m on a base of ${short(s.GAIN)} m/s`;
+    case PLANT.INTEGRATOR: return `integrator, ${short(s.GAIN)} ${unit}/s at full drive, lag ${short(s.T2)} s, ${dead}`;
+    case PLANT.OSCILLATOR: return `${short(s.GAIN)} ${unit} at full drive, oscillates with ${short(1 / s.T1)} rad/s, damping ${short(s.DAMPING)}, ${dead}`;
+    default: return `${short(s.GAIN)} ${unit} at full drive, lag ${short(s.T1)} s${second}, ${dead}`;
+    }
+}
+
+function marginText({ stable, ms, phaseMargin, gainMargin, delayMargin }) {
+    const known = [['Ms', ms, ''], ['phase', phaseMargin, ' degrees'], ['gain', gainMargin, ''], ['dead time', delayMargin, ' s']];
+    return stable ? known.filter(([, value]) => value !== null).map(([name, value, unit]) => `${name} ${plain(digits(value))}${unit}`).join(', ') : 'unstable';
+}
+
+// The counts of a constant in units, and the rate, for the rest of the firmware.
+function scaleLines(s, unit) {
+    const [low, high] = [s.SENSOR_LOW, s.SENSOR_LOW + s.SENSOR_RANGE].map((value) => `(${value})`);
+    return [
+        `#define LOOP_RATE ${s.RATE} // steps per second`,
+        `// A constant setpoint of so many ${unit} in counts; beyond the sensor it does not compile.`,
+        ...macroOf('LOOP_COUNTS(x)', [
+            'FIXPID_CAST(int16_t,',
+            `    FIXPID_FOLDED((FIXPID_REAL(x) - ${low}) / ${s.SENSOR_RANGE} * ${2 ** s.SENSOR_BITS - 1}) +`,
+            `        FIXPID_CHECKED(0, (FIXPID_REAL(x) >= ${low}) &&`,
+            `                              (FIXPID_REAL(x) <= ${high})))`,
+        ]),
+        '',
+    ];
+}
+
+// The integers alone, which Python's package writes, too.
 export function headerOf(s, results) {
     const noun = NOUN[s.CONTROLLER];
     const lines = { fixpid_pid: pidLines, fixpid_an937: an937Lines, fixpid_an964: an964Lines }[noun];
-    const unit = s.unit.replace(/[^\x20-\x7E]/g, '').replace(/[\\*?]/g, '') || 'units';
+    const unit = plain(s.unit) || 'units';
     return [
         `// Gains of a loop, by the tuner page of fixpid ${VERSION}`,
         `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
@@ -117,4 +179,18 @@ export function headerOf(s, results) {
         '#endif',
         '',
     ].join('\n');
+}
+
+// With what it is from and for: the plant, the margins, the page's settings, the scale.
+export function wholeHeaderOf(s, results, margins = marginsOf(s, results)) {
+    const unit = plain(s.unit) || 'units';
+    const from = [
+        `// Plant: ${plantText(s, unit)}`,
+        `// Margins: ${marginText(margins)}`,
+        `// The page has it with #${plain(fragmentOf({ ...s, kept: [] }))}`,
+    ];
+    const scale = [...scaleLines(s, unit), ...(s.CONTROLLER === CONTROLLER.PID ? [] : [errorText(s)]),
+        ...(s.CONTROLLER === CONTROLLER.AN964 ? limitLines() : [])];
+    return headerOf(s, results).replace('#ifndef LOOP_GAINS_H', () => `${from.join('\n')}\n#ifndef LOOP_GAINS_H`)
+        .replace(/(#include .*\n\n)/, (include) => `${include}${scale.join('\n')}\n`);
 }

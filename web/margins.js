@@ -187,20 +187,21 @@ export function plantAt(plant, w) {
 // What the controller is made of, in output counts per measurement count:
 // kp, ki per step, kd per step, and the derivative's shape.
 export function controllerOf(s, results) {
+    const sign = (s.OPTIONS & OPTION.REVERSE) !== 0 ? -1 : 1;
     if (s.CONTROLLER === CONTROLLER.AN937) {
-        const q4 = 4 / 16; // of an error that is 4 per count
+        const q4 = errorPerCount(s) / 16;
         return { kp: results.KP * q4, ki: results.KI * q4, kd: results.KD * q4,
-            kind: 'periodic', period: results.FILTER, sign: 1 };
+            kind: 'periodic', period: results.FILTER, sign };
     }
     if (s.CONTROLLER === CONTROLLER.AN964) {
         const all = results.KP / 1024;
         return { kp: all, ki: all * results.KI / 4096, kd: all * results.KD / 32,
-            kind: 'three', sign: -1 };
+            kind: 'three', sign: s.PLANT === PLANT.PENDULUM ? -1 : sign };
     }
     return {
         kp: results.KP / 256, ki: results.KI / 2 ** 24, kd: results.KD / 256,
         kind: 'filtered', keep: 1 - 2 ** -results.FILTER,
-        sign: (s.OPTIONS & OPTION.REVERSE) !== 0 ? -1 : 1,
+        sign,
     };
 }
 
@@ -365,6 +366,11 @@ export function marginsOf(s, results) {
         stable: isStable(plant, controller, 1, responseSteps(s, results)),
         curve,
     };
+}
+
+// What AN937's loop passes on of one count: its motor's 1023 counts are 4000.
+export function errorPerCount(s) {
+    return s.PLANT === PLANT.MOTOR ? 4 : 1;
 }
 
 // How long to look at a loop's answer to a push, in steps.

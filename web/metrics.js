@@ -90,7 +90,7 @@ export function metricsOf(s, run) {
     const found = {
         ...stepResponse(s, run, first),
         load: load ? largestError(s, run, load) : null,
-        meanError: sum / n, moved: moved / n, limited: limited / n,
+        meanError: sum / n, iae: sum / s.RATE, moved: moved / n, limited: limited / n,
         twin: twinDifference(s, run),
     };
     if (s.PLANT === PLANT.PENDULUM) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A plant of the user's own, on the user's own hardware: what a plant's kind is called,
 // its first gains, and a scene for it that leaves sensor, actuator and rate as they are.
-import { LIMIT, OPTION, PLANT } from './built.js';
-import { scaleSeconds } from './margins.js';
+import { CONTROLLER, LIMIT, OPTION, PLANT } from './built.js';
+import { errorPerCount, scaleSeconds } from './margins.js';
 import { unitsPerCount } from './metrics.js';
 
 export const KINDS = [
@@ -25,7 +25,7 @@ function motorAsLags(s) {
 // count. The hold is half a step of dead time; half of a second lag is dead time, and half
 // lengthens the first. The loop's time constant is the dead time, or a tenth of the lag
 // where that is more; of what oscillates it is 1 / the natural frequency.
-export function firstGains(s) {
+export function simcGains(s) {
     const perCount = (gain) => Math.abs(gain) / unitsPerCount(s) / Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN);
     const hold = s.DEAD + 0.5 / s.RATE;
     if (s.PLANT === PLANT.OSCILLATOR) {
@@ -49,6 +49,53 @@ export function firstGains(s) {
 function withGains(kp, ki, kd = 0, filter = 0) {
     return { KP: round4(kp), KI: round4(ki), KD: round4(kd), FILTER: filter, WEIGHT: 1 };
 }
+
+// --- The notes' controllers ----------------------------------------------------------
+
+// The integers that come nearest to these gains, as real numbers, and where each ends.
+function notesNumbers(s, { KP, KI, KD }) {
+    if (s.CONTROLLER === CONTROLLER.AN937) {
+        const q4 = 16 / errorPerCount(s);
+        return [['KP', KP * q4, 255], ['KI', KI / s.RATE * q4, 255], ['KD', KD * s.RATE * q4, 255]];
+    }
+    const all = Math.min(1023 / 1024, KP); // kp multiplies I and D, too
+    return [['KP', KP * 1024, 1023], ['KI', KI / s.RATE / all * 4096, 1023], ['KD', KD * s.RATE / 3 / all * 32, 1023]];
+}
+
+// First gains of the controller that the state has.
+export function gainsFor(s) {
+    const first = simcGains(s);
+    if (s.CONTROLLER === CONTROLLER.PID) {
+        return { ...first, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0 };
+    }
+    const found = Object.fromEntries(notesNumbers(s, first).map(([name, wanted, most]) => [name, Math.round(Math.min(most, wanted))]));
+    // The sum may be as long as the output needs, and no longer.
+    const sum = Math.ceil(16 * Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN) / Math.max(1, found.KI));
+    return { ...found, FILTER: 1, WEIGHT: 1, INTEGRAL_MIN: 0, INTEGRAL_MAX: s.CONTROLLER === CONTROLLER.AN937 ? Math.min(65535, sum) : 0 };
+}
+
+// Texts: which of the plant's first gains the note's controller cannot have, and what
+// else its limits take away.
+export function notesLimits(s) {
+    const name = s.CONTROLLER === CONTROLLER.AN937 ? 'AN937' : 'AN964';
+    const found = notesNumbers(s, simcGains(s)).flatMap(([key, wanted, most]) => {
+        if (Math.round(wanted) > most) {
+            return [`${name}’s ${key.toLowerCase()} ends at ${most}; this plant’s first gains want ${Math.round(wanted)}.`];
+        }
+        return wanted > 0 && wanted < 0.5 ? [`${name}’s ${key.toLowerCase()} of 1 is more than this plant’s first gains want, ${round4(wanted)}: ${key === 'KI' ? 'sample more slowly' : 'scale the sensor'}.`] : [];
+    });
+    if (s.CONTROLLER !== CONTROLLER.AN964) {
+        return found;
+    }
+    const most = Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN);
+    const integral = Math.floor(Math.floor(LIMIT.AN964_SUM / 256) * s.KI / 16) * s.KP / 1024;
+    return [...found,
+        ...(s.KI > 0 && integral < most ? [`Its integral alone reaches ${Math.floor(integral)} of ${most} counts: the sum ends at ${LIMIT.AN964_SUM}.`] : []),
+        ...(most > LIMIT.AN964_OUTPUT ? [`Its output ends at ${LIMIT.AN964_OUTPUT} of ${most} counts.`] : []),
+        ...(2 ** s.SENSOR_BITS > 1024 ? ['Its error ends at 1023 counts, which is not the whole sensor.'] : [])];
+}
+
+// --- The user's plant ------------------------------------------------------------------
 
 // Whether the loop acts against the plant: more output, less of what is measured.
 export function actsWrongly(s) {
@@ -83,10 +130,10 @@ export function withPlant(s, plant) {
     return {
         ...next,
         OPTIONS: next.GAIN < 0 ? next.OPTIONS | OPTION.REVERSE : next.OPTIONS,
-        DURATION: seconds, NOISE: s.NOISE, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
+        DURATION: seconds, NOISE: s.NOISE,
         SETPOINT: inside(next.START + reach / 2),
         events: [{ at: round4(0.4 * seconds), what: 'SETPOINT', a: inside(next.START + 0.65 * reach) },
             { at: round4(0.72 * seconds), what: 'LOAD', a: -0.1 }],
-        ...firstGains(next),
+        ...gainsFor(next),
     };
 }

@@ -8,21 +8,25 @@ import { find, make, setText } from './dom.js';
 import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
-import { readNumber } from './fields.js';
+import { createField, readNumber } from './fields.js';
 import { digits, short, shortest, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
-import { headerOf } from './header.js';
+import { wholeHeaderOf } from './header.js';
+import { helpFor } from './help.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { recordingOf } from './models.js';
 import { createPendulum } from './pendulum.js';
-import { firstGains } from './own.js';
+import { simcGains } from './own.js';
 import { createPast, wayOfKey } from './past.js';
-import { createPlots } from './plot.js';
+import { createPlots, color, followPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
 import { createRecorder, serveRecordings } from './recorder.js';
+import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
+import { csvOf, jsonOf, stateOfJson } from './saved.js';
 import { tableOf, tableText } from './sensor.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
+import { createSvg } from './svg.js';
 
 let plots = null;
 let flags = null;
@@ -31,14 +35,14 @@ let panel = null;
 let pendulum = null;
 let past = null;
 let recorder = null;
-let kept = null; // a run to compare with: { preset, seconds, value, output, text }
+let clock = null;
 let mode = 'run'; // or 'tune': which of the two the plots show
 let cursor = null;
 let shown = 0; // seconds that the plots show
 
 // --- The autotuner, remembered while the plant is the same ------------------
 
-const OWN_OF_GAINS = ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'rule', 'name', 'story']; // ROBUSTNESS may add a row
+const OWN_OF_GAINS = ['KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'rule', 'name', 'story', 'kept']; // ROBUSTNESS may add a row
 let tuned = { key: '', found: null };
 
 function hasTuner(s) {
@@ -101,7 +105,6 @@ const TERMS = {
 function panesOf(s, found) {
     const { series } = found;
     const tuning = mode === 'tune';
-    const compared = kept !== null && !tuning;
     const none = new Float64Array(0);
     const [p, i, d] = TERMS[s.CONTROLLER](s, found.results);
     const measurement = {
@@ -109,7 +112,7 @@ function panesOf(s, found) {
         leastSpan: 8 * unitsPerCount(s),
         series: [
             { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
-            { name: compared ? `kept, ${kept.text}` : 'kept', color: 'kept', data: compared ? kept.value : none, seconds: kept?.seconds },
+            ...(tuning ? [] : keptSeries(s, 'value')),
             { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
             { name: 'double precision', color: 'twin', width: 1.25, dash: [2, 3], data: tuning ? none : series.VALUE_TWIN },
         ],
@@ -117,7 +120,7 @@ function panesOf(s, found) {
     const output = {
         title: 'Output', unit: 'counts', limited: tuning ? null : limitedSteps(s, found),
         series: [
-            { name: 'kept', color: 'kept', data: compared ? kept.output : none, seconds: kept?.seconds, held: true },
+            ...(tuning ? [] : keptSeries(s, 'output')),
             { name: 'output', color: 'output', held: true, data: each(series.OUTPUT, (c) => c) },
         ],
     };
@@ -258,7 +261,6 @@ function showModes(s) {
     }
     find('#keep').hidden = mode === 'tune';
     find('#flags').hidden = mode === 'tune';
-    setText(find('#keep'), kept === null ? 'Keep to compare' : 'Drop what was kept');
 }
 
 function showPicture(s, found) {
@@ -277,8 +279,15 @@ function showHead(s) {
     }
     for (const box of find('#options').querySelectorAll('input')) {
         box.checked = (s.OPTIONS & Number(box.value)) !== 0;
+        box.closest('div').hidden = s.CONTROLLER !== CONTROLLER.PID && Number(box.value) !== OPTION.REVERSE;
     }
-    find('#options').hidden = s.CONTROLLER !== CONTROLLER.PID;
+    find('#options').hidden = s.PLANT === PLANT.PENDULUM;
+}
+
+function allowTaking(allowed) {
+    for (const id of ['copy', 'save', 'keep', 'take-png', 'take-svg', 'take-csv', 'take-json']) {
+        find(`#${id}`).disabled = !allowed;
+    }
 }
 
 // Nothing of an earlier state is left where these settings are refused.
@@ -286,13 +295,13 @@ function showRefused(s, found) {
     find('#stage').hidden = true;
     fillFigures(find('#metrics'), []);
     fillFigures(find('#margins'), []);
+    fillKey([find('#key'), find('#mini dl')], []);
+    find('#runs').hidden = true;
     find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
     find('#header').textContent = '';
     find('#chips').replaceChildren();
     find('#chips-text').textContent = '';
-    find('#copy').disabled = true;
-    find('#save').disabled = true;
-    find('#keep').disabled = true;
+    allowTaking(false);
     pendulum.update(null);
     plots.show({ panes: panesOf(s, { ...found, n: 0 }), seconds: 1 / s.RATE,
         events: [], duration: s.DURATION });
@@ -305,23 +314,21 @@ function showRun(s, found, margins) {
     } else {
         fillFigures(find('#metrics'), figuresOf(s, metricsOf(s, found)));
     }
+    fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, metricsOf(s, found), margins));
+    fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, metricsOf(s, found), margins, onKept);
     showPlots(s, experimenting ?? found);
     showPicture(s, found);
     showMargins(margins);
+    clock.update();
     fillChips(find('#chips-text'), find('#chips'), s, found.results);
-    setText(find('#header'), headerOf(s, found.results));
-    find('#copy').disabled = false;
-    find('#save').disabled = false;
-    find('#keep').disabled = false;
+    setText(find('#header'), wholeHeaderOf(s, found.results, margins));
+    allowTaking(true);
 }
 
 function show() {
     const s = currentState();
     if (!hasTuner(s)) {
         mode = 'run';
-    }
-    if (kept !== null && kept.preset !== s.preset) {
-        kept = null;
     }
     const found = run(s);
     const good = found.n > 0;
@@ -370,15 +377,19 @@ function useRecord(row) {
 }
 
 function keep() {
-    if (kept !== null) {
-        kept = null;
-    } else {
-        const s = currentState();
-        const found = run(s);
-        kept = { preset: s.preset, seconds: 1 / s.RATE, value: found.series.VALUE_TRUE, output: each(found.series.OUTPUT, (c) => c),
-            text: `kp ${digits(s.KP)}, ki ${digits(s.KI)}, kd ${digits(s.KD)}:` };
-    }
-    show();
+    const s = currentState();
+    changeNow({ ...s, kept: keptWith(s) });
+}
+
+const onKept = {
+    onUse: (fragment) => withKept(stateOfFragment(fragment), currentState().kept),
+    onDrop: (i) => withKept(currentState(), currentState().kept.filter((_, k) => k !== i)),
+};
+
+// The table of kept runs is another then, and what had the focus is gone.
+function withKept(s, kept) {
+    changeNow({ ...s, kept });
+    find('#keep').focus();
 }
 
 function linkOf(s) {
@@ -394,17 +405,58 @@ async function toClipboard(text, done) {
     }
 }
 
-function download() {
-    const link = make('a', { href: URL.createObjectURL(new Blob([find('#header').textContent], { type: 'text/x-c' })), download: 'loop_gains.h' });
+function download(name, content, type) {
+    const link = make('a', { href: URL.createObjectURL(new Blob([content], { type })), download: name });
     link.click();
     URL.revokeObjectURL(link.href);
+}
+
+// --- What is taken along --------------------------------------------------------------
+
+function saveSvg() {
+    const svg = createSvg(...plots.size(), color('card'));
+    plots.paint(svg.context);
+    download('loop.svg', svg.text(), 'image/svg+xml');
+}
+
+function savePng() {
+    const [width, height] = plots.size();
+    const canvas = make('canvas', { width: 2 * width, height: 2 * height });
+    const context = canvas.getContext('2d');
+    context.scale(2, 2);
+    context.fillStyle = color('card');
+    context.fillRect(0, 0, width, height);
+    plots.paint(context);
+    canvas.toBlob((picture) => download('loop.png', picture, 'image/png'));
+}
+
+function saveCsv() {
+    const s = currentState();
+    const found = mode === 'tune' ? tunedFor(s) : run(s);
+    download('loop.csv', csvOf(s, found), 'text/csv');
+}
+
+function saveJson() {
+    const s = currentState();
+    const found = run(s);
+    download('loop.json', jsonOf(s, metricsOf(s, found), marginsOf(s, found.results), find('#header').textContent), 'application/json');
+}
+
+async function openJson(event) {
+    const [file] = event.target.files;
+    const { state, why } = stateOfJson(await file.text());
+    event.target.value = ''; // the same file again is a change, too
+    if (state) {
+        mode = 'run';
+        changeNow(state);
+    }
+    say(why ?? `${file.name} is open.`);
 }
 
 // --- A recording --------------------------------------------------------------------
 
 function useRecorded(plant) {
     mode = 'run';
-    kept = null;
     changeNow(ownState(currentState(), plant));
     find('#view').scrollIntoView();
     say('The plant is the one that was recorded; sensor, output and rate are yours.');
@@ -456,7 +508,7 @@ function buildHead() {
         button.addEventListener('click', () => {
             mode = 'run';
             setCursor(null);
-            changeNow(presetState(one.preset));
+            changeNow({ ...presetState(one.preset), kept: currentState().kept });
         });
         return button;
     }));
@@ -468,9 +520,12 @@ function buildHead() {
             const s = currentState();
             change({ OPTIONS: box.checked ? s.OPTIONS | bit : s.OPTIONS & ~bit });
         });
-        return make('label', {}, box, ` ${text}`);
+        return make('div', {}, make('label', {}, box, ` ${text}`), helpFor(text, text));
     }));
     setText(find('#version'), VERSION);
+    clock = createField('c-clock', {}, { read: () => currentState().CLOCK, onInput: (value) => change({ CLOCK: value }), step: () => ({ least: 1 }) });
+    find('#clock label').after(' ', clock.field);
+    find('#clock').append(' ', clock.why);
 }
 
 function listen() {
@@ -489,7 +544,11 @@ function listen() {
     find('#copy-record').addEventListener('click', () => toClipboard(recordText(tuned.found.record), 'The record is copied.'));
     find('#record').addEventListener('input', () => showRecord(currentState()));
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
-    find('#save').addEventListener('click', download);
+    find('#save').addEventListener('click', () => download('loop_gains.h', find('#header').textContent, 'text/x-c'));
+    for (const [id, act] of Object.entries({ png: savePng, svg: saveSvg, csv: saveCsv, json: saveJson, print: () => window.print() })) {
+        find(`#take-${id}`).addEventListener('click', act);
+    }
+    find('#open-json').addEventListener('change', openJson);
     find('#sensor').addEventListener('input', changeSensor);
     find('#choose').addEventListener('click', chooseTable);
     find('#copy-table').addEventListener('click', () => toClipboard(find('#table').textContent, 'The table is copied.'));
@@ -504,7 +563,8 @@ function listen() {
 async function startPage() {
     await startEngine();
     buildHead();
-    plots = createPlots(find('#plots'), setCursor);
+    plots = createPlots(find('#plots'), setCursor, find('#mini canvas'));
+    followPlots(find('#plots'), find('#mini'));
     pendulum = createPendulum(find('#picture'), (seconds) => plots.cursorAt(seconds));
     flags = createFlags(find('#flags'), plots, currentState, (next) => change({ events: next }));
     events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
@@ -520,7 +580,7 @@ async function startPage() {
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     past.settle();
     // What the tests take hold of.
-    window.tuner = { CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, firstGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, headerOf, isStable, linearResponse,
+    window.tuner = { headerOf: wholeHeaderOf, CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, simcGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, isStable, linearResponse,
         controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }

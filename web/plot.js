@@ -52,7 +52,8 @@ function extremes(pane) {
 }
 
 // Builds the panes; returns { element, show(view), cursorAt(seconds or null) }.
-export function createPlots(element, onCursor) {
+// The first pane is drawn on `mini`, too, while that is shown.
+export function createPlots(element, onCursor, mini) {
     let parts = [];
     let view = null;
     let cursor = null;
@@ -97,6 +98,9 @@ export function createPlots(element, onCursor) {
             drawPane(parts[i].canvas, pane, view, cursor, i === view.panes.length - 1);
             drawLegend(parts[i].legend, pane, view, cursor);
         });
+        if (mini.clientWidth > 0) {
+            drawPane(mini, view.panes[0], view, cursor, true);
+        }
     }
 
     function cursorAt(seconds) {
@@ -104,8 +108,67 @@ export function createPlots(element, onCursor) {
         draw();
     }
 
-    new ResizeObserver(draw).observe(element);
-    return { element, show, cursorAt, gutter: GUTTER, right: RIGHT };
+    const observer = new ResizeObserver(draw);
+    observer.observe(element);
+    observer.observe(mini); // it is drawn when it comes to be seen
+    return { element, show, cursorAt, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
+        size: () => [PICTURE_WIDTH, view.panes.reduce((sum, _, i) => sum + CAPTION + heightOf(i, view), 0)] };
+}
+
+// Shows `small` while the first pane is out of sight, and keeps what has the focus from
+// under it.
+export function followPlots(element, small) {
+    const follow = () => {
+        const box = element.querySelector('canvas')?.getBoundingClientRect();
+        small.hidden = box === undefined || box.bottom > 0.3 * window.innerHeight;
+        document.documentElement.classList.toggle('followed', !small.hidden);
+    };
+    document.addEventListener('scroll', follow, { passive: true });
+    window.addEventListener('resize', follow);
+    follow();
+}
+
+// --- All panes as one picture ---------------------------------------------------
+
+const PICTURE_WIDTH = 900;
+const CAPTION = 26;
+const LETTER_WIDTH = 7.5; // pixels, about
+
+function heightOf(i, view) {
+    return [260, 130, 100, 100][i] + (i === view.panes.length - 1 ? AXIS : 0);
+}
+
+function paintCaption(context, pane) {
+    let x = GUTTER;
+    const write = (text, name, font = '13px') => {
+        context.font = `${font} system-ui, sans-serif`;
+        context.fillStyle = color(name);
+        context.fillText(text, x, CAPTION / 2 + 2);
+        x += LETTER_WIDTH * text.length + 12;
+    };
+    context.textAlign = 'left';
+    context.textBaseline = 'middle';
+    write(pane.title, 'ink', 'bold 13px');
+    write(pane.unit, 'dim');
+    for (const one of pane.series.filter(({ data }) => data.length > 0)) {
+        line(context, x, CAPTION / 2 + 2, x + 18, CAPTION / 2 + 2, one.color, one.dash ?? []);
+        x += 24;
+        write(one.name, 'ink');
+    }
+}
+
+function paintAll(context, view) {
+    let top = 0;
+    view.panes.forEach((pane, i) => {
+        const height = heightOf(i, view);
+        context.save();
+        context.translate(0, top);
+        paintCaption(context, pane);
+        context.translate(0, CAPTION);
+        paintPane(context, PICTURE_WIDTH, height, pane, view, null, i === view.panes.length - 1);
+        context.restore();
+        top += CAPTION + height;
+    });
 }
 
 function valueAt(one, view, cursor) {
@@ -121,7 +184,7 @@ function drawLegend(legend, pane, view, cursor) {
     const entries = pane.series.filter((one) => one.data.length > 0).map((one) => {
         const mark = make('i');
         mark.style.borderTopColor = color(one.color);
-        mark.style.borderTopStyle = one.dash ? 'dashed' : 'solid';
+        mark.style.borderTopStyle = one.dash?.length > 0 ? 'dashed' : 'solid';
         const value = make('output', { textContent: digits(valueAt(one, view, cursor), 4) });
         return make('span', { className: 'entry' }, mark, `${one.name} `, value);
     });
@@ -130,6 +193,11 @@ function drawLegend(legend, pane, view, cursor) {
 
 function drawPane(canvas, pane, view, cursor, hasAxis) {
     const { context, width, height } = blank(canvas);
+    paintPane(context, width, height, pane, view, cursor, hasAxis);
+}
+
+// The same on any context that has what a canvas has.
+function paintPane(context, width, height, pane, view, cursor, hasAxis) {
     const [low, high] = extremes(pane);
     const bottom = height - (hasAxis ? AXIS : 6);
     const area = { left: GUTTER, right: width - RIGHT, top: 6, bottom };

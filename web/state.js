@@ -3,7 +3,7 @@
 // the C by their names there, and a few of the page's own. A preset is a whole
 // state; a link has what differs from one.
 import { CONTROLLER, EVENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
-import { plantOfKind, withPlant } from './own.js';
+import { gainsFor, plantOfKind, withPlant } from './own.js';
 
 const common = {
     CONTROLLER: CONTROLLER.PID, GAIN: 100, T1: 1, T2: 0, DAMPING: 0.3, DEAD: 0, START: 0,
@@ -11,7 +11,7 @@ const common = {
     OUTPUT_MIN: 0, OUTPUT_MAX: 1000, RATE: 20, DURATION: 60, SETPOINT: 50,
     KP: 1, KI: 0, KD: 0, FILTER: 0, WEIGHT: 1, OPTIONS: 0, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
     SWING: 0, CYCLES: 2, ROBUSTNESS: 16,
-    unit: '%', rule: 'PI', events: [],
+    CLOCK: 16, unit: '%', rule: 'PI', events: [], kept: [],
 };
 
 function preset(id, name, story, more) {
@@ -58,7 +58,7 @@ export const PRESETS = [
     preset('an964', 'AN964’s pendulum', 'An inverted pendulum on a moving base: application note AN964, 256 steps a second, with its drift offset.', {
         CONTROLLER: CONTROLLER.AN964, PLANT: PLANT.PENDULUM, GAIN: 6, T1: 0.15, T2: 0.5, START: 8,
         unit: '°', SENSOR_BITS: 10, SENSOR_LOW: -30.028, SENSOR_RANGE: 60, NOISE: 0.6,
-        OUTPUT_MIN: -1000, RATE: 256, DURATION: 12, SETPOINT: 0, KP: 900, KI: 80, KD: 800,
+        OUTPUT_MIN: -1000, RATE: 256, DURATION: 12, SETPOINT: 0, KP: 900, KI: 80, KD: 800, CLOCK: 4,
         events: [{ at: 6, what: 'LOAD', a: 6 }],
     }),
     withPlant(preset('own', 'Your own', 'Your plant on your hardware: first your sensor, your actuator and your rate, which stay whatever is fitted or tuned; then your plant, or a step that you recorded; then its gains.', {
@@ -74,7 +74,16 @@ export function presetState(id) {
 // The user's own plant on the hardware of this state.
 export function ownState(s, plant) {
     const { preset: id, name, story } = presetState('own');
-    return withPlant({ ...s, preset: id, name, story, CONTROLLER: CONTROLLER.PID }, plant);
+    return withPlant({ ...s, preset: id, name, story,
+        CONTROLLER: s.preset === id ? s.CONTROLLER : CONTROLLER.PID }, plant);
+}
+
+// The same plant with another controller: with the preset's gains, if it is the preset's.
+export function withController(s, controller) {
+    const own = presetState(s.preset);
+    const next = { ...s, CONTROLLER: controller };
+    const { KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX } = s.preset !== 'own' && own.CONTROLLER === controller ? own : gainsFor(next);
+    return { ...next, KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX };
 }
 
 // --- What is within reason ---------------------------------------------------
@@ -90,7 +99,7 @@ const BOUNDS = {
     SENSOR_BITS: [6, 15], SENSOR_LOW: REAL, SENSOR_RANGE: [0.001, 1e6], NOISE: [0, 1000],
     OUTPUT_MIN: COUNTS, OUTPUT_MAX: COUNTS, RATE: [0.01, 20000], DURATION: [1e-4, 1e6], SETPOINT: REAL,
     KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, EVERY_OPTION],
-    INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
+    INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], CLOCK: [0.001, 1000], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
 };
 export const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
     'SWING', 'CYCLES', 'ROBUSTNESS'];
@@ -121,6 +130,8 @@ function ofPlant(s) {
 export function withinReason(s) {
     const found = { ...s };
     found.PLANT = s.preset === 'own' ? clamped(Math.round(s.PLANT), [PLANT.LAGS, PLANT.MOTOR]) : presetState(s.preset).PLANT;
+    // A pendulum falls without the drift offset that only AN964's loop has here.
+    found.CONTROLLER = found.PLANT === PLANT.PENDULUM ? CONTROLLER.AN964 : clamped(Math.round(s.CONTROLLER), [CONTROLLER.PID, CONTROLLER.AN964]);
     for (const [name, bounds] of [...Object.entries(BOUNDS), ['RATE', ofPlant(s).RATE ?? REAL]]) {
         found[name] = clamped(found[name], bounds);
     }
@@ -169,28 +180,37 @@ export function change(more) {
 
 // --- The link ------------------------------------------------------------
 
-const NUMBERS = Object.keys(PARAM).filter((name) => name !== 'CONTROLLER');
+export const KEPT_MOST = 4;
+export const LINKED = [...Object.keys(PARAM), 'CLOCK'];
 
-function eventsText(events) {
+export function eventsText(events) {
     return events.map((event) =>
         [event.what.toLowerCase(), event.at, event.a ?? 0, event.b ?? 0].join('_')).join('~');
+}
+
+// Without a star, which in a header would be a part of a comment's sign.
+function encoded(text) {
+    return encodeURIComponent(text).replaceAll('*', '%2A');
 }
 
 export function fragmentOf(of) {
     const from = presetState(of.preset);
     const parts = [`p=${of.preset}`];
-    for (const name of NUMBERS) {
+    for (const name of LINKED) {
         if (of[name] !== from[name]) {
             parts.push(`${name.toLowerCase()}=${of[name]}`);
         }
     }
     for (const name of ['unit', 'rule']) {
         if (of[name] !== from[name]) {
-            parts.push(`${name}=${encodeURIComponent(of[name])}`);
+            parts.push(`${name}=${encoded(of[name])}`);
         }
     }
     if (eventsText(of.events) !== eventsText(from.events)) {
         parts.push(`events=${eventsText(of.events)}`);
+    }
+    if (of.kept.length > 0) {
+        parts.push(`kept=${of.kept.map(encoded).join(';')}`);
     }
     return parts.join('&');
 }
@@ -217,7 +237,7 @@ export function stateOfFragment(fragment) {
         return [part.slice(0, at), part.slice(at + 1)];
     }));
     const found = presetState(pairs.get('p'));
-    for (const name of NUMBERS) {
+    for (const name of LINKED) {
         const text = pairs.get(name.toLowerCase());
         if (text !== undefined && text !== '' && Number.isFinite(Number(text))) {
             found[name] = Number(text);
@@ -232,5 +252,13 @@ export function stateOfFragment(fragment) {
     if (pairs.has('events')) {
         found.events = pairs.get('events').split('~').map(eventOf).filter(Boolean).slice(0, LIMIT.EVENTS);
     }
+    // Each is a link of its own, which keeps none.
+    found.kept = (pairs.get('kept') ?? '').split(';').map(decoded).filter(Boolean).slice(0, KEPT_MOST)
+        .map((one) => fragmentOf({ ...ofLink(one.replace(/(^|&)kept=[^&]*/, '')), kept: [] }));
     return found;
+}
+
+// What is shown where this link is opened.
+export function ofLink(fragment) {
+    return withinReason(stateOfFragment(fragment));
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The header for the firmware, as the tuner page writes it: web/header.js in Python."""
+"""The header for the firmware: the integers as the tuner page writes them, web/header.js in Python."""
 import re
 
 from ._core import __version__

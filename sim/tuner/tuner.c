@@ -37,7 +37,8 @@ static struct fixpid_autotune autotune;
 static struct fixpid_autotune_record record;
 static struct fit fit;
 
-// A loop that runs: the library's, or its twin's, which has no drift offset.
+// A loop that runs: the library's, or its twin's. Each has its own drift
+// offset.
 static struct scene scene;
 static struct scene twin_scene;
 static struct twin twin;
@@ -229,7 +230,26 @@ static bool fallen(int16_t measurement)
                    UPRIGHT_COUNTS + ANGLE_LIMIT_COUNTS);
 }
 
-static int16_t step_an964(int16_t measurement)
+static bool is_plant(int kind)
+{
+    return (int)param(PARAM_PLANT) == kind;
+}
+
+// What the firmware of a note's controller would pass to it.
+static int16_t error_of(int16_t setpoint, int16_t measurement)
+{
+    const unsigned options = (unsigned)param(PARAM_OPTIONS);
+    const bool reverse = (options & TUNER_OPTION_REVERSE) != 0u;
+    const int32_t error = reverse ? ((int32_t)measurement - setpoint)
+                                  : ((int32_t)setpoint - measurement);
+    const bool notes_motor =
+        (param(PARAM_CONTROLLER) == TUNER_AN937) && is_plant(TUNER_MOTOR);
+    const int32_t scale = notes_motor ? ERROR_PER_COUNT : 1;
+
+    return (int16_t)plant_limit(error * scale, -32768.0, 32767.0);
+}
+
+static int16_t step_pendulum(int16_t measurement)
 {
     if (fallen(measurement)) {
         fixpid_an964_reset(&an964);
@@ -264,14 +284,17 @@ static int16_t step(int i, int16_t setpoint, int16_t measurement)
     switch ((int)param(PARAM_CONTROLLER)) {
     case TUNER_AN937:
         fixpid_an937_tick(&an937);
-        output = limited(fixpid_an937_step(
-            &an937, (int16_t)((setpoint - measurement) * ERROR_PER_COUNT)));
+        output =
+            limited(fixpid_an937_step(&an937, error_of(setpoint, measurement)));
         keep(i, fixpid_an937_proportional(&an937),
              fixpid_an937_integral(&an937), fixpid_an937_derivative(&an937),
              fixpid_an937_flags(&an937));
         break;
     case TUNER_AN964:
-        output = step_an964(measurement);
+        output = is_plant(TUNER_PENDULUM)
+                     ? step_pendulum(measurement)
+                     : limited(fixpid_an964_step(
+                           &an964, error_of(setpoint, measurement)));
         keep(i, fixpid_an964_proportional(&an964),
              fixpid_an964_integral(&an964), fixpid_an964_derivative(&an964),
              fixpid_an964_flags(&an964));
@@ -287,8 +310,9 @@ static int16_t step(int i, int16_t setpoint, int16_t measurement)
 
 static double step_twin(int16_t setpoint, int16_t measurement)
 {
-    const bool notes_pendulum = param(PARAM_CONTROLLER) == TUNER_AN964;
-    double error = (setpoint - measurement) * ERROR_PER_COUNT;
+    const bool notes_pendulum =
+        (param(PARAM_CONTROLLER) == TUNER_AN964) && is_plant(TUNER_PENDULUM);
+    double error = error_of(setpoint, measurement);
 
     if (notes_pendulum && fallen(measurement)) {
         twin_begin(&twin);

@@ -9,6 +9,8 @@
 
 #define SUM_MAX 30000.0 // FIXPID_AN964_SUM_LIMIT
 #define TERM_MAX 120.0  // FIXPID_AN964_TERM_LIMIT
+#define END_MAX 1000.0  // FIXPID_AN964_OUTPUT_LIMIT
+#define ERROR_MAX 1023.0
 
 static double limited(double value)
 {
@@ -75,8 +77,10 @@ static double an937(struct twin *self, double error)
                    16.0);
 }
 
-static double an964(struct twin *self, double error)
+static double an964(struct twin *self, double any_error)
 {
+    const double error = plant_limit(any_error, -ERROR_MAX, ERROR_MAX);
+
     self->sum = plant_limit(self->sum + error, 1.0 - SUM_MAX, SUM_MAX);
     const double rise =
         plant_limit(error - self->errors[2], -TERM_MAX, TERM_MAX);
@@ -87,7 +91,9 @@ static double an964(struct twin *self, double error)
     self->errors[2] = self->errors[1];
     self->errors[1] = self->errors[0];
     self->errors[0] = error;
-    return limited((error + integral + derivative) * param(PARAM_KP) / 1024.0);
+    const double output =
+        (error + integral + derivative) * param(PARAM_KP) / 1024.0;
+    return limited(plant_limit(output, -END_MAX, END_MAX));
 }
 
 double twin_step(struct twin *self, double setpoint, double measurement,

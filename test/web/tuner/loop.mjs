@@ -29,8 +29,9 @@ const MEMBERS = {
 };
 const TYPES = { fixpid_pid: 'fixpid_pid_config', fixpid_an937: 'fixpid_an937_config', fixpid_an964: 'fixpid_an964_gains' };
 
-function program(noun, wanted, macro) {
-    const agree = MEMBERS[noun].map((member, i) => `    good &= (${member} == ${wanted[i]});`);
+function program(noun, wanted, macro, scale) {
+    const agree = [...MEMBERS[noun].map((member, i) => `    good &= (${member} == ${wanted[i]});`),
+        ...scale.map(([text, value]) => `    good &= (${text} == ${value});`)];
     const gains = macro === null ? []
         : [`static const struct fixpid_pid_gains folded = ${macro};`];
     const same = macro === null ? []
@@ -49,13 +50,13 @@ function returnsZero(object) {
 const folder = `${WORK}/header`;
 mkdirSync(folder, { recursive: true });
 
-function headerFaults(name, { header, noun, wanted }) {
+function headerFaults(name, { header, noun, wanted, scale }) {
     const macro = header.match(/FIXPID_PID_GAINS\([^)]*\)/)?.[0] ?? null;
     writeFileSync(`${folder}/loop_gains.h`, header);
     return COMPILERS.flatMap(([compiler, ...options]) => {
         const avr = compiler === 'avr-g++';
         // Where double has 32 bits the macro may fold to a neighbour.
-        writeFileSync(`${folder}/use.txt`, program(noun, wanted, avr ? null : macro));
+        writeFileSync(`${folder}/use.txt`, program(noun, wanted, avr ? null : macro, avr ? [] : scale));
         const output = `${folder}/use`;
         const printed = run(compiler, ...options, '-O2', '-Wall', '-Wextra', '-Werror', '-Iinclude', `-I${folder}`,
             ...(avr ? ['-c'] : []), `${folder}/use.txt`, '-o', output);
@@ -83,7 +84,10 @@ function headerOf(state) {
         fixpid_an937: [r.KP, r.KI, r.KD, state.INTEGRAL_MAX, r.FILTER],
         fixpid_an964: [r.KP, r.KI, r.KD],
     }[noun];
-    return { header: tuner.headerOf(state, r), noun, wanted };
+    const top = 2 ** state.SENSOR_BITS - 1;
+    const scale = [0, 0.123, 0.5, 0.77, 1].map((part) => state.SENSOR_LOW + Number((part * state.SENSOR_RANGE).toPrecision(4)))
+        .map((x) => [`LOOP_COUNTS(${x})`, Math.floor((x - state.SENSOR_LOW) / state.SENSOR_RANGE * top + 0.5)]);
+    return { header: tuner.headerOf(state, r), noun, wanted, scale: [...scale, ['LOOP_RATE', state.RATE]] };
 }
 
 const presets = await page.evaluate(() => window.tuner.PRESETS);
@@ -99,6 +103,13 @@ for (let i = 0; i < 10; i++) {
     faults.push(...headerFaults(`random ${i}`, await page.evaluate(headerOf, state)));
 }
 checkNone('headers of random settings', faults);
+
+// A setpoint beyond the sensor is no constant of the firmware.
+{
+    const made = await page.evaluate(headerOf, presets[0]);
+    const beyond = [['LOOP_COUNTS(500)', 0], ['LOOP_COUNTS(-1)', 0]].map((one) => headerFaults('beyond', { ...made, scale: [one] }));
+    check('LOOP_COUNTS beyond the sensor compiles nowhere', beyond.every((faults) => faults.length === 4 && !faults.some((fault) => fault.includes('other integers'))), `${beyond}`);
+}
 
 // Each rule's gains fold to the very integers that the autotuner gave.
 for (const preset of presets.filter((one) => one.CONTROLLER === 0 && one.preset !== 'spring')) {
@@ -277,7 +288,7 @@ for (const [fragment, rate, wanted] of [['p=an937', 1000, (chip) => costOf('AN93
     const rows = await here.locator('#chips tbody tr').evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
     const differ = rows.filter(([chip, ...cells]) => {
         const [most, flash, ram] = wanted(chip.replace(' *', ''));
-        return cells.map((cell) => Number(cell.replace(/\D/g, ''))).join() !== [most, flash, ram, most * rate].join();
+        return cells.slice(0, 4).map((cell) => Number(cell.replace(/\D/g, ''))).join() !== [most, flash, ram, most * rate].join();
     });
     checkNone(`${fragment}: costs on ${rows.length} chips`, rows.length < 7 ? ['too few'] : differ);
     await here.close();

@@ -109,8 +109,12 @@ async function compare(page, name, states, turn = 0) {
 function disturbed(preset, draw) {
     const factor = (spread) => Math.exp((2 * draw() - 1) * Math.log(spread));
     const whole = (low, high) => Math.floor(low + draw() * (high - low + 1));
-    const pid = preset.CONTROLLER === 0;
     const state = { ...preset };
+    if (preset.CONTROLLER !== 2 && draw() < 0.3) { // another controller on the same plant
+        state.CONTROLLER = whole(0, 2);
+        state.INTEGRAL_MAX = whole(1, 30000);
+    }
+    const pid = state.CONTROLLER === 0;
     state.KP = pid ? preset.KP * factor(20) : whole(0, 255);
     state.KI = pid ? preset.KI * factor(20) : whole(0, 255);
     state.KD = pid ? preset.KD * factor(20) : whole(0, 255);
@@ -118,7 +122,7 @@ function disturbed(preset, draw) {
     state.WEIGHT = draw();
     state.OPTIONS = pid && draw() < 0.4 ? 32 * whole(0, 7) : 0;
     state.NOISE = draw() < 0.5 ? 0 : 6 * draw();
-    state.SENSOR_BITS = pid ? whole(8, 15) : 10;
+    state.SENSOR_BITS = preset.CONTROLLER === 0 ? whole(8, 15) : 10;
     state.GAIN = preset.GAIN * factor(1.5);
     state.T1 = preset.T1 * factor(2);
     state.T2 = preset.T2 * factor(2);

@@ -4,7 +4,7 @@
 // actuator and rate stays, whatever is fitted or tuned.
 import { check, checkNone, finish, fragment, frame, moduleOf, open, press, stale, text } from './harness.mjs';
 
-const { firstGains, plantOfKind, withPlant } = await moduleOf('own');
+const { simcGains, plantOfKind, withPlant } = await moduleOf('own');
 const { presetState, withinReason } = await moduleOf('state');
 const { run, startEngine } = await moduleOf('engine');
 const { marginsOf } = await moduleOf('margins');
@@ -27,7 +27,7 @@ const BY_HAND = [
     ['a motor', MOTOR, 12, 0.508250, 41.6881, 0], ['a motor', MOTOR, 10, 2.03449, 166.875, 0],
 ];
 for (const [name, plant, bits, ...wanted] of BY_HAND) {
-    const { KP, KI, KD } = firstGains({ ...plant, SENSOR_BITS: bits });
+    const { KP, KI, KD } = simcGains({ ...plant, SENSOR_BITS: bits });
     const limit = plant === MOTOR ? 0.005 : 0.0005; // the page rounds to four figures
     const away = Math.max(...[KP, KI, KD].map((one, i) => Math.abs(one - wanted[i]) / (wanted[i] || 1)));
     check(`${name} at ${bits} bits: kp ${KP}, ki ${KI}, kd ${KD}`, away <= limit, `not ${wanted.join(', ')}`);
@@ -85,7 +85,7 @@ let now = await paste(60, '50');
 checkNone('a recorded plant leaves it', lost(now));
 check('the plant is the recorded one', now.preset === 'own' && near(now.GAIN, 120) && near(now.T1, 12) && near(now.DEAD, 5), `${now.GAIN} ${now.T1} ${now.DEAD}`);
 check('its setpoints are within the sensor', [now.SETPOINT, now.events[0].a].every((value) => value >= -20 && value <= 300));
-checkNone('its gains are the first ones', Object.entries(firstGains(now)).filter(([key, value]) => now[key] !== value).map(([key]) => key));
+checkNone('its gains are the first ones', Object.entries(simcGains(now)).filter(([key, value]) => now[key] !== value).map(([key]) => key));
 const margins = await text(here, '#margins');
 check('they are sound', /stable/.test(margins) && !/unstable/.test(margins) && Number(margins.match(/Ms(\d\.\d+)/)[1]) < 2, margins);
 await here.click('#modes button[value=tune]');
@@ -95,11 +95,11 @@ checkNone('tuned gains leave it', lost(await state(here)));
 await here.fill('#c-kp', '99');
 await here.click('#first-gains');
 await frame(here);
-check('the first gains are a button away', (await state(here)).KP === firstGains(now).KP);
+check('the first gains are a button away', (await state(here)).KP === simcGains(now).KP);
 await here.fill('#c-gain', '150');
 await here.locator('#panel input[aria-label="kp, slider"]').dblclick({ position: { x: 20, y: 8 } });
 await frame(here);
-check('a double click has kp of the plant as it is now', (await state(here)).KP === firstGains({ ...now, GAIN: 150 }).KP);
+check('a double click has kp of the plant as it is now', (await state(here)).KP === simcGains({ ...now, GAIN: 150 }).KP);
 
 now = await paste(-60, '50');
 check('a plant that falls is reverse acting', near(now.GAIN, -120) && (now.OPTIONS & 0x80) !== 0);

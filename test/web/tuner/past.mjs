@@ -157,7 +157,7 @@ const until = (here, kp) => here.waitForFunction((wanted) => window.tuner.curren
         await here.fill('#c-kp', kp);
         await here.waitForFunction((before) => window.asked > before, await here.evaluate(() => window.asked));
     }
-    check('a refused link leaves the rest right', (await text(here, '#header')).includes('384u') && (await text(here, 'label[for=c-kp] + em')) === '384 / 256', await text(here, '#header'));
+    check('a refused link leaves the rest right', (await text(here, '#header')).includes('384u') && (await text(here, '.control:has(#c-kp) em')) === '384 / 256', await text(here, '#header'));
     check('the link is the old one', new URL(here.url()).hash === '#p=flow', here.url());
     checkNone('with a refused link nothing is stale', await stale(here));
     await here.click('#undo');

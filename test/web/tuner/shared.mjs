@@ -65,7 +65,7 @@ function recorded(plant) {
 // --- Scenes --------------------------------------------------------------------------
 
 const preset = (id, more = {}) => {
-    const { name, story, ...state } = PRESETS.find((one) => one.preset === id);
+    const { name, story, kept, CLOCK, ...state } = PRESETS.find((one) => one.preset === id);
     return { ...state, ...more };
 };
 const SCENES = [

@@ -12,6 +12,7 @@ module Names
       header = File.read('sim/tuner/tuner.h')
       tuner = File.read('include/fixpid_autotune.h')
       pid = File.read('include/fixpid_pid.h')
+      an964 = File.read('include/fixpid_an964.h')
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
@@ -20,6 +21,7 @@ module Names
         WORD: %w[QUICK SAFE CALM].to_h { |name| [name, number(tuner, "FIXPID_AUTOTUNE_#{name}")] },
         OPTION: bits(header, 'TUNER_OPTION_'), FEATURE: bits(pid, 'FIXPID_PID_HAS_'),
         LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid),
+                 **%w[SUM TERM OUTPUT].to_h { |name| ["AN964_#{name}", number(an964, "FIXPID_AN964_#{name}_LIMIT")] },
                  RECORD_SIZE: number(tuner, 'FIXPID_AUTOTUNE_RECORD_SIZE'),
                  RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION') } }
     end

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// One sentence and a link for what the page shows, behind a question mark beside it.
+import { find, make } from './dom.js';
+
+// [sentence, document and heading].
+export const HELP = {
+    SETPOINT: ['The value that the measurement is to have.', 'scaling#three-questions'],
+    KP: ['Counts of output for each count of error.', 'scaling#three-questions'],
+    KI: ['How fast the output grows while an error stays: kp divided by Ti.', 'scaling#three-questions'],
+    KD: ['Output against the speed of the measurement: kp times Td.', 'scaling#three-questions'],
+    FILTER: ['Smooths the derivative over about this many steps, as noise makes it restless.', 'behaviour#what-each-feature-is-good-for'],
+    WEIGHT: ['The part of the setpoint that P sees: less of it makes a step of the setpoint gentler, and leaves the answer to a load as it is.', 'scaling#a-setpoint-weight-below-1'],
+    GAIN: ['How far full drive moves the measurement, or how fast.', 'tuning#the-oven-by-itself'],
+    T1: ['The time in which the plant has gone about two thirds of its way.', 'tuning#the-oven-by-itself'],
+    T2: ['A second, shorter lag, such as that of an element or a sensor.', 'tuning#the-oven-by-itself'],
+    DEAD: ['The time in which nothing at all is seen of a change of the output.', 'tuning#the-oven-by-itself'],
+    DAMPING: ['How fast a swing dies out: 1 does not swing, 0.1 swings for long.', 'tuning#which-autotuner'],
+    START: ['What is measured while the output is 0.', 'scaling#three-questions'],
+    SENSOR_BITS: ['The bits of the converter: 10 bits are counts from 0 to 1023.', 'scaling#three-questions'],
+    SENSOR_LOW: ['The measurement at count 0.', 'scaling#three-questions'],
+    SENSOR_RANGE: ['The measurement from the first count to the last.', 'scaling#three-questions'],
+    NOISE: ['How far a conversion is away from the true value, at most.', 'scaling#three-questions'],
+    OUTPUT_MIN: ['The lowest count that your actuator takes.', 'scaling#three-questions'],
+    OUTPUT_MAX: ['The highest count that your actuator takes, such as 255 of a PWM of 8 bits.', 'scaling#three-questions'],
+    RATE: ['How often your firmware calls the step.', 'scaling#three-questions'],
+    INTEGRAL_MIN: ['The lowest value of the integral; 0 and 0 leave it to the limits of the output.', 'behaviour#what-each-feature-is-good-for'],
+    INTEGRAL_MAX: ['The highest value of the integral, or of AN937’s accumulated error.', 'behaviour#what-each-feature-is-good-for'],
+    DURATION: ['How long a time the plots show.', 'tuning#tuning'],
+    SWING: ['How far the experiment lets the measurement swing; 0 leaves it to the noise.', 'tuning#the-oven-by-itself'],
+    CYCLES: ['How many swings are measured.', 'tuning#the-oven-by-itself'],
+    ROBUSTNESS: ['How much the plant may change before the loop swings: more is calmer.', 'tuning#quick-safe-and-calm'],
+    'reverse acting': ['More output makes the measurement fall, as in a refrigerator.', 'behaviour#what-each-feature-is-good-for'],
+    'derivative on the error': ['D sees a step of the setpoint, too, and kicks.', 'behaviour#what-each-feature-is-good-for'],
+    'P on the measurement': ['P does not see the setpoint at all: no kick, and a slower rise.', 'behaviour#what-each-feature-is-good-for'],
+    Overshoot: ['How far the first step goes beyond its setpoint, as a part of the step.', 'behaviour#beside-double-precision'],
+    Settled: ['When the first step stays within 2 % of its height, or within the noise.', 'behaviour#beside-double-precision'],
+    Load: ['The largest error after the first load.', 'behaviour#beside-double-precision'],
+    Ms: ['How much the loop makes some disturbance larger, at most: 1.4 is calm, above 2 is little margin.', 'tuning#how-it-is-judged'],
+    'Phase margin': ['How much later the loop may answer, as an angle, before it swings.', 'tuning#how-it-is-judged'],
+    'Base’s way': ['How far the base goes from where it began.', 'tuning#the-pendulum-by-the-steps-of-an964'],
+    Shove: ['The largest angle after the shove.', 'tuning#the-pendulum-by-the-steps-of-an964'],
+};
+
+// The documents stand beside the page on the site, and above it in the sources.
+export function documentOf(link, location) {
+    const [name, heading] = link.split('#');
+    return location.href.includes('/build/tuner/') ? `../../docs/${name}.md#${heading}` : `../docs/${name}.html#${heading}`;
+}
+
+function showHelp(button, name, [sentence, link]) {
+    const place = find('#help');
+    place.replaceChildren(make('b', { textContent: name }), make('p', { textContent: sentence }),
+        make('a', { href: documentOf(link, location), textContent: 'More in the documents' }));
+    place.showPopover();
+    place.lastChild.focus(); // Escape brings it back to the question mark
+    const box = button.getBoundingClientRect();
+    place.style.left = `${Math.max(8, Math.min(box.left, window.innerWidth - place.offsetWidth - 8))}px`;
+    const below = box.bottom + 6;
+    place.style.top = `${below + place.offsetHeight < window.innerHeight ? below : Math.max(8, box.top - 6 - place.offsetHeight)}px`;
+}
+
+// A question mark for what has help, or nothing.
+export function helpFor(key, name) {
+    if (!HELP[key]) {
+        return '';
+    }
+    const button = make('button', { type: 'button', className: 'help', textContent: '?', 'aria-label': `What is ${name}?`, 'aria-haspopup': 'dialog' });
+    button.addEventListener('click', () => showHelp(button, name, HELP[key]));
+    return button;
+}
