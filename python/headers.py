@@ -13,7 +13,7 @@ import textwrap
 EXTENDED = ("Autotune", "Pid")  # classes of which Python has more: not for `from ._nouns import *`
 TRAILING = 8  # a comment that begins further to the right goes on with the line above
 FUNCTION = re.compile(r"(?:static inline )?((?:const )?[\w ]+?[ *]+)(fixpid_\w+)\(([^{;]*)\)\s*[;{]")
-ARGUMENT = re.compile(r"(?:FIXPID_DATA )?(.*?)\s*(\*?)(\w+)$")
+ARGUMENT = re.compile(r"(?:FIXPID_DATA )?(.*?)\s*(\*?)(\w+)(\[\w*\])?$")
 MEMBER = re.compile(r" +(?:volatile )?((?:struct )?\w+) (\w+)(\[\w+\])?;")
 ENUMERATOR = re.compile(r" +(FIXPID_\w+)(?: = [\w()]+)?,?\s*$")
 CONSTANT = re.compile(r"#define (FIXPID_\w+) (\S+)\s*$")
@@ -72,7 +72,7 @@ class Headers:
             return False
         kind, name, arguments = (part.strip() for part in found.groups())
         pairs = [ARGUMENT.match(one.strip()).groups() for one in arguments.split(",")]
-        self.functions[name] = [prose(above), [(name, kind + star) for kind, star, name in pairs
+        self.functions[name] = [prose(above), [(name, kind + ("*" if array else star)) for kind, star, name, array in pairs
                                                if name not in ("self", "void")], kind]
         return True
 

@@ -188,7 +188,7 @@ def stubs_are_what_there_is():
     seen = 0
     for name, noun in nouns.items():
         own = {verb: method for verb, method in vars(noun).items() if not verb.startswith("_") and callable(method)}
-        assert set(own) - set(classes[name]) <= {"progress", "model", "result", "pack", "unpack"}, (name, set(own))
+        assert set(own) - set(classes[name]) <= {"progress", "model", "result", "pack", "unpack", "state", "restore"}, (name, set(own))
         for verb, node in classes[name].items():
             assert hasattr(noun, verb), (name, verb)
             if verb in own and not node.args.kwonlyargs:
