@@ -11,7 +11,7 @@ import { record, written } from './made.mjs';
 const moduleOf = (name) => import(`${process.cwd()}/${WORK}/modules/${name}.js`);
 const { readCell } = await moduleOf('cells');
 const { modelAt, recordingOf } = await moduleOf('models');
-const { firstGains } = await moduleOf('own');
+const { simcGains } = await moduleOf('own');
 const { PLANT } = await moduleOf('built');
 
 const { recordings, rows, clocks, gains } = JSON.parse(readFileSync('test/web/tuner/recordings.json', 'utf8'));
@@ -158,7 +158,7 @@ function sensitivity(s, { KP, KI, KD, FILTER }) {
 }
 
 for (const [name, s, wanted] of gains) {
-    const found = firstGains({ DAMPING: 0.3, ...s, PLANT: PLANT[s.PLANT] });
+    const found = simcGains({ DAMPING: 0.3, ...s, PLANT: PLANT[s.PLANT] });
     checkNone(`first gains, ${name}`, Object.entries(wanted).filter(([key, value]) => !near(found[key], value, 0.0005)).map(([key, value]) => `${key} is ${found[key]} instead of ${value}`));
     const ms = sensitivity(s, found);
     check(`first gains, ${name}: Ms ${ms.toFixed(2)}`, ms > 1.1 && ms < 2, 'outside 1.1 to 2');
