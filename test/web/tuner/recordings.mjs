@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Recordings of plants that are known, written as loggers and people write them: how
-// the page's modules read and fit them, without a browser.
-// recordings.json has them, row by row, with what has to come out.
+// the page's modules read and fit them, without a browser, and how the page takes them,
+// in one. recordings.json has them, row by row, with what has to come out.
 //
 //   node test/web/tuner/recordings.mjs [words of a row's name]
-import { readFileSync } from 'node:fs';
-import { check, checkNone, finish, random, WORK } from './harness.mjs';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { check, checkNone, finish, open, random, WORK } from './harness.mjs';
+import { violations } from '../browser/browser.mjs';
 import { record, written } from './made.mjs';
 
 const moduleOf = (name) => import(`${process.cwd()}/${WORK}/modules/${name}.js`);
@@ -173,4 +174,161 @@ for (const [name, s, wanted] of gains) {
     check(`the fit is ${away.toFixed(3)} away at most`, away < 0.05);
 }
 
+// --- In the browser -----------------------------------------------------------------
+
+const rowOf = (title) => rows.find(([name]) => name === title);
+const textOfRow = (title) => textOf(...rowOf(title).slice(1, 3));
+const said = (here) => here.textContent('#fit');
+const fitted = (here) => here.waitForSelector('#recorder[data-done]:not([data-busy])');
+
+// As a paste does it: the whole text and one event.
+async function paste(here, text) {
+    await here.evaluate((pasted) => {
+        const field = document.querySelector('#recording');
+        field.value = pasted;
+        field.dispatchEvent(new InputEvent('input', { inputType: 'insertFromPaste', bubbles: true }));
+    }, text);
+    await fitted(here);
+}
+
+async function choose(here, id, value) {
+    await (id === 'at' || id === 'step' ? here.fill(`#record-${id}`, value) : here.selectOption(`#record-${id}`, value));
+    await fitted(here);
+}
+
+// The state after this recording was taken as the plant, and what the page says of its loop.
+async function taken(here, title) {
+    await paste(here, textOfRow(title));
+    await here.click('#use-fit');
+    await here.evaluate(() => new Promise((done) => {
+        requestAnimationFrame(() => requestAnimationFrame(done));
+    }));
+    return { ...await here.evaluate(() => window.tuner.currentState()), margins: await here.textContent('#margins') };
+}
+
+const closeTo = (value, wanted, part = 0.04) => Math.abs(value / wanted - 1) < part;
+
+// Milliseconds that the page was held at most while `act` was done.
+async function held(here, act) {
+    await here.evaluate(() => {
+        let last = performance.now();
+        window.longest = 0;
+        window.ticking = setInterval(() => {
+            const now = performance.now();
+            window.longest = Math.max(window.longest, now - last);
+            last = now;
+        }, 5);
+    });
+    await act();
+    return here.evaluate(() => {
+        clearInterval(window.ticking);
+        return window.longest;
+    });
+}
+
+if (only === '') {
+    const here = await open();
+    const rest = textOfRow('time, drive, temperature');
+    await paste(here, rest);
+    check('three columns: fitted by a worker', (await here.getAttribute('#recorder', 'data-done')) === 'worker' && /^Gain 2[34]\d °C at full drive, lags 1[34]\d s and 1\d/.test(await said(here)), await said(here));
+    check('the step is the drive’s', (await here.inputValue('#record-step')) === '30', await here.inputValue('#record-step'));
+    check('its worth is said', /It fits well: 0\.\d % of the rise is left on average, R² is 0\.999/.test(await said(here)), await said(here));
+    const heads = (await here.locator('#record-lines thead th').allTextContents()).join('|');
+    check('the first lines are shown as understood', heads === 'Line|Time, s|Drive|Measurement', heads);
+    check('the models stand beside one another', (await here.locator('#record-models tbody tr').count()) === 4);
+    await here.click('#record-models [aria-label="Show One lag"]');
+    check('another model can be looked at', /lag 14\d s, dead time 1\d/.test(await said(here)), await said(here));
+    await choose(here, 'drive', '-1');
+    check('without the drive the rest is dead time, and it is said', /dead time (6|7)\d.*say when the step was/.test(await said(here)), await said(here));
+    await choose(here, 'at', '60,0');
+    check('the moment of the step can be typed', /dead time (\d\.|1[01])/.test(await said(here)), await said(here));
+    await choose(here, 'at', '');
+    const box = await here.locator('#fit-plot').boundingBox();
+    const xOf = (t) => box.x + 56 + (box.width - 70) * t / Number(rest.trim().split('\n').at(-1).split(',')[0]);
+    await here.mouse.move(xOf(0) + 3, box.y + 60);
+    await here.mouse.down();
+    await here.mouse.move(xOf(30), box.y + 60);
+    await here.mouse.move(xOf(60) + 1, box.y + 60);
+    await here.mouse.up();
+    await fitted(here);
+    check('or dragged', Math.abs(Number(await here.inputValue('#record-at')) - 60) < 6 && /dead time (\d\.|1\d)/.test(await said(here)), `${await here.inputValue('#record-at')}: ${await said(here)}`);
+    await choose(here, 'at', '');
+    await choose(here, 'seconds', 'ms');
+    check('the unit of time can be chosen', /lags 0\.1/.test(await said(here)), await said(here));
+    await choose(here, 'seconds', '');
+    await choose(here, 'step', '0');
+    check('a step of 0 has a reason of its own', (await said(here)).startsWith('How far was the output stepped?') && await here.isDisabled('#use-fit'), await said(here));
+    await choose(here, 'step', '30');
+
+    for (const [title, reason] of [['pure noise', 'There is no step here'], ['a ramp that ends', 'a ramp that ends'], ['not settled', 'It has not settled'],
+        ['one column', 'Line 1 has one number only'], ['words', 'No line has a number']]) {
+        await paste(here, textOfRow(title));
+        check(`${title}: refused with the reason`, (await said(here)).includes(reason) && await here.isDisabled('#use-fit') && (await here.getAttribute('#fit', 'class')) === 'refused', await said(here));
+    }
+    await paste(here, '');
+    check('nothing says nothing', (await said(here)) === '' && await here.isDisabled('#use-fit') && await here.isHidden('#fit-plot'));
+
+    // Dropped as a file, in German.
+    await here.evaluate((text) => {
+        const data = new DataTransfer();
+        data.items.add(new File([text], 'log.csv', { type: 'text/csv' }));
+        document.querySelector('#recorder').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, textOfRow('German, semicolons'));
+    await here.waitForFunction(() => document.querySelector('#record-notes').textContent.includes('comma'));
+    check('a file is dropped, with decimal commas', /^Gain .* lags 1[34]\d s/.test(await said(here)), await said(here));
+
+    const loops = { 'time, drive, temperature': ['LAGS', 240, 140], integrator: ['INTEGRATOR', 2.4], ringing: ['OSCILLATOR', 240, 10], 'one lag': ['LAGS', 80, 100] };
+    for (const [title, [plant, gain, lag]] of Object.entries(loops)) {
+        const s = await taken(here, title === 'integrator' ? 'an integrator' : title);
+        const ms = Number(/Ms(\d+\.\d+)/.exec(s.margins)?.[1]);
+        const step = Number(await here.inputValue('#record-step'));
+        check(`${title} becomes the plant`, s.PLANT === PLANT[plant] && closeTo(s.GAIN, gain * 30 / step) && (lag === undefined || closeTo(s.T1, lag)), `${s.PLANT} ${s.GAIN} ${s.T1}`);
+        check(`${title}: its loop with the first gains`, !s.margins.includes('unstable') && ms > 1 && ms < 2.05, s.margins);
+        const wanted = firstGains(s);
+        checkNone(`${title}: the gains are the rule’s`, ['KP', 'KI', 'KD'].filter((key) => !near(s[key], wanted[key], 1e-3)).map((key) => `${key} is ${s[key]} instead of ${wanted[key]}`));
+    }
+    checkNone('no error', here.noted.errors);
+    checkNone('no request but the file', here.noted.requests.filter((url) => !/^(file:|data:|blob:)/.test(url)));
+    await here.close();
+}
+
+if (only === '') {
+    const file = `${WORK}/long.csv`;
+    writeFileSync(file, textOfRow('120 000 lines'));
+    for (const how of ['worker', 'slices']) {
+        const here = await open();
+        if (how === 'slices') {
+            await here.addInitScript(() => delete globalThis.Worker);
+            await here.reload();
+            await here.waitForSelector('body[data-ready]');
+        }
+        const longest = await held(here, async () => {
+            await here.setInputFiles('#record-file', file);
+            await here.waitForFunction(() => document.querySelector('#fit').textContent.startsWith('Gain'));
+        });
+        check(`120 000 lines in a ${how}: ${await said(here)}`, (await here.getAttribute('#recorder', 'data-done')) === how && /lags 1[34]\d s and 1[12]/.test(await said(here)), await here.getAttribute('#recorder', 'data-done'));
+        check(`the page is held for ${longest.toFixed(0)} ms at most`, longest < 1500, 'more than 1500 ms');
+        check('the field has its first lines', (await here.inputValue('#recording')).endsWith('… long.csv, 120001 lines'), (await here.inputValue('#recording')).slice(-40));
+        checkNone('no error', here.noted.errors);
+        await here.close();
+    }
+}
+
+if (only === '') {
+    for (const [colorScheme, viewport] of [['light', { width: 1360, height: 1000 }], ['dark', { width: 390, height: 844 }]]) {
+        const here = await open('', { colorScheme, viewport });
+        for (const title of ['time, drive, temperature', 'pure noise']) {
+            await paste(here, textOfRow(title));
+            await here.locator('#record-preview').evaluate((one) => {
+                one.open = true;
+            });
+            checkNone(`${title}, ${colorScheme}: axe-core`, await violations(here));
+            check(`${title}, ${colorScheme}: no sideways scroll`, (await here.evaluate(() => document.documentElement.scrollWidth)) <= viewport.width);
+            if (process.env.PICTURES) {
+                await here.locator('#recorder').screenshot({ path: `${process.env.PICTURES}/${title.replace(/\W+/g, '_')}_${colorScheme}.png` });
+            }
+        }
+        await here.close();
+    }
+}
 await finish();
