@@ -11,6 +11,7 @@ os.chdir(HERE)
 sys.path.insert(0, HERE)  # build_library.py and headers.py
 
 from setuptools import setup
+from setuptools.command.build_clib import build_clib
 from setuptools.command.build_py import build_py
 from setuptools.command.sdist import sdist
 
@@ -27,6 +28,14 @@ class WithProse(build_py):
     def run(self):
         super().run()
         headers.write(os.path.join(self.build_lib, "fixpid"), build_library.HEADERS)
+
+
+class InFolder(build_clib):
+    """gcc writes to `temp/../sim`, for which `temp` has to be there."""
+
+    def run(self):
+        os.makedirs(self.build_temp, exist_ok=True)
+        super().run()
 
 
 class WithSources(sdist):
@@ -68,7 +77,7 @@ setup(
     libraries=[build_library.PAGE_LIBRARY],
     install_requires=["cffi"],
     extras_require={"plot": ["matplotlib"], "arrays": ["numpy"]},
-    cmdclass={"build_py": WithProse, "sdist": WithSources},
+    cmdclass={"build_py": WithProse, "build_clib": InFolder, "sdist": WithSources},
     options={"build": {"build_base": BUILT}, "egg_info": {"egg_base": BUILT},
              "bdist_wheel": {"py_limited_api": "cp38"}},
 )
