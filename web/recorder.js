@@ -31,7 +31,7 @@ export function serveRecordings() {
 let workerAddress = null;
 
 function makeWorker() {
-    workerAddress ??= URL.createObjectURL(new Blob(['"use strict";', find('script[type=module]').textContent], { type: 'text/javascript' }));
+    workerAddress ??= URL.createObjectURL(new Blob(['"use strict";', find('#code').textContent], { type: 'text/javascript' }));
     return new Worker(workerAddress);
 }
 
@@ -312,7 +312,7 @@ export function createRecorder(section, { onUse, outputMost }) {
 
     function sentenceOf(model, step, unit, read) {
         const worth = `It ${model.word}: ${percent(model.part)} of the rise is left on average, R² is ${model.r2.toFixed(4)}`;
-        const rest = read.by === 'start' && model.dead > 0.5 * (model.T1 ?? 0) && model.dead > 5 * read.every
+        const rest = read.by === 'start' && model.dead > 0.3 * (model.T1 ?? 0) && model.dead > 5 * read.every
             ? ' The first line is taken as the moment of the step: if there was rest before it, say when the step was.' : '';
         const slow = model.kind === 'integrating' ? ' A lag far longer than the recording would look the same, and gets the same gains.' : '';
         return `${modelText(model, step, unit)}. ${worth}.${slow}${rest}`;

@@ -284,7 +284,7 @@ if (only === '') {
         const step = Number(await here.inputValue('#record-step'));
         check(`${title} becomes the plant`, s.PLANT === PLANT[plant] && closeTo(s.GAIN, gain * 30 / step) && (lag === undefined || closeTo(s.T1, lag)), `${s.PLANT} ${s.GAIN} ${s.T1}`);
         check(`${title}: its loop with the first gains`, !s.margins.includes('unstable') && ms > 1 && ms < 2.05, s.margins);
-        const wanted = firstGains(s);
+        const wanted = simcGains(s);
         checkNone(`${title}: the gains are the rule’s`, ['KP', 'KI', 'KD'].filter((key) => !near(s[key], wanted[key], 1e-3)).map((key) => `${key} is ${s[key]} instead of ${wanted[key]}`));
     }
     checkNone('no error', here.noted.errors);

@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 # Builds the tuner page into a folder: the C of sim/tuner as WebAssembly, and the
-# modules of web/ in one file with it.
+# modules of web/ in one file with it, packed.
 require 'json'
 require 'zlib'
 require_relative 'tuner/costs'
@@ -16,14 +16,18 @@ folder = ARGV.fetch(0)
 wasm = "#{folder}/tuner.wasm"
 exit 1 unless system(*Sources.wasm(wasm))
 
+def packed(bytes)
+  [Zlib.gzip(bytes, level: Zlib::BEST_COMPRESSION)].pack('m0')
+end
+
 # What the modules import from built.js.
 built = { **Names.lists, COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
-          WASM: [Zlib.gzip(File.binread(wasm), level: Zlib::BEST_COMPRESSION)].pack('m0') }
+          WASM: packed(File.binread(wasm)) }
 text = built.map { |name, value| "export const #{name} = #{JSON.generate(value)};\n" }.join
 File.write("#{folder}/built.js", text)
 
 page = File.read('web/page.html')
-{ 'page.css' => File.read('web/page.css'), 'page.js' => Modules.joined('web/page.js', "#{folder}/built.js") }
+{ 'page.css' => File.read('web/page.css'), 'page.js' => packed(Modules.joined('web/page.js', "#{folder}/built.js")) }
   .each do |name, content|
   raise "web/page.html does not name #{name} once" unless page.scan("/* #{name} */").size == 1
 

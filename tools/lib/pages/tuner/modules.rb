@@ -19,7 +19,7 @@ module Modules
       raise "names of two modules: #{twice.join(', ')}" unless twice.empty?
 
       check_imports(texts)
-      texts.values.join("\n").gsub('</script', '<\/script').gsub(%r{^ *//.*\n}, '').gsub(/^ +|^\n/, '')
+      texts.values.join("\n").gsub(%r{^ *//.*\n}, '').gsub(/^ +|^\n/, '')
     end
 
     private
