@@ -9,7 +9,7 @@ import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './eng
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
 import { createField, readNumber } from './fields.js';
-import { digits, short, shortest, whole } from './format.js';
+import { digits, short, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
 import { wholeHeaderOf } from './header.js';
 import { helpFor } from './help.js';
@@ -22,6 +22,7 @@ import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
 import { createRecorder, serveRecordings } from './recorder.js';
+import { gainsOfRecord, gainsOfRule } from './rules.js';
 import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
 import { csvOf, jsonOf, stateOfJson } from './saved.js';
 import { tableOf, tableText } from './sensor.js';
@@ -47,26 +48,6 @@ let tuned = { key: '', found: null };
 
 function hasTuner(s) {
     return s.CONTROLLER === CONTROLLER.PID && s.PLANT !== PLANT.PENDULUM;
-}
-
-// The integers of a rule as the state's real units, which fold to them again.
-export function gainsOfRule(s, results) {
-    const kiFold = (ki) => Math.floor(ki * 16777216 / s.RATE + 0.5);
-    const kdFold = (kd) => Math.floor(kd * 256 * s.RATE / 2 ** results.FILTER + 0.5);
-    const kept20 = s.OPTIONS & ~OPTION.PROPORTIONAL_ON_MEASUREMENT;
-    return {
-        KP: results.KP / 256,
-        KI: shortest(results.KI * s.RATE / 16777216, kiFold),
-        KD: shortest(results.KD * 2 ** results.FILTER / 256 / s.RATE, kdFold),
-        FILTER: results.FILTER, WEIGHT: results.WEIGHT === 0 ? 1 : results.WEIGHT / 256,
-        OPTIONS: kept20 | results.OPTIONS,
-    };
-}
-
-// The same of a record, and what its configuration says of the actuator.
-function gainsOfRecord(s, results) {
-    return { ...gainsOfRule({ ...s, OPTIONS: s.OPTIONS & ~OPTION.REVERSE }, results),
-        OUTPUT_MIN: results.OUTPUT_MIN, OUTPUT_MAX: results.OUTPUT_MAX };
 }
 
 function tunedFor(s) {

@@ -13,15 +13,12 @@ import { isDeepStrictEqual } from 'node:util';
 const [folder, ...options] = process.argv.slice(2);
 const TABLE = 'test/web/tuner/shared.json';
 
-// page.js needs a document: of it only the function that makes gains of a rule's integers.
-const [gains] = readFileSync('web/page.js', 'utf8').match(/^export function gainsOfRule[^]*?^}$/m);
-writeFileSync(`${folder}/gains.js`, `import { OPTION } from './built.js';\nimport { shortest } from './format.js';\n${gains}\n`);
 const load = (name) => import(`${process.cwd()}/${folder}/${name}.js`);
 const { PARAM, PLANT, WORD } = await load('built');
 const { experiment, run, startEngine } = await load('engine');
 const { fitStep } = await load('fit');
 const { digits, percent, short, whole } = await load('format');
-const { gainsOfRule } = await load('gains');
+const { gainsOfRule } = await load('rules');
 const { headerOf } = await load('header');
 const { marginsOf } = await load('margins');
 const { metricsOf } = await load('metrics');
