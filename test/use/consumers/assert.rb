@@ -10,13 +10,13 @@ TEXT = HEADERS.map { |path| File.read(path).gsub(%r{//.*}, '') }.join.freeze
 # [function, the type of each argument], without what says where it lives, and without
 # those that only an AVR has.
 FUNCTIONS = TEXT.gsub(/^#.*(?:\\\n.*)*/, '').scan(/^\w[\w ]*\b(fixpid_\w+)(?<!_P)\(([^;{)]*)\);/).map do |name, arguments|
-  [name, arguments.split(',').map { |one| one[/\A\s*(?:FIXPID_DATA )?(?:const )?((?:struct )?\w+ \*?)/, 1] }]
+  [name, arguments.split(',').map { |one| one.end_with?('[]') ? 'bytes *' : one[/\A\s*(?:FIXPID_DATA )?(?:const )?((?:struct )?\w+ \*?)/, 1] }]
 end.freeze
 
 STRUCTS = FUNCTIONS.flat_map(&:last).map { |type| type[/struct fixpid_(\w+) \*/, 1] }.compact.uniq.freeze
 
 def pointer(type, number, at)
-  name = type[/struct fixpid_(\w+)/, 1]
+  name = type[/struct fixpid_(\w+)/, 1] or return number == at ? 'wrong ? NULL : bytes' : 'bytes'
   number == at ? "wrong ? WRONG_#{name} : &#{name}" : "&#{name}"
 end
 
@@ -34,6 +34,6 @@ STRUCTS.each do |name|
   puts "#define WRONG_#{name} NULL"
   puts '#endif' if TEXT.include?(object)
 end
-puts 'void call(int number, bool wrong)', '{', '    switch (number) {'
+puts 'static uint8_t bytes[64];', 'void call(int number, bool wrong)', '{', '    switch (number) {'
 calls.each_with_index { |text, number| puts "    case #{number}: (void)#{text}; break;" }
 puts '    default: break;', '    }', '}', 'const char *const calls[] = {', calls.map { |text| "    \"#{text}\"," }, '    NULL};'
