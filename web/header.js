@@ -143,7 +143,7 @@ function plantText(s, unit) {
 
 function marginText({ stable, ms, phaseMargin, gainMargin, delayMargin }) {
     const known = [['Ms', ms, ''], ['phase', phaseMargin, ' degrees'], ['gain', gainMargin, ''], ['dead time', delayMargin, ' s']];
-    return stable ? known.filter(([, value]) => value !== null).map(([name, value, unit]) => `${name} ${plain(digits(value))}${unit}`).join(', ') : 'unstable';
+    return stable ? known.filter(([, value]) => value !== null).map(([name, value, unit]) => `${name} ${plain(digits(value).replace('−', '-'))}${unit}`).join(', ') : 'unstable';
 }
 
 // The counts of a constant in units, and the rate, for the rest of the firmware.
@@ -162,35 +162,28 @@ function scaleLines(s, unit) {
     ];
 }
 
-// The integers alone, which Python's package writes, too.
-export function headerOf(s, results) {
+// With what it is from and for: the plant, the margins, the page's settings, the scale.
+// Python's package writes the same.
+export function wholeHeaderOf(s, results, margins = marginsOf(s, results)) {
     const noun = NOUN[s.CONTROLLER];
     const lines = { fixpid_pid: pidLines, fixpid_an937: an937Lines, fixpid_an964: an964Lines }[noun];
     const unit = plain(s.unit) || 'units';
     return [
         `// Gains of a loop, by the tuner page of fixpid ${VERSION}`,
         `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
+        `// Plant: ${plantText(s, unit)}`,
+        `// Margins: ${marginText(margins)}`,
+        `// The page has it with #${plain(fragmentOf({ ...s, kept: [] }))}`,
         '#ifndef LOOP_GAINS_H',
         '#define LOOP_GAINS_H',
         `#include "${noun}.h"`,
         '',
+        ...scaleLines(s, unit),
+        ...(s.CONTROLLER === CONTROLLER.PID ? [] : [errorText(s)]),
+        ...(s.CONTROLLER === CONTROLLER.AN964 ? limitLines() : []),
         ...lines(s, results),
         '',
         '#endif',
         '',
     ].join('\n');
-}
-
-// With what it is from and for: the plant, the margins, the page's settings, the scale.
-export function wholeHeaderOf(s, results, margins = marginsOf(s, results)) {
-    const unit = plain(s.unit) || 'units';
-    const from = [
-        `// Plant: ${plantText(s, unit)}`,
-        `// Margins: ${marginText(margins)}`,
-        `// The page has it with #${plain(fragmentOf({ ...s, kept: [] }))}`,
-    ];
-    const scale = [...scaleLines(s, unit), ...(s.CONTROLLER === CONTROLLER.PID ? [] : [errorText(s)]),
-        ...(s.CONTROLLER === CONTROLLER.AN964 ? limitLines() : [])];
-    return headerOf(s, results).replace('#ifndef LOOP_GAINS_H', () => `${from.join('\n')}\n#ifndef LOOP_GAINS_H`)
-        .replace(/(#include .*\n\n)/, (include) => `${include}${scale.join('\n')}\n`);
 }

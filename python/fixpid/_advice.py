@@ -4,7 +4,7 @@ refuses, and where a gain is coarse, the loop has little margin or the sensor en
 from ._format import digits, percent, whole
 from ._library import lib
 from ._margins import scale_seconds
-from ._scene import CONTROLLER, PLANT, PROPORTIONAL_ON_MEASUREMENT
+from ._scene import CONTROLLER, PLANT, PROPORTIONAL_ON_MEASUREMENT, REVERSE
 
 COARSE = 50  # below it a step of the integer is more than 2 %
 LIMIT_16 = 32767
@@ -64,6 +64,8 @@ def _scene(s, series):
     low, high = s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]
     last, top = series["MEASUREMENT"][-1], 2**s["SENSOR_BITS"] - 1
     return [text for wrong, text in (
+        (s["PLANT"] != PLANT["PENDULUM"] and (s["GAIN"] < 0) != bool(int(s["OPTIONS"]) & REVERSE),
+         "More output moves this plant away from its setpoint: change “reverse acting” or the sign of its gain."),
         (s["PLANT"] != PLANT["PENDULUM"] and any(not low <= goal <= high for goal in goals),
          "A setpoint lies beyond the sensor’s range and is taken as its end."),
         (s["DURATION"] * s["RATE"] > lib.TUNER_STEPS, f"Shown are the first {whole(lib.TUNER_STEPS)} steps."),

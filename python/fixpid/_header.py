@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The header for the firmware: the integers as the tuner page writes them, web/header.js in Python."""
+"""The header for the firmware as the tuner page writes it, web/header.js in Python: the integers
+that have run, the plant and the margins, and the scale of the measurement."""
 import re
 
 from ._core import __version__
-from ._format import number, short
+from ._format import digits, number, short
 from ._library import lib
-from ._scene import CONTROLLER, DERIVATIVE_ON_ERROR, PROPORTIONAL_ON_MEASUREMENT, REVERSE
+from ._margins import error_per_count
+from ._scene import CONTROLLER, DERIVATIVE_ON_ERROR, PLANT, PROPORTIONAL_ON_MEASUREMENT, REVERSE
 
 KI_FINE = 0x7FFF7F  # the largest without FIXPID_PID_HAS_COARSE_KI
 
@@ -22,9 +24,9 @@ def features_of(s, results):
 
 def _macro(name, lines):
     """A macro of lines, their backslashes under each other."""
-    lines = [f"#define {name}", "    {", *(f"        {line}" for line in lines)]
+    *lines, last = [f"#define {name}", *(f"    {line}" for line in lines)]
     width = max(map(len, lines)) + 1
-    return [*(line.ljust(width) + "\\" for line in lines), "    }"]
+    return [*(line.ljust(width) + "\\" for line in lines), last]
 
 
 def _initialiser(name, fields):
@@ -32,7 +34,7 @@ def _initialiser(name, fields):
     rows = [(f"{value},", field + (f": {meaning}" if meaning else "")) for value, field, meaning in fields]
     width = max(len(value) for value, _ in rows)
     rows[-1] = rows[-1][0][:-1], rows[-1][1]
-    return _macro(name, [f"{value.ljust(width)} /* {text} */" for value, text in rows])
+    return _macro(name, ["{", *(f"    {value.ljust(width)} /* {text} */" for value, text in rows), "}"])
 
 
 def _pid(s, r):
@@ -74,12 +76,75 @@ def _an964(_, r):
                                           (f"{number(r['KI'])}u", "ki", ""), (f"{number(r['KD'])}u", "kd", "")])]
 
 
-def header_of(s, results):
-    """A header with the integers that have run, as an initialiser that every compiler takes."""
+def _error(s):
+    """What the loop passes to a note's controller."""
+    if s["PLANT"] == PLANT["PENDULUM"]:
+        return "// Its error is the angle, with the drift offset of examples/pendulum."
+    scale = error_per_count(s) if s["CONTROLLER"] == CONTROLLER["AN937"] else 1
+    error = "measurement - setpoint" if int(s["OPTIONS"]) & REVERSE else "setpoint - measurement"
+    return f"// Its error is {error if scale == 1 else f'({error}) * {scale}'}, in counts."
+
+
+def _limits():
+    limits = [(f"FIXPID_AN964_{name}_LIMIT", getattr(lib, f"FIXPID_AN964_{name}_LIMIT")) for name in ("SUM", "TERM", "OUTPUT")]
+    lines = ["// Its limits are chosen when it is compiled; the page has run with these:",
+             *(f"// -D{name}={value}" for name, value in limits)]
+    for name, value in limits:
+        lines += [f"#if {name} != {value}", f'#error "these gains are for {name} {value}"', "#endif"]
+    return lines
+
+
+def _plain(text):
+    """What a header may say: nothing that ends a comment or is not ASCII."""
+    return re.sub(r"[\\*?]", "", re.sub(r"[^\x20-\x7E]", "", text))
+
+
+def _plant(s, unit):
+    gain, lag, lag2 = short(s["GAIN"]), short(s["T1"]), short(s["T2"])
+    dead = f"dead time {short(s['DEAD'])} s"
+    if s["PLANT"] == PLANT["MOTOR"]:
+        return f"motor of {gain} V, inertia {lag}e-6 kg m2, friction {lag2} mN m"
+    if s["PLANT"] == PLANT["PENDULUM"]:
+        return f"pendulum of {lag2} m on a base of {gain} m/s"
+    if s["PLANT"] == PLANT["INTEGRATOR"]:
+        return f"integrator, {gain} {unit}/s at full drive, lag {lag2} s, {dead}"
+    if s["PLANT"] == PLANT["OSCILLATOR"]:
+        return (f"{gain} {unit} at full drive, oscillates with {short(1 / s['T1'])} rad/s, "
+                f"damping {short(s['DAMPING'])}, {dead}")
+    return f"{gain} {unit} at full drive, lag {lag} s{f' and {lag2} s' if s['T2'] > 0 else ''}, {dead}"
+
+
+def _margins(margins):
+    known = (("Ms", margins["ms"], ""), ("phase", margins["phaseMargin"], " degrees"), ("gain", margins["gainMargin"], ""),
+             ("dead time", margins["delayMargin"], " s"))
+    said = [f"{name} {_plain(digits(value).replace('−', '-'))}{unit}" for name, value, unit in known if value is not None]
+    return ", ".join(said) if margins["stable"] else "unstable"
+
+
+def _scale(s, unit):
+    """The counts of a constant in units, and the rate, for the rest of the firmware."""
+    low, high = (f"({number(value)})" for value in (s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]))
+    return [
+        f"#define LOOP_RATE {number(s['RATE'])} // steps per second",
+        f"// A constant setpoint of so many {unit} in counts; beyond the sensor it does not compile.",
+        *_macro("LOOP_COUNTS(x)", [
+            "FIXPID_CAST(int16_t,",
+            f"    FIXPID_FOLDED((FIXPID_REAL(x) - {low}) / {number(s['SENSOR_RANGE'])} * {2**int(s['SENSOR_BITS']) - 1}) +",
+            f"        FIXPID_CHECKED(0, (FIXPID_REAL(x) >= {low}) &&",
+            f"                              (FIXPID_REAL(x) <= {high})))"]),
+        ""]
+
+
+def header_of(s, results, margins, link):
+    """A header with the integers that have run, as an initialiser that every compiler takes, and with
+    what it is from: the plant, the margins, and the link of the page that has it."""
     noun, lines = {CONTROLLER["PID"]: ("fixpid_pid", _pid), CONTROLLER["AN937"]: ("fixpid_an937", _an937),
                    CONTROLLER["AN964"]: ("fixpid_an964", _an964)}[s["CONTROLLER"]]
-    unit = re.sub(r"[\\*?]", "", re.sub(r"[^\x20-\x7E]", "", s["unit"])) or "units"
+    unit = _plain(s["unit"]) or "units"
     return "\n".join([
         f"// Gains of a loop, by the tuner page of fixpid {__version__}",
         f"// {short(s['RATE'])} steps per second; sensor: {number(s['SENSOR_BITS'])} bits, {short(s['SENSOR_RANGE'])} {unit}",
-        "#ifndef LOOP_GAINS_H", "#define LOOP_GAINS_H", f'#include "{noun}.h"', "", *lines(s, results), "", "#endif", ""])
+        f"// Plant: {_plant(s, unit)}", f"// Margins: {_margins(margins)}", f"// The page has it with #{_plain(link)}",
+        "#ifndef LOOP_GAINS_H", "#define LOOP_GAINS_H", f'#include "{noun}.h"', "", *_scale(s, unit),
+        *([] if noun == "fixpid_pid" else [_error(s)]), *(_limits() if noun == "fixpid_an964" else []),
+        *lines(s, results), "", "#endif", ""])

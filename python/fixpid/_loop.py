@@ -5,21 +5,21 @@ from dataclasses import dataclass
 
 from . import _scene
 from ._advice import advice_of
+from ._columns import LEAST_ROWS, jump_of, median, outliers_of, thinned
 from ._core import numpy
-from ._fit import fit_step, shape, state_of_fit
+from ._fit import fit_models, model_at
 from ._header import header_of
-from ._margins import margins_of
+from ._margins import margins_of, scale_seconds
 from ._metrics import limited_steps, metrics_of, unit_per_count, units_of
 from ._modules import AutotuneCause, AutotuneState
 from ._nouns import AUTOTUNE_DONE
+from ._own import plant_of_model, range_for, rate_for, with_plant
 from ._pid import Pid
 from ._units import Actuator, Sensor, number
 
 KINDS = {"lags": "LAGS", "oscillator": "OSCILLATOR", "integrator": "INTEGRATOR", "oven": "OVEN"}
 BOUNDS = {"gain": (-1e6, 1e6), "lag": (0, 1e5), "dead": (0, 1e5), "lag2": (0, 1e5), "start": (-1e6, 1e6),
           "damping": (1e-3, 100)}  # as on the page
-LINES_LEAST = 8
-WORTH_LEAST = 0.9  # of a fit: below, the response is not that of a lag
 
 
 def _array(values):
@@ -57,50 +57,65 @@ class Plant:
 
 
 class Fit:
-    """A step response as a lag with dead time: gain (of a unit of the output), lag, dead, start,
-    rise, and error, the root of the mean square. `worth` is R2, 1 where the fit explains all.
-    t and y are the response from the step on, with t = 0 there; `step` is what u rose by, from
-    `before`, and `rest` is where the measurement stands with no output."""
+    """A model of a recorded step: `kind` is first (one lag), second (two), integrating or ringing. It
+    has gain, of a unit of the output; lag, lag2 and damping, of which those that its kind has not
+    are None; dead, the dead time; start and rise. The period of a ringing one is 2 pi lag.
 
-    def __init__(self, found, t, y, before, step):
-        self.start, self.rise, self.lag, self.dead, self.error = (
-            found[name] for name in ("start", "rise", "lag", "dead", "error"))
-        self.before, self.step, self.t, self.y = before, step, t, y
-        mean = sum(y) / len(y)
-        self.worth = 1 - self.error**2 * len(y) / sum((one - mean)**2 for one in y)
+    `worth` says how well it fits, `part` which part of the rise is left on average, `error` the same
+    in units, and `r2` is 1 where it explains all. `refused` is the reason why it is not to be used,
+    or None. `models` has all four by their kinds, and `notes` says what was left out of the
+    recording. t (seconds after the step) and y are what was fitted, `outliers` pairs that were not;
+    u rose by `step` from `before`.
+    """
+
+    def __init__(self, model, recording, models):
+        self._model, self.models = model, models
+        self.kind, self.dead, self.start, self.rise = (model[name] for name in ("kind", "dead", "start", "rise"))
+        self.lag, self.lag2, self.damping = (model.get(name) for name in ("T1", "T2", "damping"))
+        self.worth, self.refused, self.part, self.error, self.r2 = (
+            model[name] for name in ("word", "refused", "part", "error", "r2"))
+        self.t, self.y, self.before, self.step, self.outliers, self.notes = (
+            recording[name] for name in ("t", "y", "before", "step", "outliers", "notes"))
 
     @property
     def gain(self) -> float:
-        """What a unit of u makes of the measurement."""
+        """What a unit of u makes of the measurement; of an integrating one in each second."""
         return self.rise / self.step
 
     @property
     def rest(self) -> float:
-        """The measurement with no output."""
-        return self.start - self.gain * self.before
+        """The measurement with no output; of an integrating one, where it begins."""
+        return self.start - (0 if self.kind == "integrating" else self.gain * self.before)
 
     def at(self, t) -> float:
         """The fitted response at t seconds after the step."""
-        return self.start + self.rise * shape(t, self.lag, self.dead)
+        return model_at(self._model, t)
 
     def plant(self, full: float = 1.0) -> Plant:
         """The Plant for `simulate`; `full` is full drive in units of u."""
-        return Plant(gain=self.gain * full, lag=self.lag, dead=self.dead, start=self.rest)
+        kind = {"integrating": "integrator", "ringing": "oscillator"}.get(self.kind, "lags")
+        numbers = {name: value for name in ("lag", "lag2", "damping") for value in [getattr(self, name)] if value is not None}
+        return Plant(gain=self.gain * full, dead=self.dead, start=self.rest, kind=kind, **numbers)
 
     def plot(self, axes=None):
-        """The recording and the fit, by matplotlib. Returns its axes."""
+        """The recording, the fit and what was left out, by matplotlib. Returns its axes."""
         axes = _axes(axes)
         axes.plot(self.t, self.y, ".", color="0.6", label="recorded")
-        axes.plot(self.t, [self.at(t) for t in self.t], color="tab:blue",
-                  label=f"gain {self.gain:.4g}, lag {self.lag:.4g} s, dead time {self.dead:.4g} s")
+        axes.plot(self.t, [self.at(t) for t in self.t], color="tab:blue", label=self._numbers(" s"))
+        if self.outliers:
+            axes.plot(*zip(*self.outliers), "x", color="tab:red", label="left out")
         axes.set_xlabel("seconds after the step")
-        axes.set_title(f"R² = {self.worth:.3f}")
+        axes.set_title(self.refused or f"{self.kind}: {self.worth}, R² = {self.r2:.4f}", wrap=True)
         axes.legend()
         return axes
 
+    def _numbers(self, second=""):
+        units = {"gain": "", "lag": second, "lag2": second, "damping": "", "dead": second}
+        known = [(name, getattr(self, name), unit) for name, unit in units.items()]
+        return " ".join(f"{name}={value:.4g}{unit}" for name, value, unit in known if value is not None)
+
     def __repr__(self):
-        return (f"<Fit gain={self.gain:.4g} lag={self.lag:.4g} dead={self.dead:.4g} start={self.start:.4g} "
-                f"worth={self.worth:.4f}>")
+        return f"<Fit {self.kind} {self._numbers()} rest={self.rest:.4g}: {self.refused or self.worth}>"
 
 
 def _axes(axes):
@@ -123,52 +138,83 @@ def _seconds(t):
     return [float(one) - float(first) for one in t]
 
 
-def _columns(t, u, y):
-    """Rows of (seconds, output, measurement) in time, without those that are no numbers."""
+def _rows(t, u, y, at):
+    """Columns of seconds after the first line, output and measurement in the order of the times,
+    without lines that are no numbers; the moment `at` in these seconds; and notes."""
     t, y = list(t), list(y)
     u = list(u) if hasattr(u, "__iter__") else [number("u", u)] * len(t)
     if not len(t) == len(u) == len(y):
         raise ValueError(f"t, u and y have {len(t)}, {len(u)} and {len(y)} elements")
-    if len(t) < LINES_LEAST:
-        raise ValueError(f"t has {len(t)} elements: {LINES_LEAST} or more are wanted")
-    rows = [(s, float(a), float(b)) for s, a, b in zip(_seconds(t), u, y)]
-    return sorted((row for row in rows if all(map(math.isfinite, row))), key=lambda row: row[0])
+    if len(t) < LEAST_ROWS:
+        raise ValueError(f"t has {len(t)} elements: {LEAST_ROWS} or more are wanted")
+    seconds = _seconds(t if at is None else [*t, at])
+    rows = [(s, float(a), float(b)) for s, a, b in zip(seconds, u, y)]
+    good = [row for row in rows if all(map(math.isfinite, row))]
+    if len(good) < LEAST_ROWS:
+        raise ValueError(f"t, u and y have {len(good)} lines of numbers: {LEAST_ROWS} or more are wanted")
+    rows = sorted(good, key=lambda row: row[0])
+    begin = rows[0][0]
+    if rows[-1][0] <= begin:
+        raise ValueError("t is refused: the time stands still")
+    notes = [f"Lines that are no numbers left out: {len(t) - len(good)}."] * (len(good) < len(t))
+    return [[row[0] - begin for row in rows], *map(list, list(zip(*rows))[1:])], None if at is None else seconds[-1] - begin, notes
 
 
-def _step_of(rows):
-    """The row of the step, what u is before it and what it rises by: it may change once only."""
-    u = [row[1] for row in rows]
-    levels = min(u), max(u)
-    if levels[0] == levels[1]:
-        raise ValueError(f"u = {levels[0]:g} is refused: it has no step; if the recording begins with it, "
-                         "call fit(t, STEP, y)")
-    middle = sum(levels) / 2
-    above = [one > middle for one in u]
-    changes = [i for i in range(1, len(u)) if above[i] != above[i - 1]]
-    if len(changes) != 1:
-        raise ValueError(f"u is refused: it has {len(changes)} steps, at "
-                         f"{', '.join(f'{rows[i][0]:g} s' for i in changes[:5])}; cut the recording to one")
-    at = changes[0]
-    before = sum(u[:at]) / at
-    return at, before, sum(u[at:]) / len(u[at:]) - before
+def _step_of(u):
+    """The jump of the output, which stands still before and after it."""
+    if min(u) == max(u):
+        raise ValueError(f"u = {u[0]:g} is refused: it has no step; if the recording begins with it, call fit(t, STEP, y)")
+    jump = jump_of(u)
+    if jump is None:
+        raise ValueError("u is refused: it has no step between two values that stand still; if you know the step, cut "
+                         "the recording to it, or call fit(t, STEP, y, at=TIME)")
+    return jump
 
 
-def fit(t, u, y) -> Fit:
-    """A Fit of a recorded step response: times, what the actuator got, and the measurement, of
-    lists, arrays or pandas Series; the times may be uneven, or dates. The step is found in u; a
-    single number is a step of so much, from no output, at the first time. ValueError where there is no step."""
-    rows = _columns(t, u, y)
-    at, before, step = _step_of(rows) if hasattr(u, "__iter__") else (0, 0.0, number("u", u))
+def fit(t, u, y, at=None, refuse=True) -> Fit:
+    """The model that fits a recorded step best, a Fit: of times, what the actuator got, and the
+    measurement, as lists, arrays or pandas Series; the times may be uneven, or dates.
+
+    The step is found in u, which may move again later: what comes then is left out. A single number
+    is a step of so much, from no output, at the first time or at the time `at`. Single values far
+    from their neighbours are left out. A ValueError says why there is no model that can be used;
+    with refuse=False the best one comes all the same, with the reason in `refused`, to look at it.
+    """
+    (times, drive, values), asked, notes = _rows(t, u, y, at)
+    far = set(outliers_of(values))
+    left_out = [(times[i], values[i]) for i in sorted(far)]
+    times, drive, values = ([one for i, one in enumerate(column) if i not in far] for column in (times, drive, values))
+    if hasattr(u, "__iter__"):
+        jump = _step_of(drive)
+    else:
+        jump = {"at": 0, "first": 0, "next": len(times), "from": 0.0, "to": number("u", u)}
+    before, step, begin = jump["from"], jump["to"] - jump["from"], jump["at"]
     if step == 0:
         raise ValueError("u = 0 is refused: a step is not 0")
-    begin = rows[at][0]
-    times, values = [row[0] - begin for row in rows[at:]], [row[2] for row in rows[at:]]
-    if len(times) < LINES_LEAST or times[-1] <= 0:
-        raise ValueError(f"there are {len(times)} lines from the step at {begin:g} s on: {LINES_LEAST} or more are wanted")
-    found = fit_step(times, values)
-    if found is None:
-        raise ValueError("y is refused: it does not rise or fall to another level")
-    return Fit(found, times, values, before, step)
+    step_at = asked if asked is not None else 0.0 if begin == 0 else (times[begin - 1] + times[begin]) / 2
+    every = median([after - one for one, after in zip(times, times[1:])])
+    if left_out:
+        notes.append(f"Left out as outliers: {', '.join(f'{value:g} at {s:g} s' for s, value in left_out[:4])}"
+                     f"{f' and {len(left_out) - 4} more' if len(left_out) > 4 else ''}.")
+    if jump["next"] < len(times):
+        notes.append(f"Used up to {times[jump['next'] - 1]:g} s, after which u moves again.")
+    times, values = thinned(times[jump["first"]:jump["next"]], values[jump["first"]:jump["next"]])
+    found = fit_models(times, values, step_at, every)
+    if "refused" in found:
+        raise ValueError(found["refused"])
+    recording = {"t": [one - step_at for one in times], "y": values, "before": before, "step": step, "notes": notes,
+                 "outliers": [(one - step_at, value) for one, value in left_out]}
+    models = {}
+    for one in found["models"]:
+        models[one["kind"]] = Fit(one, recording, models)
+    best = models[found["chosen"]]
+    if refuse and best.refused is not None:
+        raise ValueError(best.refused)
+    if begin == 0 and asked is None and best.dead > max(5 * every, 0.3 * (best.lag or 0)):
+        notes.append("The first line is taken as the moment of the step: if there was rest before it, say at=TIME.")
+    if best.kind == "integrating":
+        notes.append("A lag far longer than the recording would look the same, and gets the same gains.")
+    return best
 
 
 class Loop:
@@ -221,8 +267,9 @@ class Loop:
                    derivative_on_error=bool(s["OPTIONS"] & _scene.DERIVATIVE_ON_ERROR))
 
     def header(self) -> str:
-        """The header for the firmware, as the page writes it."""
-        return header_of(self.state, self._run["results"])
+        """The header for the firmware, as the page writes it: the integers, what they are from, and
+        LOOP_RATE and LOOP_COUNTS(x) for the rest of the program."""
+        return header_of(self.state, self._run["results"], self.margins, self.link()[1:])
 
     def link(self, page: str = "") -> str:
         """A link that opens this loop in the tuner page, whose address is `page`."""
@@ -298,9 +345,9 @@ def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0) -> 
              "events": _events(events)}
     if sensor.unit:
         state["unit"] = sensor.unit
-    usual = 10 * (plant.lag + plant.lag2 + plant.dead)
+    usual = 10 * scale_seconds(state)
     state["DURATION"] = max(4 / pid.rate, usual if duration is None else number("duration", duration))
-    return Loop(state, actuator)
+    return Loop(_scene.within_reason(state), actuator)
 
 
 def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe") -> Loop:
@@ -313,8 +360,8 @@ def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe
     """
     if not isinstance(fit, Fit):
         raise TypeError(f"fit = {fit!r} is refused: a fixpid.Fit is wanted")
-    if fit.worth < WORTH_LEAST:
-        raise ValueError(f"this response is not that of a lag with dead time: worth {fit.worth:.3f} is below {WORTH_LEAST}")
+    if fit.refused is not None:
+        raise ValueError(fit.refused)
     word = str(robustness).upper()
     robust = _scene.WORD.get(word, robustness)
     if robust not in range(8, 65):
@@ -322,11 +369,17 @@ def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe
     if rule not in ("PI", "PID", "SIMC"):
         raise ValueError(f"rule = {rule!r} is refused: PI, PID and SIMC are legal")
     given = Actuator(0, 1000, full=1.0) if actuator is None else actuator
-    found = state_of_fit({"start": fit.rest, "rise": fit.rise, "lag": fit.lag, "dead": fit.dead},
-                         fit.step / (given.full or given.most), sensor, given,
-                         None if rate is None else number("rate", rate))
-    state = {**_scene.COMMON, **found, "ROBUSTNESS": robust, "rule": "PI" if rule == "SIMC" else rule,
-             "unit": sensor.unit if sensor else ""}
+    full = given.full or given.most
+    plant = plant_of_model(fit._model, fit.step / full, fit.before / full)
+    rate = rate_for(plant, fit.t[-1]) if rate is None else number("rate", rate)
+    if sensor is None:
+        ends = fit.y if fit.kind == "integrating" else (plant["START"], plant["START"] + plant["GAIN"])
+        low, span = range_for(min(ends), max(ends))
+    else:
+        low, span = sensor.low, sensor.high - sensor.low
+    state = _scene.within_reason(with_plant({**_scene.COMMON, **plant, "RATE": rate, "SENSOR_BITS": sensor.bits if sensor else 12,
+                        "SENSOR_LOW": low, "SENSOR_RANGE": span, "OUTPUT_MIN": given.lowest, "OUTPUT_MAX": given.highest,
+                        "ROBUSTNESS": robust, "rule": "PI" if rule == "SIMC" else rule, "unit": sensor.unit if sensor else ""}))
     if rule != "SIMC":
         tried = _scene.experiment(state, [(rule, robust)])
         status = int(tried["results"]["STATUS"])

@@ -119,19 +119,25 @@ def _plant_at(plant, w):
     return sum(out * one for out, one in zip(plant["out"], x)) * cmath.exp(-1j * w * plant["steps"])
 
 
+def error_per_count(s):
+    """What AN937's loop multiplies the error with: its motor has 4000 counts where the sensor has 1023."""
+    return 4 if s["PLANT"] == PLANT["MOTOR"] else 1
+
+
 def controller_of(s, results):
     """In output counts per measurement count: kp, ki per step, kd per step, and the shape of the
     derivative."""
+    sign = -1 if int(s["OPTIONS"]) & REVERSE else 1
     if s["CONTROLLER"] == CONTROLLER["AN937"]:
-        q4 = 4 / 16  # of an error that is 4 per count
+        q4 = error_per_count(s) / 16
         return {"kp": results["KP"] * q4, "ki": results["KI"] * q4, "kd": results["KD"] * q4,
-                "kind": "periodic", "period": int(results["FILTER"]), "sign": 1}
+                "kind": "periodic", "period": int(results["FILTER"]), "sign": sign}
     if s["CONTROLLER"] == CONTROLLER["AN964"]:
         whole = results["KP"] / 1024
         return {"kp": whole, "ki": whole * results["KI"] / 4096, "kd": whole * results["KD"] / 32,
-                "kind": "three", "sign": -1}
+                "kind": "three", "sign": -1 if s["PLANT"] == PLANT["PENDULUM"] else sign}
     return {"kp": results["KP"] / 256, "ki": results["KI"] / 2**24, "kd": results["KD"] / 256, "kind": "filtered",
-            "keep": 1 - 2**-results["FILTER"], "sign": -1 if int(s["OPTIONS"]) & REVERSE else 1}
+            "keep": 1 - 2**-results["FILTER"], "sign": sign}
 
 
 def _derivative_at(controller, w):

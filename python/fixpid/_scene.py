@@ -34,6 +34,15 @@ COMMON = {
     "KP": 1, "KI": 0, "KD": 0, "FILTER": 0, "WEIGHT": 1, "OPTIONS": 0, "INTEGRAL_MIN": 0, "INTEGRAL_MAX": 0,
     "SWING": 0, "CYCLES": 2, "ROBUSTNESS": 16, "unit": "%", "rule": "PI", "events": []}
 
+
+def within_reason(s):
+    """The scene with lags that can be simulated: shorter ones than a part of a step become that."""
+    shortest = 1 / (30 * s["RATE"])
+    if s["PLANT"] == PLANT["OVEN"]:
+        shortest = max(shortest, s["DURATION"] / 5000)
+    return {**s, **{name: max(s[name], shortest) for name in ("T1", "T2") if s[name] > 0}}
+
+
 _lock = threading.Lock()  # the C has one scene
 
 

@@ -338,7 +338,8 @@ def code_of_the_page_runs():
 
 def code_of_the_guide_runs():
     names = names_of(GUIDE)
-    assert abs(names["fit"].gain - 2.4) < 0.1 and names["fit"].worth > 0.99, names["fit"]
+    assert abs(names["fit"].gain - 2.4) < 0.1 and names["fit"].worth == "fits well", names["fit"]
+    assert names["bad"].refused.startswith("The measurement is a ramp that ends after 60.0 s"), names["bad"]
     assert names["loop"].advice == [] and 1.2 < names["door"].margins["ms"] < 1.8, names["door"]
     assert names["kp"] > 0 and names["ki"] > 0 and names["kd"] == 0
     assert "LOOP_CONFIG" in names["header"] and names["link"].startswith("build/tuner/index.html#p=flow&")
