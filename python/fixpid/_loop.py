@@ -2,6 +2,7 @@
 """From a recording to a header: a fit, its gains, and the loop that comes of it."""
 import math
 from dataclasses import dataclass
+from typing import Dict, List, Optional, Tuple
 
 from . import _scene
 from ._advice import advice_of
@@ -67,6 +68,26 @@ class Fit:
     recording. t (seconds after the step) and y are what was fitted, `outliers` pairs that were not;
     u rose by `step` from `before`.
     """
+
+    kind: str
+    lag: Optional[float]
+    lag2: Optional[float]
+    damping: Optional[float]
+    dead: float
+    start: float
+    rise: float
+    worth: str
+    part: float
+    error: float
+    r2: float
+    refused: Optional[str]
+    models: Dict[str, "Fit"]
+    t: List[float]
+    y: List[float]
+    before: float
+    step: float
+    outliers: List[Tuple[float, float]]
+    notes: List[str]
 
     def __init__(self, model, recording, models):
         self._model, self.models = model, models

@@ -105,7 +105,9 @@ def fit_is_the_pages(row):
         near({**model, "refused": worded(model["refused"])}, {**words, "refused": worded(wanted["refused"])}, what)
         if "beyond the recording" in (wanted["refused"] or ""):
             continue
-        near(model, words if best else {}, what)
+        if best:
+            near(model, words, what)
+            same((what, [model.get(name) == 0 for name in ("T2", "dead")]), (what, [wanted.get(name) == 0 for name in ("T2", "dead")]))
         part = FITTED if best else VALLEY
         units = {**dict.fromkeys(("T1", "T2", "dead"), every), **dict.fromkeys(("rise", "start", "error"), abs(wanted["rise"]))}
         for name in set(wanted) - set(words):

@@ -53,11 +53,12 @@ const RECORDINGS = [
     { name: 'rings', ...SPRING },
     { name: 'a lag that is far too long', ...HEATER, T1: 9000 },
     { name: 'a converter of few steps', ...HEATER, noise: 0, rounded: 2 },
-    { name: 'a broken wire', ...HEATER, spikes: { 20: 900, 61: -50, 90: 0 } },
+    { name: 'a broken wire', ...HEATER, spikes: { 20: 900, 61: 77, 90: -50 } },
     { name: 'the drive moves again', ...HEATER, later: { 80: 25 } },
     { name: 'so many lines that means are taken', ...HEATER, lines: 90, dense: 25 },
     { name: 'flat', ...STEP, gain: 0, start: 5, lines: 20 },
     { name: 'noise', ...STEP, gain: 0, lines: 40, noise: 1 },
+    { name: 'a step in its noise', ...HEATER, T1: 20, at: 50, noise: 47 },
     { name: 'a ramp that ends', ...STEP, kind: 'ramp', T1: 5, lines: 80, noise: 0.01 },
     { name: 'a load', ...HEATER, noise: 0.1, load: { from: 60, is: -40 } },
     { name: 'has not settled', ...HEATER, seconds: 240 },
@@ -68,6 +69,8 @@ const RECORDINGS = [
     { name: 'is over between two lines', ...HEATER, T1: 3, dead: 0 },
     { name: 'too few lines after the step', ...HEATER, lines: 40, asked: 800 },
     { name: 'a drive that moves all the time', ...HEATER, lines: 40, later: Object.fromEntries([12, 16, 20, 24, 28, 32, 36].map((i) => [i, 40 + i])) },
+    { name: 'a drive that drifts', ...HEATER, lines: 40, later: { 12: 43, 20: 46, 28: 49 } },
+    { name: 'a drive of many steps', ...HEATER, later: { 20: 10, 30: 40, 40: 10, 50: 40, 60: 10, 70: 40, 80: 10 } },
 ];
 
 const figures = (count, x) => Number(x.toPrecision(count));
@@ -113,7 +116,7 @@ function fitRow({ name, asked = null, ...plant }) {
 
 const HARDWARE = [
     { SENSOR_BITS: 10, SENSOR_LOW: -40, SENSOR_RANGE: 300, OUTPUT_MIN: 0, OUTPUT_MAX: 255, RATE: 4 },
-    { SENSOR_BITS: 15, SENSOR_LOW: 0, SENSOR_RANGE: 64, OUTPUT_MIN: -1000, OUTPUT_MAX: 800, RATE: 50 },
+    { SENSOR_BITS: 15, SENSOR_LOW: 0, SENSOR_RANGE: 64, OUTPUT_MIN: -1000, OUTPUT_MAX: 800, RATE: 200 },
 ];
 const OWN = ['PLANT', 'GAIN', 'T1', 'T2', 'DAMPING', 'DEAD', 'START', 'DURATION', 'SETPOINT', 'OPTIONS', 'KP', 'KI', 'KD', 'FILTER', 'WEIGHT', 'events'];
 
