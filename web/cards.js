@@ -7,6 +7,7 @@ import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
 import { unitsPerCount } from './metrics.js';
 import { color } from './plot.js';
+import { firstRow } from './rules.js';
 
 // Pairs of a name and a figure.
 export function fillFigures(place, pairs) {
@@ -94,11 +95,11 @@ export function drawNyquist(canvas, margins) {
 
 // --- Rules ------------------------------------------------------------------
 
-// Takes a row's gains; onUse gets the row.
-function useButton(row, onUse) {
+// Takes a row's gains; onUse gets the row. The row to begin with says so.
+function useButton(row, rows, onUse) {
     const use = make('button', { type: 'button', textContent: 'Use', 'aria-label': `Use ${ruleName(row)}` });
     use.addEventListener('click', () => onUse(row));
-    return use;
+    return row === firstRow(rows) ? make('span', { className: 'first' }, make('small', { textContent: 'take this first ' }), use) : use;
 }
 
 function gainsOf({ KP, KI, KD }) {
@@ -110,7 +111,7 @@ export function fillRules(place, rows, isChosen, onUse) {
     const cellsOf = (row) => {
         const { gains, found, margins } = row;
         return gains === null ? [ruleName(row), ...new Array(9).fill('–')]
-            : [ruleName(row), useButton(row, onUse), ...gainsOf(gains),
+            : [ruleName(row), useButton(row, rows, onUse), ...gainsOf(gains),
                 margins.stable ? margins.ms.toFixed(2) : 'unstable',
                 margins.stable && margins.phaseMargin !== null ? `${margins.phaseMargin.toFixed(0)}°` : '–',
                 percent(found.overshoot), seconds(found.settled, 'no'), digits(found.meanError)];
@@ -125,7 +126,7 @@ export function fillRecordRules(place, rows, onUse) {
     place.replaceChildren(table('Gains for the chip, per count; ki per second, kd in seconds',
         ['Rule', 'Take it', 'kp', 'ki', 'kd'],
         rows.map((row) => ({ cells: row.gains === null ? [ruleName(row), ...new Array(4).fill('–')]
-            : [ruleName(row), useButton(row, onUse), ...gainsOf(row.gains)] }))));
+            : [ruleName(row), useButton(row, rows, onUse), ...gainsOf(row.gains)] }))));
 }
 
 // --- Chips --------------------------------------------------------------------

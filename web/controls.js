@@ -2,6 +2,7 @@
 // The sliders and numbers of the panel. Their ranges follow the plant, so that
 // the middle of each is a sensible value.
 import { CONTROLLER, PLANT, WORD } from './built.js';
+import { calmSlider, hasLine } from './calm.js';
 import { make } from './dom.js';
 import { createField } from './fields.js';
 import { digits } from './format.js';
@@ -154,7 +155,7 @@ function tunerControls() {
 }
 
 // In the order in which a user knows them: the hardware, the plant, and what follows.
-function ownSections(s) {
+function ownSections(s, line) {
     const hardware = [
         ['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)],
         ['SENSOR_LOW', 'Count 0 is', s.unit, (now) => straight(-now.SENSOR_RANGE, now.SENSOR_RANGE, now.SENSOR_RANGE / 200)],
@@ -167,18 +168,19 @@ function ownSections(s) {
     return [
         { title: '1 Your sensor, actuator, rate', open: true, head: [unitField], controls: hardware },
         { title: '2 Your plant', open: true, head: [kindChoice], controls: plantControls(s) },
-        { title: '3 Your gains', open: true, head: [controllerChoice, firstButton], controls: [...setpointControls(s), ...gainControls(s)] },
+        { title: '3 Your gains', open: true, head: [controllerChoice, firstButton, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
         ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
         { title: 'Noise, integral, time', open: false, controls: more },
     ];
 }
 
 export function sectionsOf(s) {
+    const line = hasLine(s) ? [calmSlider] : [];
     if (isOwn(s)) {
-        return ownSections(s);
+        return ownSections(s, line);
     }
     return [
-        { title: 'Gains', open: true, head: s.PLANT === PLANT.PENDULUM ? [] : [controllerChoice], controls: [...setpointControls(s), ...gainControls(s)] },
+        { title: 'Gains', open: true, head: s.PLANT === PLANT.PENDULUM ? [] : [controllerChoice, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
         { title: 'Plant', open: true, controls: plantControls(s) },
         { title: 'Sensor, actuator, rate', open: false, controls: sensorControls(s) },
         ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),

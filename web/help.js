@@ -8,6 +8,8 @@ export const HELP = {
     KP: ['Counts of output for each count of error.', 'scaling#three-questions'],
     KI: ['How fast the output grows while an error stays: kp divided by Ti.', 'scaling#three-questions'],
     KD: ['Output against the speed of the measurement: kp times Td.', 'scaling#three-questions'],
+    calm: ['Moves kp, ki and kd together by Skogestad’s rules for this plant, from a slow loop with much margin to a quick one with little.', 'tuning#calm-to-quick'],
+    wish: ['Looks for the quickest gains on this slider whose Ms is the one that you write.', 'tuning#calm-to-quick'],
     FILTER: ['Smooths the derivative over about this many steps, as noise makes it restless.', 'behaviour#what-each-feature-is-good-for'],
     WEIGHT: ['The part of the setpoint that P sees: less of it makes a step of the setpoint gentler, and leaves the answer to a load as it is.', 'scaling#a-setpoint-weight-below-1'],
     GAIN: ['How far full drive moves the measurement, or how fast.', 'tuning#the-oven-by-itself'],

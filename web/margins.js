@@ -304,8 +304,27 @@ function peak(at, low, high) {
     return Math.sqrt(low * high);
 }
 
+// How far a plant's gain may be off, as a part of it, for the worst case.
+export const OFF = 0.2;
+
+// The point's least distance from -1 for all gains from 1 - OFF to 1 + OFF times it.
+function leastDistance([re, im]) {
+    const nearest = Math.min(1 + OFF, Math.max(1 - OFF, -re / (re * re + im * im)));
+    return Math.hypot(1 + nearest * re, nearest * im);
+}
+
+// The highest value of what is `of` a point, on the curve and between its points.
+function highest(of, { curve, grid, loop }) {
+    const values = curve.map(of);
+    const best = values.reduce((most, value, i) => (value > values[most] ? i : most), 0);
+    const at = (w) => of(loop(w));
+    return at(peak(at, grid[Math.max(0, best - 1)], grid[Math.min(grid.length - 1, best + 1)]));
+}
+
 // { ms, gainMargin, lowerGainMargin, phaseMargin (degrees),
-// delayMargin (seconds of further dead time), stable, curve: the loop's points }.
+// delayMargin (seconds of further dead time), stable, crossover and turnover: where phase
+// and gain margin are, in radians per step; off: { ms, stable } of the worst gain within
+// OFF; curve: the loop's points at `angles`, and steps of dead time in them }.
 // A margin that there is none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
     const plant = sampledPlant(s, results.DEAD_S);
@@ -316,22 +335,16 @@ export function marginsOf(s, results) {
     const grid = Array.from({ length: POINTS }, (_, i) => lowest * (Math.PI / lowest) ** ((i + 1) / POINTS));
     const curve = grid.map(loop);
     const size = (w) => Math.hypot(...loop(w));
-    const sensitivity = (w) => 1 / Math.hypot(...add(ONE, loop(w)));
-    let best = 0;
     let [upper, lower, phase, delay] = [null, null, null, null];
-    for (let i = 0; i < POINTS; i++) {
-        if (sensitivity(grid[i]) > sensitivity(grid[best])) {
-            best = i;
-        }
-        if (i === 0) {
-            continue;
-        }
+    let [crossover, turnover] = [null, null];
+    for (let i = 1; i < POINTS; i++) {
         const [a, b] = [curve[i - 1], curve[i]];
         const [wa, wb] = [grid[i - 1], grid[i]];
         if ((a[1] > 0) !== (b[1] > 0) && (a[0] < 0 || b[0] < 0)) {
             const w = crossing((x) => loop(x)[1], wa, wb, a[1] > 0);
             const margin = 1 / size(w);
             if (loop(w)[0] < 0 && margin >= 1) {
+                turnover = margin < (upper ?? Infinity) ? w : turnover;
                 upper = Math.min(upper ?? Infinity, margin);
             } else if (loop(w)[0] < 0) {
                 lower = Math.max(lower ?? 0, margin);
@@ -341,6 +354,7 @@ export function marginsOf(s, results) {
             const w = crossing((x) => size(x) - 1, wa, wb, Math.hypot(...a) > 1);
             const [re, im] = loop(w);
             const away = Math.abs(Math.atan2(im, -re)); // from -180 degrees
+            crossover = away * DEGREES < (phase ?? Infinity) ? w : crossover;
             phase = Math.min(phase ?? Infinity, away * DEGREES);
             // More dead time turns the curve back: from above the axis all the
             // way round.
@@ -351,6 +365,7 @@ export function marginsOf(s, results) {
     // The end of the band: a real number there is a crossing, too.
     const end = loop(Math.PI);
     if (end[0] < 0 && 1 / Math.hypot(...end) >= 1) {
+        turnover = 1 / Math.hypot(...end) < (upper ?? Infinity) ? Math.PI : turnover;
         upper = Math.min(upper ?? Infinity, 1 / Math.hypot(...end));
     }
     // So is its start, where the loop has an end there.
@@ -359,12 +374,13 @@ export function marginsOf(s, results) {
         const margin = 1 / Math.hypot(...before);
         [upper, lower] = margin >= 1 ? [Math.min(upper ?? Infinity, margin), lower] : [upper, Math.max(lower ?? 0, margin)];
     }
-    const around = [grid[Math.max(0, best - 1)], grid[Math.min(POINTS - 1, best + 1)]];
+    const stable = isStable(plant, controller, 1, responseSteps(s, results));
     return {
-        ms: sensitivity(peak(sensitivity, ...around)),
-        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase, delayMargin: delay,
-        stable: isStable(plant, controller, 1, responseSteps(s, results)),
-        curve,
+        ms: highest((point) => 1 / Math.hypot(...add(ONE, point)), { curve, grid, loop }),
+        gainMargin: upper, lowerGainMargin: lower, phaseMargin: phase, delayMargin: delay, stable, crossover, turnover,
+        off: { ms: highest((point) => 1 / leastDistance(point), { curve, grid, loop }),
+            stable: stable && 1 + OFF < (upper ?? Infinity) && 1 - OFF > (lower ?? 0) },
+        curve, angles: grid, steps: plant.steps,
     };
 }
 

@@ -21,29 +21,47 @@ function motorAsLags(s) {
     return { gain: s.GAIN * constant / both, lags: [resistance * s.T1 * 1e-6 / both, inductance / resistance] };
 }
 
-// Skogestad's rules (SIMC) for the plant as kp, ki and kd see it, which are counts per
-// count. The hold is half a step of dead time; half of a second lag is dead time, and half
-// lengthens the first. The loop's time constant is the dead time, or a tenth of the lag
-// where that is more; of what oscillates it is 1 / the natural frequency.
-export function simcGains(s) {
+// What Skogestad's rules (SIMC) know of the plant as kp, ki and kd see it, which are counts
+// per count: { gain, lag, dead, own: the loop's time constant that they advise, ti: of dead
+// time and time constant, td, filter }. The hold is half a step of dead time; half of a
+// second lag is dead time, and half lengthens the first. The loop's time constant is the
+// dead time, or a tenth of the lag where that is more; of what oscillates it is
+// 1 / the natural frequency.
+function simcOf(s) {
     const perCount = (gain) => Math.abs(gain) / unitsPerCount(s) / Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN);
     const hold = s.DEAD + 0.5 / s.RATE;
     if (s.PLANT === PLANT.OSCILLATOR) {
-        const k = perCount(s.GAIN) * (s.T1 + hold);
+        const lag = 2 * s.DAMPING * s.T1;
         const filter = Math.min(7, Math.max(0, Math.floor(Math.log2(s.T1 * s.RATE / 10))));
-        return withGains(2 * s.DAMPING * s.T1 / k, 1 / k, s.T1 * s.T1 / k, filter);
+        return { gain: perCount(s.GAIN), lag, dead: hold, own: s.T1, ti: () => lag, td: s.T1 * s.T1 / lag, filter };
     }
     if (s.PLANT === PLANT.INTEGRATOR) {
         const dead = hold + s.T2 / 2;
-        const kp = 1 / (perCount(s.GAIN) * 2 * dead);
-        return withGains(kp, kp / (8 * dead));
+        return { gain: perCount(s.GAIN), lag: 1, dead, own: dead, ti: (wanted) => 4 * wanted, td: 0, filter: 0 };
     }
     const { gain, lags } = s.PLANT === PLANT.MOTOR ? motorAsLags(s) : { gain: s.GAIN, lags: [s.T1, s.T2] };
     const [second, first] = lags.sort((a, b) => a - b);
     const [lag, dead] = [first + second / 2, (s.PLANT === PLANT.MOTOR ? 0.5 / s.RATE : hold) + second / 2];
-    const wanted = dead + Math.max(dead, lag / 10);
-    const kp = lag / (perCount(gain) * wanted);
-    return withGains(kp, kp / Math.min(lag, 4 * wanted));
+    return { gain: perCount(gain), lag, dead, own: Math.max(dead, lag / 10), ti: (wanted) => Math.min(lag, 4 * wanted), td: 0, filter: 0 };
+}
+
+// Their gains, with a time constant `calm` times the one that they advise.
+export function simcGains(s, calm = 1) {
+    const { gain, lag, dead, own, ti, td, filter } = simcOf(s);
+    const wanted = dead + calm * own;
+    const kp = lag / (gain * wanted);
+    return withGains(kp, kp / ti(wanted), kp * td, filter);
+}
+
+// The time constant of the loop with these gains, and how many times that of SIMC it is, if
+// they are SIMC's for any; else null.
+export function calmOf(s) {
+    const { gain, lag, dead, own } = simcOf(s);
+    const calm = (lag / (gain * s.KP) - dead) / own;
+    const other = calm > 0 && Number.isFinite(calm) ? simcGains(s, calm) : null;
+    const near = (key) => Math.abs(s[key] - other[key]) <= 0.002 * other[key];
+    const same = other !== null && near('KI') && near('KD') && (s.KD === 0 || s.FILTER === other.FILTER);
+    return same ? { calm, seconds: calm * own } : null;
 }
 
 function withGains(kp, ki, kd = 0, filter = 0) {

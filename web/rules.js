@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a rule of the autotuner found, as gains of the page's state.
-import { OPTION } from './built.js';
+import { OPTION, WORD } from './built.js';
 import { shortest } from './format.js';
 
 // The integers of a rule as the state's real units, which fold to them again.
@@ -21,4 +21,10 @@ export function gainsOfRule(s, results) {
 export function gainsOfRecord(s, results) {
     return { ...gainsOfRule({ ...s, OPTIONS: s.OPTIONS & ~OPTION.REVERSE }, results),
         OUTPUT_MIN: results.OUTPUT_MIN, OUTPUT_MAX: results.OUTPUT_MAX };
+}
+
+// The row to take first, as docs/tuning.md advises: PI, safe; PID where PI has no gains.
+export function firstRow(rows) {
+    const safe = rows.filter(({ gains, robustness }) => gains !== null && robustness === WORD.SAFE);
+    return safe.find(({ rule }) => rule === 'PI') ?? safe[0] ?? null;
 }

@@ -21,7 +21,7 @@ export function jsonOf(s, figures, margins, header) {
     for (const name of [...LINKED, 'unit', 'rule', 'events', 'kept']) {
         settings[name.toLowerCase()] = s[name];
     }
-    const { curve, ...numbers } = margins;
+    const { curve, angles, steps, ...numbers } = margins;
     return `${JSON.stringify({ format: FORMAT, version: VERSION, link: `#${fragmentOf(s)}`, settings, figures, margins: numbers, header }, null, 2)}\n`;
 }
 
