@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The cards below the plots: figures, margins, rules, chips.
 import { CONTROLLER, COSTS, FEATURES, PLANT } from './built.js';
-import { blank, make, table } from './dom.js';
+import { make, table } from './dom.js';
 import { ruleName } from './experiment.js';
 import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
 import { unitsPerCount } from './metrics.js';
-import { color } from './plot.js';
 import { firstRow } from './rules.js';
 
 // Pairs of a name and a figure.
@@ -38,59 +37,22 @@ export function figuresOf(s, found) {
     ];
 }
 
-function decibels(factor) {
+function inDecibels(factor) {
     return `${(20 * Math.log10(factor)).toFixed(1)} dB`;
 }
 
-export function marginFigures(margins) {
-    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable } = margins;
+export function marginFigures(s, margins) {
+    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable, crossover } = margins;
     return [
         ['Loop', stable ? 'stable' : 'unstable'],
         ['Ms', stable ? ms.toFixed(2) : '–'],
         ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
+        ['Crossover', !stable || crossover === null ? '–' : `${digits(crossover * s.RATE)} rad/s`],
         ['Dead time margin', !stable || delayMargin === null ? '–' : time(delayMargin)],
-        ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${decibels(gainMargin)})`],
+        ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${inDecibels(gainMargin)})`],
         ...(stable && lowerGainMargin !== null
-            ? [['and down to', `${digits(lowerGainMargin)} (${decibels(lowerGainMargin)})`]] : []),
+            ? [['and down to', `${digits(lowerGainMargin)} (${inDecibels(lowerGainMargin)})`]] : []),
     ];
-}
-
-// The loop's curve around -1; the circle is Ms 2.
-export function drawNyquist(canvas, margins) {
-    const { context, width, height } = blank(canvas);
-    const unit = height / 3.4;
-    const [x0, y0] = [width * 0.66, height * 0.42];
-    const at = ([re, im]) => [x0 + unit * re, y0 - unit * im];
-    const circle = (centre, radius, name) => {
-        context.beginPath();
-        context.strokeStyle = color(name);
-        context.arc(...at(centre), radius * unit, 0, 2 * Math.PI);
-        context.stroke();
-    };
-    context.lineWidth = 1;
-    context.strokeStyle = color('grid');
-    context.beginPath();
-    context.moveTo(0, y0);
-    context.lineTo(width, y0);
-    context.moveTo(x0, 0);
-    context.lineTo(x0, height);
-    context.stroke();
-    circle([0, 0], 1, 'line');
-    circle([-1, 0], 0.5, 'output');
-    context.fillStyle = color('output');
-    context.beginPath();
-    context.arc(...at([-1, 0]), 3, 0, 2 * Math.PI);
-    context.fill();
-    context.beginPath();
-    context.strokeStyle = color('measured');
-    context.lineWidth = 1.75;
-    margins.curve.forEach((point, i) => {
-        const far = Math.hypot(...point);
-        const inside = far > 40 ? point.map((one) => one * 40 / far) : point;
-        context[i === 0 ? 'moveTo' : 'lineTo'](...at(inside));
-    });
-    context.stroke();
-    canvas.setAttribute('aria-label', `The loop’s frequency response about −1, Ms ${margins.ms.toFixed(2)}`);
 }
 
 // --- Rules ------------------------------------------------------------------

@@ -2,7 +2,7 @@
 // The page: all that it shows follows from the one state, each time anew.
 import { CAUSE, CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
-import { drawNyquist, figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
+import { figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
 import { find, make, setText } from './dom.js';
 import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
@@ -22,6 +22,7 @@ import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
 import { createRecorder, serveRecordings } from './recorder.js';
+import { drawBode, drawNyquist, offText } from './response.js';
 import { gainsOfRecord, gainsOfRule } from './rules.js';
 import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
 import { csvOf, jsonOf, stateOfJson } from './saved.js';
@@ -222,9 +223,11 @@ function showRecord(s) {
         rest: 2, setpoint: null });
 }
 
-function showMargins(margins) {
-    fillFigures(find('#margins'), marginFigures(margins));
+function showMargins(s, margins) {
+    fillFigures(find('#margins'), marginFigures(s, margins));
     drawNyquist(find('#nyquist'), margins);
+    drawBode(find('#bode'), margins, s.RATE);
+    setText(find('#off'), offText(margins));
 }
 
 function showModes(s) {
@@ -278,7 +281,10 @@ function showRefused(s, found) {
     fillFigures(find('#margins'), []);
     fillKey([find('#key'), find('#mini dl')], []);
     find('#runs').hidden = true;
-    find('#nyquist').getContext('2d').clearRect(0, 0, 1e4, 1e4);
+    for (const id of ['nyquist', 'bode']) {
+        find(`#${id}`).getContext('2d').clearRect(0, 0, 1e4, 1e4);
+    }
+    setText(find('#off'), '');
     find('#header').textContent = '';
     find('#chips').replaceChildren();
     find('#chips-text').textContent = '';
@@ -299,7 +305,7 @@ function showRun(s, found, margins) {
     fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, metricsOf(s, found), margins, onKept);
     showPlots(s, experimenting ?? found);
     showPicture(s, found);
-    showMargins(margins);
+    showMargins(s, margins);
     clock.update();
     fillChips(find('#chips-text'), find('#chips'), s, found.results);
     setText(find('#header'), wholeHeaderOf(s, found.results, margins));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One slider for all gains and a wanted Ms, against numbers that were worked out by hand and
 // a lag's frequency response by its formula; which row of the rules to take first.
+import { msByFormula } from './formula.mjs';
 import { check, checkNone, finish, frame, moduleOf, open, press, stale, text } from './harness.mjs';
 
 const { calmAt, calmGains, gainsForMs, hasLine, placeOf } = await moduleOf('calm');
@@ -31,21 +32,8 @@ check('nor are other presets’ and none', calmOf(ofLink('p=oven')) === null && 
 check('a note’s controller and a pendulum have no line', !hasLine(ofLink('p=an937')) && !hasLine(ofLink('p=an964')) && hasLine(ofLink('p=motor')));
 
 // --- A wanted Ms -----------------------------------------------------------------------
-// Ms of the lag with ten steps of dead time and a sampled PI: the formula alone.
-function msByFormula(kp, ki) {
-    const [a, steps, gain] = [Math.exp(-0.01), 10, 4.095];
-    let most = 0;
-    for (let i = 1; i <= 40000; i++) {
-        const w = Math.PI * i / 40000;
-        // gain (1 - a) / (z - a) z^-steps (kp + ki z / (z - 1)), as size and angle
-        const lag = Math.hypot(Math.cos(w) - a, Math.sin(w));
-        const size = gain * (1 - a) / lag * Math.hypot(kp + ki / 2, ki / 2 / Math.tan(w / 2));
-        const angle = -Math.atan2(Math.sin(w), Math.cos(w) - a) - steps * w - Math.atan2(ki / 2 / Math.tan(w / 2), kp + ki / 2);
-        most = Math.max(most, 1 / Math.sqrt(1 + 2 * size * Math.cos(angle) + size * size));
-    }
-    return most;
-}
-const msOfGains = ({ KP, KI }) => msByFormula(KP, KI / 10);
+const PLANT = { gain: 4.095, lag: 10, dead: 1, rate: 10 };
+const msOfGains = ({ KP, KI }) => msByFormula(PLANT, { kp: KP, ki: KI / 10 });
 for (const wish of [1.2, 1.4, 1.6, 2]) {
     const { gains, ms } = gainsForMs(LAG, wish);
     const own = msOfGains(gains);

@@ -39,7 +39,7 @@ export const text = (here, selector) => here.locator(selector).first().textConte
 
 // All that a person reads, but what is said in passing.
 function readable() {
-    const texts = ['#story', '#advice', '#key', '#metrics', '#runs', '#found', '#rules', '#guard', '#stage', '#margins', '#header', '#chips-text', '#chips']
+    const texts = ['#story', '#advice', '#key', '#metrics', '#runs', '#found', '#rules', '#guard', '#stage', '#margins', '#off', '#header', '#chips-text', '#chips']
         .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
     const legends = [...document.querySelectorAll('figcaption, #flags, #presets button[aria-pressed=true]')].map((one) => one.textContent);
     const fields = [...document.querySelectorAll('#panel input, #events input, #events select, #options input')]
