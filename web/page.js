@@ -13,6 +13,7 @@ import { digits, short, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
 import { wholeHeaderOf } from './header.js';
 import { helpFor } from './help.js';
+import { loadAlone, loadPairs, restText } from './load.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { recordingOf } from './models.js';
@@ -29,6 +30,7 @@ import { csvOf, jsonOf, stateOfJson } from './saved.js';
 import { tableOf, tableText } from './sensor.js';
 import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
 import { createSvg } from './svg.js';
+import { showTour } from './tour.js';
 
 let plots = null;
 let flags = null;
@@ -38,7 +40,7 @@ let pendulum = null;
 let past = null;
 let recorder = null;
 let clock = null;
-let mode = 'run'; // or 'tune': which of the two the plots show
+let mode = 'run'; // or 'load', or 'tune': what the plots show
 let cursor = null;
 let shown = 0; // seconds that the plots show
 
@@ -94,7 +96,7 @@ function panesOf(s, found) {
         leastSpan: 8 * unitsPerCount(s),
         series: [
             { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
-            ...(tuning ? [] : keptSeries(s, 'value')),
+            ...(mode === 'run' ? keptSeries(s, 'value') : []),
             { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
             { name: 'double precision', color: 'twin', width: 1.25, dash: [2, 3], data: tuning ? none : series.VALUE_TWIN },
         ],
@@ -102,7 +104,7 @@ function panesOf(s, found) {
     const output = {
         title: 'Output', unit: 'counts', limited: tuning ? null : limitedSteps(s, found),
         series: [
-            ...(tuning ? [] : keptSeries(s, 'output')),
+            ...(mode === 'run' ? keptSeries(s, 'output') : []),
             { name: 'output', color: 'output', held: true, data: each(series.OUTPUT, (c) => c) },
         ],
     };
@@ -231,7 +233,7 @@ function showMargins(s, margins) {
 }
 
 function showModes(s) {
-    const names = hasTuner(s) ? { run: 'Control', tune: 'Autotune' } : { run: 'Control' };
+    const names = { run: 'Control', load: 'Load alone', ...(hasTuner(s) ? { tune: 'Autotune' } : {}) };
     const place = find('#modes');
     if (place.children.length !== Object.keys(names).length) {
         place.replaceChildren(...Object.entries(names).map(([key, text]) => {
@@ -243,12 +245,12 @@ function showModes(s) {
     for (const button of place.children) {
         button.setAttribute('aria-pressed', String(button.value === mode));
     }
-    find('#keep').hidden = mode === 'tune';
-    find('#flags').hidden = mode === 'tune';
+    find('#keep').hidden = mode !== 'run';
+    find('#flags').hidden = mode !== 'run';
 }
 
 function showPicture(s, found) {
-    const seen = s.PLANT === PLANT.PENDULUM && found.n > 0;
+    const seen = s.PLANT === PLANT.PENDULUM && mode === 'run' && found.n > 0;
     pendulum.update(seen ? { n: found.n, seconds: 1 / s.RATE, angle: found.series.VALUE_TRUE,
         base: found.series.VALUE_BASE, twin: found.series.VALUE_TWIN } : null);
 }
@@ -294,16 +296,12 @@ function showRefused(s, found) {
         events: [], duration: s.DURATION });
 }
 
-function showRun(s, found, margins) {
+function showRun(s, found, margins, alone) {
     const experimenting = showTuning(s);
-    if (experimenting !== null) {
-        fillFigures(find('#metrics'), []);
-    } else {
-        fillFigures(find('#metrics'), figuresOf(s, metricsOf(s, found)));
-    }
+    fillFigures(find('#metrics'), experimenting !== null ? [] : alone !== null ? loadPairs(alone) : figuresOf(s, metricsOf(s, found)));
     fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, metricsOf(s, found), margins));
     fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, metricsOf(s, found), margins, onKept);
-    showPlots(s, experimenting ?? found);
+    showPlots(alone?.s ?? s, experimenting ?? alone?.found ?? found);
     showPicture(s, found);
     showMargins(s, margins);
     clock.update();
@@ -314,21 +312,24 @@ function showRun(s, found, margins) {
 
 function show() {
     const s = currentState();
-    if (!hasTuner(s)) {
+    if (mode === 'tune' && !hasTuner(s)) {
         mode = 'run';
     }
     const found = run(s);
     const good = found.n > 0;
     const margins = good ? marginsOf(s, found.results) : null;
+    const alone = good && mode === 'load' ? loadAlone(s) : null;
+    const advice = adviceOf(s, found, margins);
+    advice.warnings.push(...(alone === null ? [] : [restText(alone) ?? []].flat()));
     showHead(s);
     showModes(s);
-    showAdvice(s, adviceOf(s, found, margins), mode === 'tune');
+    showAdvice(s, advice, mode === 'tune');
     panel(s, good ? notesOf(s, found.results) : {});
     showRecord(s);
     events(s);
     flags(s);
     if (good) {
-        showRun(s, found, margins);
+        showRun(s, found, margins, alone);
     } else {
         showTuning(s);
         showRefused(s, found);
@@ -419,8 +420,8 @@ function savePng() {
 
 function saveCsv() {
     const s = currentState();
-    const found = mode === 'tune' ? tunedFor(s) : run(s);
-    download('loop.csv', csvOf(s, found), 'text/csv');
+    const of = mode === 'load' ? loadAlone(s) : { s, found: mode === 'tune' ? tunedFor(s) : run(s) };
+    download('loop.csv', csvOf(of.s, of.found), 'text/csv');
 }
 
 function saveJson() {
@@ -563,12 +564,13 @@ async function startPage() {
         } });
     recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX });
     listen();
+    showTour(find('#tour'));
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     past.settle();
     // What the tests take hold of.
     window.tuner = { headerOf: wholeHeaderOf, CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, simcGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, isStable, linearResponse,
-        controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
+        controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, redraw: () => plots.redraw(), run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }
 

@@ -77,7 +77,7 @@ export function createPendulum(place, onTime) {
             draw();
         },
         at(seconds) {
-            if (started === null && seconds !== null) {
+            if (run !== null && started === null && seconds !== null) {
                 shown = seconds;
                 draw();
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Series over time on canvases that share their time axis: a pane for each, its
 // legend above it with the values where the cursor is, or at the end.
-import { blank, make } from './dom.js';
+import { blank, make, setText } from './dom.js';
 import { digits } from './format.js';
 
 const GUTTER = 56;
@@ -51,9 +51,12 @@ function extremes(pane) {
     return [low - room, high + room];
 }
 
-// Builds the panes; returns { element, show(view), cursorAt(seconds or null) }.
-// The first pane is drawn on `mini`, too, while that is shown.
+// Builds the panes; returns { element, show(view), cursorAt(seconds or null), redraw() }.
+// The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
+// above each canvas: moving it draws nothing.
 export function createPlots(element, onCursor, mini) {
+    const small = { canvas: mini, mark: cursorMark(), values: [] };
+    mini.after(small.mark);
     let parts = [];
     let view = null;
     let cursor = null;
@@ -63,11 +66,12 @@ export function createPlots(element, onCursor, mini) {
         parts = panes.map((pane, i) => {
             const legend = make('figcaption');
             const canvas = make('canvas', { 'aria-hidden': 'true', className: i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}` });
-            element.append(make('figure', { className: 'pane' }, legend, canvas));
+            const mark = cursorMark();
+            element.append(make('figure', { className: 'pane' }, legend, canvas, mark));
             canvas.addEventListener('pointermove', (event) => moved(event, canvas));
             canvas.addEventListener('pointerdown', (event) => moved(event, canvas));
             canvas.addEventListener('pointerleave', () => onCursor(null));
-            return { canvas, legend, key: keyOf(pane) };
+            return { canvas, legend, mark, key: keyOf(pane), values: [] };
         });
     }
 
@@ -94,25 +98,59 @@ export function createPlots(element, onCursor, mini) {
         if (view === null) {
             return;
         }
+        const drawn = (part, pane, hasAxis) => {
+            drawPane(part.canvas, pane, view, hasAxis);
+            part.box = boxOf(part.canvas, hasAxis);
+        };
         view.panes.forEach((pane, i) => {
-            drawPane(parts[i].canvas, pane, view, cursor, i === view.panes.length - 1);
-            drawLegend(parts[i].legend, pane, view, cursor);
+            drawn(parts[i], pane, i === view.panes.length - 1);
+            parts[i].values = fillLegend(parts[i].legend, pane);
         });
         if (mini.clientWidth > 0) {
-            drawPane(mini, view.panes[0], view, cursor, true);
+            drawn(small, view.panes[0], true);
+        }
+        placeCursor();
+    }
+
+    function placeCursor() {
+        for (const { mark, box, values } of [...parts, small]) {
+            placeMark(mark, box, cursor, view);
+            values.forEach(({ one, place }) => setText(place, digits(valueAt(one, view, cursor), 4)));
         }
     }
 
     function cursorAt(seconds) {
         cursor = seconds;
-        draw();
+        if (view !== null) {
+            placeCursor();
+        }
     }
 
     const observer = new ResizeObserver(draw);
     observer.observe(element);
     observer.observe(mini); // it is drawn when it comes to be seen
-    return { element, show, cursorAt, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
+    return { element, show, cursorAt, redraw: draw, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
         size: () => [PICTURE_WIDTH, view.panes.reduce((sum, _, i) => sum + CAPTION + heightOf(i, view), 0)] };
+}
+
+// --- The cursor --------------------------------------------------------------------
+
+function cursorMark() {
+    return make('i', { className: 'cursor', 'aria-hidden': 'true', hidden: true });
+}
+
+// Where the curves of a canvas are, in what it stands in.
+function boxOf(canvas, hasAxis) {
+    return { left: canvas.offsetLeft + GUTTER, width: canvas.clientWidth - GUTTER - RIGHT, top: canvas.offsetTop + 6,
+        height: canvas.clientHeight - 6 - (hasAxis ? AXIS : 6) };
+}
+
+function placeMark(mark, box, cursor, view) {
+    mark.hidden = cursor === null || box === undefined;
+    if (!mark.hidden) {
+        mark.style.transform = `translate(${box.left + box.width * cursor / view.duration}px, ${box.top}px)`;
+        mark.style.height = `${box.height}px`;
+    }
 }
 
 // Shows `small` while the first pane is out of sight, and keeps what has the focus from
@@ -165,7 +203,7 @@ function paintAll(context, view) {
         context.translate(0, top);
         paintCaption(context, pane);
         context.translate(0, CAPTION);
-        paintPane(context, PICTURE_WIDTH, height, pane, view, null, i === view.panes.length - 1);
+        paintPane(context, PICTURE_WIDTH, height, pane, view, i === view.panes.length - 1);
         context.restore();
         top += CAPTION + height;
     });
@@ -180,24 +218,26 @@ function valueAt(one, view, cursor) {
     return at > last ? null : one.data[Math.max(0, at)];
 }
 
-function drawLegend(legend, pane, view, cursor) {
-    const entries = pane.series.filter((one) => one.data.length > 0).map((one) => {
+// Returns what shows the values: { one: the series, place }.
+function fillLegend(legend, pane) {
+    const values = pane.series.filter((one) => one.data.length > 0).map((one) => ({ one, place: make('output') }));
+    const entries = values.map(({ one, place }) => {
         const mark = make('i');
         mark.style.borderTopColor = color(one.color);
         mark.style.borderTopStyle = one.dash?.length > 0 ? 'dashed' : 'solid';
-        const value = make('output', { textContent: digits(valueAt(one, view, cursor), 4) });
-        return make('span', { className: 'entry' }, mark, `${one.name} `, value);
+        return make('span', { className: 'entry' }, mark, `${one.name} `, place);
     });
     legend.replaceChildren(make('b', { textContent: pane.title }), make('small', { textContent: pane.unit }), ...entries);
+    return values;
 }
 
-function drawPane(canvas, pane, view, cursor, hasAxis) {
+function drawPane(canvas, pane, view, hasAxis) {
     const { context, width, height } = blank(canvas);
-    paintPane(context, width, height, pane, view, cursor, hasAxis);
+    paintPane(context, width, height, pane, view, hasAxis);
 }
 
 // The same on any context that has what a canvas has.
-function paintPane(context, width, height, pane, view, cursor, hasAxis) {
+function paintPane(context, width, height, pane, view, hasAxis) {
     const [low, high] = extremes(pane);
     const bottom = height - (hasAxis ? AXIS : 6);
     const area = { left: GUTTER, right: width - RIGHT, top: 6, bottom };
@@ -215,9 +255,6 @@ function paintPane(context, width, height, pane, view, cursor, hasAxis) {
         drawSeries(context, one, view, x, y, area);
     }
     context.restore();
-    if (cursor !== null) {
-        line(context, x(cursor), area.top, x(cursor), area.bottom, 'dim', []);
-    }
 }
 
 function line(context, x0, y0, x1, y1, name, dash) {

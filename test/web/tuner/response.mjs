@@ -18,8 +18,9 @@ const marginsFor = (s) => {
 };
 
 // --- By the formula ------------------------------------------------------------------------
-for (const [name, dead, calm] of [['ten steps of dead time', 1, 1], ['a part of a step', 0.137, 0.7], ['500 steps', 50, 1.5]]) {
-    const s = { ...LAG, DEAD: dead, ...calmGains({ ...LAG, DEAD: dead }, calm) };
+const SWINGS = { KP: 0.49, KI: 0.49, KD: 0 }; // so much integral that less gain is worse
+for (const [name, dead, more] of [['ten steps of dead time', 1, {}], ['a part of a step', 0.137, {}], ['500 steps', 50, {}], ['much integral', 0.1, SWINGS]]) {
+    const s = { ...LAG, DEAD: dead, ...calmGains({ ...LAG, DEAD: dead }, 1), ...more };
     const { results, margins } = marginsFor(s);
     const plant = { gain: 4.095, lag: 10, dead: results.DEAD_S, rate: 10 };
     const gains = { kp: results.KP / 256, ki: results.KI / 2 ** 24 };
