@@ -67,7 +67,7 @@ function lineText(s) {
     return found === null ? 'these gains are not on its line' : `time constant ${time(found.seconds)}${Math.abs(found.calm - 1) < 0.005 ? ', as SIMC advises' : ''}`;
 }
 
-function wishText(found, wish) {
+export function wishText(found, wish) {
     if (found.gains) {
         const near = Math.abs(found.ms - wish) <= OFF_WISH;
         return near ? `Ms ${found.ms.toFixed(2)} is set.` : `Ms ${found.ms.toFixed(2)} is set, the nearest below ${digits(wish)}: the gains are coarse.`;

@@ -4,7 +4,7 @@
 import { msByFormula } from './formula.mjs';
 import { check, checkNone, finish, frame, moduleOf, open, press, stale, text } from './harness.mjs';
 
-const { calmAt, calmGains, gainsForMs, hasLine, placeOf } = await moduleOf('calm');
+const { calmAt, calmGains, gainsForMs, hasLine, placeOf, wishText } = await moduleOf('calm');
 const { calmOf } = await moduleOf('own');
 const { firstRow } = await moduleOf('rules');
 const { ofLink, presetState } = await moduleOf('state');
@@ -52,6 +52,8 @@ const COARSE = { ...LAG, OUTPUT_MAX: 20 };
 const coarse = gainsForMs(COARSE, 1.6);
 const { KP: steps } = run({ ...COARSE, ...coarse.gains }).results;
 check(`gains of ${steps} / 256 come near: Ms ${coarse.ms?.toFixed(3)}`, steps > 2 && steps < 10 && coarse.ms <= 1.6 && coarse.ms > 1.3);
+check('gains that come no nearer are told', wishText({ gains: {}, ms: 1.5 }, 1.6) === 'Ms 1.50 is set, the nearest below 1.60: the gains are coarse.' &&
+    wishText({}, 1.6) === 'No gains on this line are stable.');
 const refused = gainsForMs({ ...LAG, OUTPUT_MAX: 4 }, 1.001);
 check(`calm gains that the controller refuses are passed over: from ${refused.low?.toFixed(2)}`, refused.low > none.low + 0.05);
 
