@@ -300,7 +300,7 @@ export function createRecorder(section, { onUse, outputMost }) {
         const refused = found === null ? null : read.refused ?? fit.refused ?? model.refused ?? noStep;
         setText(own('#fit'), found === null ? '' : refused ?? sentenceOf(model, step, unit, read));
         own('#fit').className = refused !== null ? 'refused' : model === null ? '' : model.word === 'fits well' ? 'good' : 'fair';
-        own('#use-fit').disabled = found === null || refused !== null;
+        own('#use-fit').disabled = found === null || refused !== null || 'busy' in section.dataset;
         own('#record-notes').replaceChildren(...(read?.notes ?? []).map((note) => make('li', { textContent: note })));
         const drawn = read?.times !== undefined;
         canvas.hidden = !drawn;
