@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "link_frames.h"
+
+#include <string.h>
+
+#include "crc16.h"
+
+// As a receiver walks, from 0 to 0.
+static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
+{
+    unsigned last = 0;
+
+    memcpy(framed + 1, bytes, count);
+    for (unsigned at = 1; at <= count; at++) {
+        if (framed[at] == 0) {
+            framed[last] = (uint8_t)(at - last);
+            last = at;
+        }
+    }
+    framed[last] = (uint8_t)(count + 1 - last);
+    framed[count + 1] = 0;
+    return count + 2;
+}
+
+unsigned link_command(const uint8_t payload[], unsigned bytes, uint8_t framed[])
+{
+    uint8_t whole[LINK_FRAMES_MAX] = {0};
+    const uint16_t check = crc16(payload, bytes, 0xFFFF);
+    uint8_t *const behind = whole + bytes;
+
+    memcpy(whole, payload, bytes);
+    behind[0] = (uint8_t)check;
+    behind[1] = (uint8_t)(check >> 8);
+    for (unsigned at = 0; at < bytes; at++) {
+        behind[2] = (uint8_t)(behind[2] + payload[at]);
+        behind[3] = (uint8_t)(behind[3] + behind[2]);
+    }
+    return stuffed(whole, bytes + 4, framed);
+}
+
+unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
+{
+    uint8_t whole[LINK_FRAMES_MAX];
+    unsigned at = 0;
+
+    if (bytes < 4 || bytes > LINK_FRAMES_MAX) {
+        return 0;
+    }
+    memcpy(whole, framed, bytes);
+    while (at < bytes) {
+        const unsigned next = at + framed[at];
+
+        whole[at] = 0;
+        if (framed[at] == 0 || next > bytes) {
+            return 0;
+        }
+        at = next;
+    }
+    bytes -= 3;
+    if (link_number(whole + 1 + bytes, 2) != crc16(whole + 1, bytes, 0xFFFF)) {
+        return 0;
+    }
+    memcpy(payload, whole + 1, bytes);
+    return bytes;
+}
+
+uint32_t link_number(const uint8_t bytes[], unsigned count)
+{
+    uint32_t number = 0;
+
+    while (count-- != 0) {
+        number = (number << 8) | bytes[count];
+    }
+    return number;
+}
