@@ -23,6 +23,9 @@
 #define COBS_BYTES 1u    // in front of it
 #define NO_COMMAND 0xC0u // a length that none has
 
+// Adding it to a byte counts down, and from 0 to 255.
+#define MINUS_1 0xFFu
+
 uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes)
 {
     uint8_t at = (uint8_t)(bytes + 3u);
@@ -37,7 +40,7 @@ uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes)
     // COBS: each 0 but the last one becomes the way to the next.
     while (at != 0u) {
         at--;
-        way++;
+        way = (uint8_t)(way + 1u);
         if (frame[at] == 0u) {
             frame[at] = way;
             way = 0;
@@ -153,7 +156,7 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
     uint8_t at;
 
     for (at = 1; at < count; at++) {
-        left--;
+        left = (uint8_t)(left + MINUS_1);
         if (left == 0u) {
             left = SELF.bytes[at];
             SELF.bytes[at] = 0;
@@ -248,7 +251,8 @@ static uint8_t set_stream(FIXPID_DATA struct fixpid_link *self)
         return NOT_ALLOWED;
     }
     SELF.every = SELF.bytes[VALUE_AT];
-    SELF.skipped = (uint8_t)(SELF.every - 1u); // the next step has a frame
+    // The next step has a frame.
+    SELF.skipped = (uint8_t)(SELF.every + MINUS_1);
     SELF.why |= STREAM_BEGAN;
     return DONE;
 }
@@ -281,7 +285,7 @@ uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
 // True if the step has a frame.
 static bool is_due(FIXPID_DATA struct fixpid_link *self)
 {
-    SELF.skipped++;
+    SELF.skipped = (uint8_t)(SELF.skipped + 1u);
     if (SELF.every == 0u) {
         return false;
     }
@@ -293,7 +297,7 @@ static bool is_due(FIXPID_DATA struct fixpid_link *self)
         return false;
     }
     SELF.skipped = 0;
-    SELF.frames--;
+    SELF.frames = (uint8_t)(SELF.frames + MINUS_1);
     if (SELF.frames == 0u) {
         SELF.why |= IN_TURN;
     }
@@ -351,6 +355,12 @@ static void watch_hand(FIXPID_DATA struct fixpid_link *self,
 #define watch_hand(self, pid) ((void)0)
 #endif
 
+// It goes round.
+static uint32_t number_after(uint32_t number)
+{
+    return number + 1u;
+}
+
 uint8_t fixpid_link_payload(FIXPID_DATA struct fixpid_link *self,
                             FIXPID_DATA struct fixpid_pid *pid,
                             int16_t setpoint, int16_t measurement,
@@ -366,7 +376,7 @@ uint8_t fixpid_link_payload(FIXPID_DATA struct fixpid_link *self,
                     : ordinary(self, pid, setpoint, measurement, output);
         SELF.told = setpoint;
     }
-    SELF.steps++;
+    SELF.steps = number_after(SELF.steps);
     watch_hand(self, pid);
     return bytes;
 }

@@ -5,6 +5,8 @@
 
 #include "fixpid_link_private.h"
 
+#define TRACKED_BYTES 3u // behind a step's payload
+
 uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
                                  FIXPID_DATA struct fixpid_pid *pid,
                                  int16_t setpoint, int16_t measurement,
@@ -13,12 +15,14 @@ uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
     uint8_t bytes =
         fixpid_link_payload(self, pid, setpoint, measurement, output);
 
-    // A key frame has the state after the tracking, and no payload no frame.
-    if ((uint8_t)(bytes - 1u) < (KEY_BYTES - 1u)) {
+    if (bytes == 0u) {
+        return 0;
+    }
+    if (bytes != KEY_BYTES) { // which has the state after the tracking
         SELF.frame[bytes + 1u] = (uint8_t)((uint16_t)applied & 0xFFu);
         SELF.frame[bytes + 2u] = (uint8_t)((uint16_t)applied >> 8);
         SELF.frame[bytes + 3u] = shift;
-        bytes = (uint8_t)(bytes + 3u);
+        bytes = (uint8_t)(bytes + TRACKED_BYTES);
     }
     return fixpid_link_framed(SELF.frame, bytes);
 }

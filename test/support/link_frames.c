@@ -68,8 +68,8 @@ uint32_t link_number(const uint8_t bytes[], unsigned count)
 {
     uint32_t number = 0;
 
-    while (count-- != 0) {
-        number = (number << 8) | bytes[count];
+    for (unsigned at = count; at != 0; at--) {
+        number = (number << 8) | bytes[at - 1];
     }
     return number;
 }
