@@ -5,18 +5,7 @@
 #include <stdint.h>
 
 #include "fixpid_get.h"
-
-static void put(uint8_t bytes[], uint16_t value)
-{
-    bytes[0] = (uint8_t)(value & 0xFFu);
-    bytes[1] = (uint8_t)(value >> 8);
-}
-
-static void put32(uint8_t bytes[], uint32_t value)
-{
-    put(bytes, (uint16_t)(value & 0xFFFFu));
-    put(&bytes[2], (uint16_t)(value >> 16));
-}
+#include "fixpid_put.h"
 
 static uint32_t get32(const uint8_t bytes[])
 {

@@ -2,8 +2,10 @@
 // The stream, and the three commands that change nothing else.
 #include "fixpid_link.h"
 
-#include "../common/fixpid_bytes.h"
+#define BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_check.h"
+#include "../common/fixpid_get.h"
+#include "../common/fixpid_put.h"
 #include "fixpid_link_private.h"
 #include "fixpid_record.h"
 
@@ -15,6 +17,11 @@
 #define RECORD 0x04u
 
 #define STEP_MASK 0x3FFFu // of the number in a step's frame
+
+// Where numbers are in a step's frame. The measurement is before the output.
+#define SETPOINT_AT 8u // in a key frame, too
+#define STEP_OUTPUT_AT 6u
+#define KEY_OUTPUT_AT 12u
 
 #define STEP_BYTES 7u    // of a step's payload without a setpoint
 #define ANSWER_BYTES 4u  // of an answer's
@@ -129,10 +136,10 @@ static uint8_t bytes_of(uint8_t command)
     return (command < SET_STREAM) ? 2 : 4;
 }
 
-// What a command has behind its payload: the CRC, the sum of all bytes, and the
-// sum of these sums. The CRC alone lets one of 65536 pass that have wrong bytes
-// far apart. The check of a record does not help: it is the same polynomial.
-static uint32_t checks_of(const uint8_t bytes[], uint8_t count)
+// The sum of all bytes, and above it the sum of these sums. A command has it
+// behind the CRC, which alone lets one of 65536 pass that have wrong bytes far
+// apart. The check of a record does not help: it is the same polynomial.
+static uint16_t sums_of(BYTES_DATA const uint8_t bytes[], uint8_t count)
 {
     uint8_t sum = 0;
     uint8_t sums = 0;
@@ -142,8 +149,7 @@ static uint32_t checks_of(const uint8_t bytes[], uint8_t count)
         sum = (uint8_t)(sum + bytes[at]);
         sums = (uint8_t)(sums + sum);
     }
-    return check_of(bytes, count) |
-           ((uint32_t)(uint16_t)(sum | ((uint16_t)sums << 8)) << 16);
+    return (uint16_t)(sum | ((uint16_t)sums << 8));
 }
 
 // True if the `count` bytes are a command: the way from one 0 to the next comes
@@ -169,8 +175,12 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
     if (count != (uint8_t)(bytes + CHECKS_BYTES + COBS_BYTES)) {
         return false;
     }
-    return get32(&SELF.bytes[bytes + COMMAND_AT]) ==
-           checks_of(&SELF.bytes[COMMAND_AT], bytes);
+    if (get(&SELF.bytes[bytes + COMMAND_AT]) !=
+        check_of(&SELF.bytes[COMMAND_AT], bytes)) {
+        return false;
+    }
+    return get(&SELF.bytes[bytes + COMMAND_AT + 2u]) ==
+           sums_of(&SELF.bytes[COMMAND_AT], bytes);
 }
 
 bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte)
@@ -304,38 +314,19 @@ static bool is_due(FIXPID_DATA struct fixpid_link *self)
     return true;
 }
 
-// The payload of a step from which the other end can begin. The state is as
-// long as a frame is behind it: what of it is not sent, the checks overwrite.
-static uint8_t key(FIXPID_DATA struct fixpid_link *self,
-                   FIXPID_DATA const struct fixpid_pid *pid, int16_t setpoint,
-                   int16_t measurement, int16_t output)
+// What is only in the payload of a step from which the other end can begin. The
+// state is as long as a frame is behind it: what of it is not sent, the checks
+// overwrite.
+static void begin_key(FIXPID_DATA struct fixpid_link *self,
+                      FIXPID_DATA const struct fixpid_pid *pid)
 {
+    fixpid_pid_state(pid, &SELF.frame[KEY_OUTPUT_AT]);
     SELF.frame[1] = KEY;
     SELF.frame[2] = SELF.why;
     SELF.frame[3] = SELF.tag;
     put32(&SELF.frame[4], SELF.steps);
-    put(&SELF.frame[8], (uint16_t)setpoint);
-    put(&SELF.frame[10], (uint16_t)measurement);
-    fixpid_pid_state(pid, &SELF.frame[12]);
-    put(&SELF.frame[12], (uint16_t)output); // not what was applied
     SELF.why = 0;
     SELF.frames = 0;
-    return KEY_BYTES;
-}
-
-static uint8_t ordinary(FIXPID_DATA struct fixpid_link *self,
-                        FIXPID_DATA const struct fixpid_pid *pid,
-                        int16_t setpoint, int16_t measurement, int16_t output)
-{
-    SELF.frame[1] = fixpid_pid_flags(pid) | STEP;
-    put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
-    put(&SELF.frame[4], (uint16_t)measurement);
-    put(&SELF.frame[6], (uint16_t)output);
-    if (setpoint == SELF.told) {
-        return STEP_BYTES;
-    }
-    put(&SELF.frame[8], (uint16_t)setpoint);
-    return STEP_BYTES + 2u;
 }
 
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
@@ -355,28 +346,35 @@ static void watch_hand(FIXPID_DATA struct fixpid_link *self,
 #define watch_hand(self, pid) ((void)0)
 #endif
 
-// It goes round.
-static uint32_t number_after(uint32_t number)
-{
-    return number + 1u;
-}
-
 uint8_t fixpid_link_payload(FIXPID_DATA struct fixpid_link *self,
                             FIXPID_DATA struct fixpid_pid *pid,
                             int16_t setpoint, int16_t measurement,
                             int16_t output)
 {
     uint8_t bytes = 0;
+    uint8_t at = STEP_OUTPUT_AT;
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(pid != 0);
     if (is_due(self)) {
-        bytes = (SELF.why != 0u)
-                    ? key(self, pid, setpoint, measurement, output)
-                    : ordinary(self, pid, setpoint, measurement, output);
+        bytes = STEP_BYTES;
+        if (SELF.why != 0u) {
+            begin_key(self, pid);
+            bytes = KEY_BYTES;
+            at = KEY_OUTPUT_AT;
+        } else {
+            SELF.frame[1] = fixpid_pid_flags(pid) | STEP;
+            put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
+            if (setpoint != SELF.told) {
+                bytes = STEP_BYTES + 2u;
+            }
+        }
+        put(&SELF.frame[SETPOINT_AT], (uint16_t)setpoint);
+        put(&SELF.frame[at - 2u], (uint16_t)measurement);
+        put(&SELF.frame[at], (uint16_t)output); // not what was applied
         SELF.told = setpoint;
     }
-    SELF.steps = number_after(SELF.steps);
+    SELF.steps++; // and round
     watch_hand(self, pid);
     return bytes;
 }
