@@ -18,10 +18,7 @@
 
 #define STEP_MASK 0x3FFFu // of the number in a step's frame
 
-// Where numbers are in a step's frame. The measurement is before the output.
-#define SETPOINT_AT 8u // in a key frame, too
-#define STEP_OUTPUT_AT 6u
-#define KEY_OUTPUT_AT 12u
+#define SETPOINT_AT 8u // in the frame of a step, and in a key frame
 
 #define STEP_BYTES 7u    // of a step's payload without a setpoint
 #define ANSWER_BYTES 4u  // of an answer's
@@ -38,9 +35,6 @@ uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes)
     uint8_t at = (uint8_t)(bytes + 3u);
     uint8_t way = 0;
 
-    if (bytes == 0u) {
-        return 0;
-    }
     put(&frame[bytes + 1u], check_of(&frame[1], bytes));
     frame[0] = 0;
     frame[at] = 0;
@@ -136,10 +130,10 @@ static uint8_t bytes_of(uint8_t command)
     return (command < SET_STREAM) ? 2 : 4;
 }
 
-// The sum of all bytes, and above it the sum of these sums. A command has it
-// behind the CRC, which alone lets one of 65536 pass that have wrong bytes far
+// True if the sum of all bytes is behind the CRC, and the sum of these sums
+// behind it. The CRC alone lets one of 65536 pass that have wrong bytes far
 // apart. The check of a record does not help: it is the same polynomial.
-static uint16_t sums_of(BYTES_DATA const uint8_t bytes[], uint8_t count)
+static bool sums_fit(FIXPID_DATA const uint8_t bytes[], uint8_t count)
 {
     uint8_t sum = 0;
     uint8_t sums = 0;
@@ -149,7 +143,10 @@ static uint16_t sums_of(BYTES_DATA const uint8_t bytes[], uint8_t count)
         sum = (uint8_t)(sum + bytes[at]);
         sums = (uint8_t)(sums + sum);
     }
-    return (uint16_t)(sum | ((uint16_t)sums << 8));
+    if (bytes[count + 2u] != sum) {
+        return false;
+    }
+    return bytes[count + 3u] == sums;
 }
 
 // True if the `count` bytes are a command: the way from one 0 to the next comes
@@ -179,8 +176,7 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
         check_of(&SELF.bytes[COMMAND_AT], bytes)) {
         return false;
     }
-    return get(&SELF.bytes[bytes + COMMAND_AT + 2u]) ==
-           sums_of(&SELF.bytes[COMMAND_AT], bytes);
+    return sums_fit(&SELF.bytes[COMMAND_AT], bytes);
 }
 
 bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte)
@@ -247,7 +243,8 @@ static uint8_t hello(FIXPID_DATA struct fixpid_link *self,
     SELF.frame[7] = FIXPID_VERSION_PATCH;
     SELF.frame[8] = FIXPID_PID_FEATURES;
     SELF.frame[9] = SELF.allowed;
-    put32(&SELF.frame[10], board->period_us);
+    put(&SELF.frame[10], (uint16_t)(board->period_us & 0xFFFFu));
+    put(&SELF.frame[12], (uint16_t)(board->period_us >> 16));
     put(&SELF.frame[14], board->manual_steps);
     for (at = 0; at < FIXPID_LINK_NAME; at++) {
         SELF.frame[at + 16u] = board->name[at];
@@ -324,7 +321,8 @@ static void begin_key(FIXPID_DATA struct fixpid_link *self,
     SELF.frame[1] = KEY;
     SELF.frame[2] = SELF.why;
     SELF.frame[3] = SELF.tag;
-    put32(&SELF.frame[4], SELF.steps);
+    put(&SELF.frame[4], (uint16_t)(SELF.steps & 0xFFFFu));
+    put(&SELF.frame[6], (uint16_t)(SELF.steps >> 16));
     SELF.why = 0;
     SELF.frames = 0;
 }
@@ -346,32 +344,26 @@ static void watch_hand(FIXPID_DATA struct fixpid_link *self,
 #define watch_hand(self, pid) ((void)0)
 #endif
 
-uint8_t fixpid_link_payload(FIXPID_DATA struct fixpid_link *self,
-                            FIXPID_DATA struct fixpid_pid *pid,
-                            int16_t setpoint, int16_t measurement,
-                            int16_t output)
+uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
+                          FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint)
 {
     uint8_t bytes = 0;
-    uint8_t at = STEP_OUTPUT_AT;
 
     FIXPID_ASSERT(VALID(self));
     FIXPID_ASSERT(pid != 0);
     if (is_due(self)) {
-        bytes = STEP_BYTES;
+        bytes = KEY_BYTES;
         if (SELF.why != 0u) {
             begin_key(self, pid);
-            bytes = KEY_BYTES;
-            at = KEY_OUTPUT_AT;
         } else {
             SELF.frame[1] = fixpid_pid_flags(pid) | STEP;
             put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
+            bytes = STEP_BYTES;
             if (setpoint != SELF.told) {
                 bytes = STEP_BYTES + 2u;
             }
         }
         put(&SELF.frame[SETPOINT_AT], (uint16_t)setpoint);
-        put(&SELF.frame[at - 2u], (uint16_t)measurement);
-        put(&SELF.frame[at], (uint16_t)output); // not what was applied
         SELF.told = setpoint;
     }
     SELF.steps++; // and round
@@ -383,8 +375,13 @@ uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
                          FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint,
                          int16_t measurement, int16_t output)
 {
-    const uint8_t bytes =
-        fixpid_link_payload(self, pid, setpoint, measurement, output);
+    const uint8_t bytes = fixpid_link_begin(self, pid, setpoint);
+    const uint8_t at = (bytes == KEY_BYTES) ? KEY_OUTPUT_AT : STEP_OUTPUT_AT;
 
+    if (bytes == 0u) {
+        return 0;
+    }
+    put(&SELF.frame[at - 2u], (uint16_t)measurement);
+    put(&SELF.frame[at], (uint16_t)output); // not what was applied
     return fixpid_link_framed(SELF.frame, bytes);
 }

@@ -40,14 +40,18 @@
 #define TAG_AT 2u
 #define VALUE_AT 3u
 
-#define KEY_BYTES 25u // of its payload
+// Of a step's frame, as fixpid_link_begin leaves it: the payload's bytes, and
+// where the output is, with the measurement before it.
+#define KEY_BYTES 25u
+#define KEY_OUTPUT_AT 12u
+#define STEP_OUTPUT_AT 6u
 
 // Where an answer's record is in `frame`.
 #define RECORD_AT 4u
 
 #define fixpid_link_is_new FIXPID_MARKED(link, is_new)
 #define fixpid_link_reply FIXPID_MARKED(link, reply)
-#define fixpid_link_payload FIXPID_MARKED(link, payload)
+#define fixpid_link_begin FIXPID_MARKED(link, begin)
 #define fixpid_link_framed FIXPID_MARKED(link, framed)
 
 // True if the command that waits has not been carried out yet; it then is the
@@ -57,15 +61,13 @@ bool fixpid_link_is_new(FIXPID_DATA struct fixpid_link *self);
 // Makes the answer with the result; returns its bytes. Nothing waits any more.
 uint8_t fixpid_link_reply(FIXPID_DATA struct fixpid_link *self);
 
-// The step, without a frame around its payload, which begins at frame[1];
-// returns the payload's bytes.
-uint8_t fixpid_link_payload(FIXPID_DATA struct fixpid_link *self,
-                            FIXPID_DATA struct fixpid_pid *pid,
-                            int16_t setpoint, int16_t measurement,
-                            int16_t output);
+// A step, with its payload from frame[1] on but for the measurement and the
+// output; returns the payload's bytes, 0 if the step has no frame.
+uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
+                          FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint);
 
-// Makes a frame of the `bytes` from frame[1] on; returns its bytes, 0 of 0.
-// pre: bytes is at most FIXPID_LINK_FRAME - 4
+// Makes a frame of the `bytes` from frame[1] on; returns its bytes.
+// pre: bytes is within 1..FIXPID_LINK_FRAME - 4
 uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes);
 
 #endif
