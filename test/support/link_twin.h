@@ -8,7 +8,7 @@
 
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
-#include "link_frames.h"
+#include "numbers_link.h"
 
 struct link_twin {
     struct fixpid_pid pid;

@@ -4,14 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "crc16.h"
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
-#include "link_frames.h"
 #include "link_twin.h"
 #include "numbers.h"
 #include "numbers_control.h"
+#include "numbers_link.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/link/fixpid_link.c")

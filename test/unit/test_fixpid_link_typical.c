@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The link of a controller without any of its features: project.yml defines
 // FIXPID_PID_FEATURES 0x00 for it.
-#include "crc16.h"
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
-#include "link_frames.h"
+#include "numbers_link.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/link/fixpid_link.c")

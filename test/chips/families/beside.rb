@@ -76,7 +76,7 @@ module Beside
     end
 
     def library(name, tree)
-      Modules.sources(Modules::PARTS.dig(name, :of) || name, tree).map { |source| "#{tree}/#{source}" }
+      Modules.linked(Modules::PARTS.dig(name, :of) || name, tree).map { |source| "#{tree}/#{source}" }
     end
 
     # The folder of its recorded rows, which the same file has calls of.

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "link_frames.h"
+#include "numbers_link.h"
 
 #include <string.h>
 
-#include "crc16.h"
+// CRC-16 by its polynomial, a byte at a time.
+static uint16_t check_of(const uint8_t bytes[], unsigned count)
+{
+    uint16_t check = 0xFFFF;
+
+    for (unsigned at = 0; at < count; at++) {
+        uint16_t x = (uint16_t)((check >> 8) ^ bytes[at]);
+
+        x ^= (uint16_t)(x >> 4);
+        check = (uint16_t)(((uint32_t)check << 8) ^ ((uint32_t)x << 12) ^
+                           ((uint32_t)x << 5) ^ x);
+    }
+    return check;
+}
 
 // As a receiver walks, from 0 to 0.
 static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
@@ -25,7 +38,7 @@ static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
 unsigned link_command(const uint8_t payload[], unsigned bytes, uint8_t framed[])
 {
     uint8_t whole[LINK_FRAMES_MAX] = {0};
-    const uint16_t check = crc16(payload, bytes, 0xFFFF);
+    const uint16_t check = check_of(payload, bytes);
     uint8_t *const behind = whole + bytes;
 
     memcpy(whole, payload, bytes);
@@ -57,7 +70,7 @@ unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
         at = next;
     }
     bytes -= 3;
-    if (link_number(whole + 1 + bytes, 2) != crc16(whole + 1, bytes, 0xFFFF)) {
+    if (link_number(whole + 1 + bytes, 2) != check_of(whole + 1, bytes)) {
         return 0;
     }
     memcpy(payload, whole + 1, bytes);
