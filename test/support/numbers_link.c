@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "numbers_link.h"
 
-#include <string.h>
+// SDCC's port for PIC18 has no memcpy.
+static void copy(uint8_t to[], const uint8_t from[], unsigned count)
+{
+    for (unsigned at = 0; at < count; at++) {
+        to[at] = from[at];
+    }
+}
 
 // CRC-16 by its polynomial, a byte at a time.
 static uint16_t check_of(const uint8_t bytes[], unsigned count)
@@ -23,7 +29,7 @@ static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
 {
     unsigned last = 0;
 
-    memcpy(framed + 1, bytes, count);
+    copy(framed + 1, bytes, count);
     for (unsigned at = 1; at <= count; at++) {
         if (framed[at] == 0) {
             framed[last] = (uint8_t)(at - last);
@@ -41,7 +47,7 @@ unsigned link_command(const uint8_t payload[], unsigned bytes, uint8_t framed[])
     const uint16_t check = check_of(payload, bytes);
     uint8_t *const behind = whole + bytes;
 
-    memcpy(whole, payload, bytes);
+    copy(whole, payload, bytes);
     behind[0] = (uint8_t)check;
     behind[1] = (uint8_t)(check >> 8);
     for (unsigned at = 0; at < bytes; at++) {
@@ -59,7 +65,7 @@ unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
     if (bytes < 4 || bytes > LINK_FRAMES_MAX) {
         return 0;
     }
-    memcpy(whole, framed, bytes);
+    copy(whole, framed, bytes);
     while (at < bytes) {
         const unsigned next = at + framed[at];
 
@@ -73,7 +79,7 @@ unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
     if (link_number(whole + 1 + bytes, 2) != check_of(whole + 1, bytes)) {
         return 0;
     }
-    memcpy(payload, whole + 1, bytes);
+    copy(payload, whole + 1, bytes);
     return bytes;
 }
 

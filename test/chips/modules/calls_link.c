@@ -61,7 +61,7 @@ static uint8_t answer_frame(uint8_t front, uint8_t bytes)
 static uint8_t add_value(uint8_t command)
 {
     struct fixpid_record record;
-    struct fixpid_pid_config wanted = config;
+    struct fixpid_pid_config wanted;
     const int16_t value = numbers_int16();
 
     payload[2] = (uint8_t)((uint16_t)value & 0xFFu);
@@ -71,6 +71,8 @@ static uint8_t add_value(uint8_t command)
         return 3;
     }
     if (command == LINK_WRITE) {
+        fixpid_record_pack(&record, &config);
+        (void)fixpid_record_unpack(&record, &wanted); // SDCC cannot assign it
         numbers_pid_gains(&wanted.gains);
         if (numbers_one_in(3)) {
             numbers_pid_range(&wanted.output_min, &wanted.output_max);
@@ -198,25 +200,49 @@ void calls_rows(void)
     // A chip has no room for them.
 }
 
+static void program_call(void)
+{
+    switch (numbers_below(8)) {
+    case 0:
+        init();
+        break;
+    case 1:
+        fixpid_link_lost(&wire);
+        break;
+    case 2:
+        fixpid_pid_reset(&pid);
+        fixpid_link_changed(&wire);
+        break;
+    default:
+        fixpid_link_allow(&wire, (uint8_t)numbers_below(16));
+        break;
+    }
+}
+
+static void random_call(void)
+{
+    switch (numbers_below(16)) {
+    case 0:
+        program_call();
+        break;
+    case 1:
+        damaged_command();
+        break;
+    case 2:
+    case 3:
+    case 4:
+        command();
+        break;
+    default:
+        step();
+        break;
+    }
+}
+
 void calls_random(uint32_t count)
 {
     init();
     for (uint32_t i = 0; i < count; i++) {
-        if (numbers_one_in(100)) {
-            init();
-        } else if (numbers_one_in(12)) {
-            fixpid_link_allow(&wire, (uint8_t)numbers_below(16));
-        } else if (numbers_one_in(20)) {
-            fixpid_link_lost(&wire);
-        } else if (numbers_one_in(20)) {
-            fixpid_pid_reset(&pid);
-            fixpid_link_changed(&wire);
-        } else if (numbers_one_in(4)) {
-            command();
-        } else if (numbers_one_in(8)) {
-            damaged_command();
-        } else {
-            step();
-        }
+        random_call();
     }
 }
