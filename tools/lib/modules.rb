@@ -78,10 +78,13 @@ module Modules
     'link' => {
       title: 'Link', what: 'The steps of fixpid_pid over a serial wire, and commands back',
       fuzz: [20_000, 512], uses: %w[pid record],
-      # A turn for each byte of a frame, and where the loop is left; the check has one for each bit, too.
-      calls: [{ object: 'wire', calls: 1000, pic: %w[pointer object], without: /_tracked\.o\z/,
-                functions: { 'fixpid_link_step' => 'step', 'fixpid_link_receive' => 'receive', 'fixpid_link_answer' => 'answer' },
-                unbounded: %w[fixpid_link_step fixpid_link_receive fixpid_link_answer] }]
+      # The turns of a check are those of its bytes, which no constant tells. What meters an ARM passes four arguments, and a
+      # PIC18F4520 has no room for these calls beside the controller.
+      calls: [[:avr, %w[step receive]], [:avr, %w[answer]], [:arm, %w[receive answer]]].map do |kind, names|
+        { object: 'wire', calls: 1000, kinds: [kind],
+          program: %w[test/support/numbers_control.c test/support/numbers_pid.c test/support/numbers_link.c],
+          functions: names.to_h { |name| ["fixpid_link_#{name}", name] }, unbounded: names.map { |name| "fixpid_link_#{name}" } }
+      end
     },
     'pid' => {
       title: 'PID', what: 'The general-purpose controller',
