@@ -2,6 +2,7 @@
 // The stream, and the three commands that change nothing else.
 #include "fixpid_link.h"
 
+#undef BYTES_DATA
 #define BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_check.h"
 #include "../common/fixpid_get.h"
@@ -10,11 +11,11 @@
 #include "fixpid_record.h"
 
 // First bytes of frames. A step has its flags and this bit, which no flag is.
-#define STEP 0x08u
-#define KEY 0x01u
-#define ANSWER 0x02u
-#define HELLO 0x03u
-#define RECORD 0x04u
+#define STEP_FRAME 0x08u
+#define KEY_FRAME 0x01u
+#define ANSWER_FRAME 0x02u
+#define HELLO_FRAME 0x03u
+#define RECORD_FRAME 0x04u
 
 #define STEP_MASK 0x3FFFu // of the number in a step's frame
 
@@ -28,7 +29,7 @@
 #define NO_COMMAND 0xC0u // a length that none has
 
 // Adding it to a byte counts down, and from 0 to 255.
-#define MINUS_1 0xFFu
+#define ONE_LESS 0xFFu
 
 uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes)
 {
@@ -159,7 +160,7 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
     uint8_t at;
 
     for (at = 1; at < count; at++) {
-        left = (uint8_t)(left + MINUS_1);
+        left = (uint8_t)(left + ONE_LESS);
         if (left == 0u) {
             left = SELF.bytes[at];
             SELF.bytes[at] = 0;
@@ -228,7 +229,7 @@ uint8_t fixpid_link_reply(FIXPID_DATA struct fixpid_link *self)
 {
     SELF.frame[4] = SELF.command;
     SELF.frame[5] = SELF.result;
-    return answered(self, ANSWER, ANSWER_BYTES);
+    return answered(self, ANSWER_FRAME, ANSWER_BYTES);
 }
 
 static uint8_t hello(FIXPID_DATA struct fixpid_link *self,
@@ -249,7 +250,7 @@ static uint8_t hello(FIXPID_DATA struct fixpid_link *self,
     for (at = 0; at < FIXPID_LINK_NAME; at++) {
         SELF.frame[at + 16u] = board->name[at];
     }
-    return answered(self, HELLO, HELLO_BYTES + FIXPID_LINK_NAME);
+    return answered(self, HELLO_FRAME, HELLO_BYTES + FIXPID_LINK_NAME);
 }
 
 static uint8_t set_stream(FIXPID_DATA struct fixpid_link *self)
@@ -259,7 +260,7 @@ static uint8_t set_stream(FIXPID_DATA struct fixpid_link *self)
     }
     SELF.every = SELF.bytes[VALUE_AT];
     // The next step has a frame.
-    SELF.skipped = (uint8_t)(SELF.every + MINUS_1);
+    SELF.skipped = (uint8_t)(SELF.every + ONE_LESS);
     SELF.why |= STREAM_BEGAN;
     return DONE;
 }
@@ -281,7 +282,7 @@ uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
         // Deviation 11.3: a record is its bytes.
         fixpid_record_pack((struct fixpid_record *)&SELF.frame[RECORD_AT],
                            config);
-        return answered(self, RECORD, 2u + FIXPID_RECORD_SIZE);
+        return answered(self, RECORD_FRAME, 2u + FIXPID_RECORD_SIZE);
     }
     if (fixpid_link_is_new(self)) {
         SELF.result = set_stream(self);
@@ -304,7 +305,7 @@ static bool is_due(FIXPID_DATA struct fixpid_link *self)
         return false;
     }
     SELF.skipped = 0;
-    SELF.frames = (uint8_t)(SELF.frames + MINUS_1);
+    SELF.frames = (uint8_t)(SELF.frames + ONE_LESS);
     if (SELF.frames == 0u) {
         SELF.why |= IN_TURN;
     }
@@ -318,7 +319,7 @@ static void begin_key(FIXPID_DATA struct fixpid_link *self,
                       FIXPID_DATA const struct fixpid_pid *pid)
 {
     fixpid_pid_state(pid, &SELF.frame[KEY_OUTPUT_AT]);
-    SELF.frame[1] = KEY;
+    SELF.frame[1] = KEY_FRAME;
     SELF.frame[2] = SELF.why;
     SELF.frame[3] = SELF.tag;
     put(&SELF.frame[4], (uint16_t)(SELF.steps & 0xFFFFu));
@@ -356,7 +357,7 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
         if (SELF.why != 0u) {
             begin_key(self, pid);
         } else {
-            SELF.frame[1] = fixpid_pid_flags(pid) | STEP;
+            SELF.frame[1] = fixpid_pid_flags(pid) | STEP_FRAME;
             put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
             bytes = STEP_BYTES;
             if (setpoint != SELF.told) {

@@ -3,6 +3,7 @@
 // own because SDCC links whole object files.
 #include "fixpid_link.h"
 
+#undef BYTES_DATA
 #define BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_get.h"
 #include "fixpid_link_private.h"
