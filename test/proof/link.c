@@ -17,12 +17,12 @@ struct fixpid_pid_config nondet_config(void);
 struct fixpid_link_board nondet_board(void);
 
 #define FIXPID_CHECK_H
-uint16_t nondet_check(void);
+static uint16_t check; // of whatever is asked
 static uint16_t check_of(const uint8_t bytes[], uint8_t count)
 {
     pre(count <= FIXPID_LINK_FRAME);
-    claim(__CPROVER_r_ok(bytes, count));
-    return nondet_check();
+    pre(__CPROVER_r_ok(bytes, count));
+    return check;
 }
 
 // How often the controller was changed.
@@ -36,13 +36,13 @@ static bool changed(bool it_does)
 
 uint8_t fixpid_pid_flags(const struct fixpid_pid *self)
 {
-    claim(self == &pid);
+    pre(self == &pid);
     return nondet_uint8();
 }
 
 void fixpid_pid_state(const struct fixpid_pid *self, uint8_t state[])
 {
-    claim(self == &pid);
+    pre(self == &pid);
     for (unsigned at = 0; at < FIXPID_PID_STATE_SIZE; at++) {
         state[at] = nondet_uint8();
     }
@@ -51,14 +51,12 @@ void fixpid_pid_state(const struct fixpid_pid *self, uint8_t state[])
 // Legal gains are a bit here, so that the old ones are set again.
 static bool gains_are_legal;
 static bool integral_is_legal;
-static unsigned set_back;
 
 bool fixpid_pid_set_gains(struct fixpid_pid *self,
                           const struct fixpid_pid_gains *gains)
 {
-    claim(self == &pid);
+    pre(self == &pid);
     if (gains == &config.gains) {
-        set_back++;
         changes--;
         return true;
     }
@@ -70,7 +68,7 @@ bool fixpid_pid_set_integral_limits(struct fixpid_pid *self, int16_t low,
 {
     (void)low;
     (void)high;
-    claim(self == &pid);
+    pre(self == &pid);
     return changed(integral_is_legal);
 }
 
@@ -78,7 +76,7 @@ static struct fixpid_link_board board;
 
 bool fixpid_pid_set_limits(struct fixpid_pid *self, int16_t low, int16_t high)
 {
-    claim(self == &pid);
+    pre(self == &pid);
     claim(low < high);
     claim(low >= board.output_min);
     claim(high <= board.output_max);
@@ -88,20 +86,20 @@ bool fixpid_pid_set_limits(struct fixpid_pid *self, int16_t low, int16_t high)
 void fixpid_pid_set_manual(struct fixpid_pid *self, int16_t output)
 {
     (void)output;
-    claim(self == &pid);
+    pre(self == &pid);
     (void)changed(true);
 }
 
 void fixpid_pid_set_auto(struct fixpid_pid *self)
 {
-    claim(self == &pid);
+    pre(self == &pid);
     (void)changed(true);
 }
 
 void fixpid_pid_seed(struct fixpid_pid *self, int16_t output)
 {
     (void)output;
-    claim(self == &pid);
+    pre(self == &pid);
     (void)changed(true);
 }
 
@@ -109,8 +107,6 @@ void fixpid_pid_seed(struct fixpid_pid *self, int16_t output)
 #include "link/fixpid_link_commands.c"
 #include "link/fixpid_link_tracked.c"
 #include "record/fixpid_record.c"
-
-#define STEP_MOST 12 // bytes of a tracked step's payload with a setpoint
 
 static void begin(void)
 {
@@ -123,39 +119,37 @@ static void begin(void)
     gains_are_legal = any_bool;
     integral_is_legal = any_bool;
     changes = 0;
-    set_back = 0;
+    check = nondet_uint16();
 }
 
-// A frame has one 0, its last byte, and walks back to what was in it. This is
-// for the frames of steps; longer ones, with which the solver takes a minute,
-// are in the recorded rows.
-void prove_framed(void)
+// A frame has one 0, its last byte, and each other 0 is the way to the next.
+// The length is a constant each time, which the solver is fast at.
+static void prove_frame_of(uint8_t bytes)
 {
-    struct fixpid_link was;
-    const uint8_t bytes = nondet_uint8();
-    unsigned at = 0;
+    const unsigned end = bytes + 3u;
+    uint8_t plain[FIXPID_LINK_FRAME] = {0};
+    unsigned next = end;
 
     begin();
-    assume(inside(bytes, 1, STEP_MOST));
-    was = c;
-    claim(fixpid_link_framed(c.frame, bytes) == bytes + 4u);
-    claim(c.frame[bytes + 3u] == 0u);
-    for (unsigned i = 0; i < STEP_MOST + 4; i++) {
-        claim((i >= bytes + 3u) || (c.frame[i] != 0u));
+    for (unsigned i = 1; i < end; i++) {
+        plain[i] = (i <= bytes) ? c.frame[i]
+                                : (uint8_t)(check >> (8u * (i - bytes - 1u)));
     }
-    // The receiver's way: where it comes to, there was a 0, and nowhere else.
-    for (unsigned i = 1; i < STEP_MOST + 4; i++) {
-        if (i == at + c.frame[at]) {
-            at = i;
-            claim((i > bytes) || (was.frame[i] == 0u));
-        } else {
-            claim((i > bytes) || (c.frame[i] == was.frame[i]));
-        }
-        if (i == bytes + 3u) {
-            claim(at == i);
-            break;
+    claim(fixpid_link_framed(c.frame, bytes) == end + 1u);
+    claim(c.frame[end] == 0u);
+    for (unsigned i = end; i-- > 0u;) {
+        claim(c.frame[i] == ((plain[i] == 0u) ? next - i : (unsigned)plain[i]));
+        if (plain[i] == 0u) {
+            next = i;
         }
     }
+}
+
+void prove_framed(void)
+{
+    prove_frame_of(7);
+    prove_frame_of(12);
+    prove_frame_of(25);
 }
 
 // Any byte in any state: what is not the end of a command changes only what was
@@ -270,16 +264,15 @@ void prove_begin(void)
     claim(c.setpoint == was.setpoint);
 }
 
-// Without a stream, or while a command waits, a step has no frame, and leaves
-// the last one.
+// Without a stream a step has no frame, and leaves the last one.
 void prove_step(void)
 {
     struct fixpid_link was;
     uint8_t bytes;
 
     begin();
+    c.every = 0;
     was = c;
-    assume((was.every == 0u) || (was.count == 0xFFu));
     bytes = any_bool ? fixpid_link_step(&c, &pid, nondet_int16(),
                                         nondet_int16(), nondet_int16())
                      : fixpid_link_step_tracked(&c, &pid, nondet_int16(),
