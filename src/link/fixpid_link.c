@@ -351,7 +351,7 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
     uint8_t bytes = 0;
 
     FIXPID_ASSERT(VALID(self));
-    FIXPID_ASSERT(pid != 0);
+    FIXPID_ASSERT(VALID_PID(pid));
     if (is_due(self)) {
         bytes = KEY_BYTES;
         if (SELF.why != 0u) {

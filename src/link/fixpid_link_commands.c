@@ -173,7 +173,7 @@ uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            struct fixpid_pid_config *config)
 {
     FIXPID_ASSERT(VALID(self));
-    FIXPID_ASSERT(pid != 0);
+    FIXPID_ASSERT(VALID_PID(pid));
     if (SELF.count == WAITS) {
         if (SELF.bytes[COMMAND_AT] > SET_STREAM) {
             if (fixpid_link_is_new(self)) {
