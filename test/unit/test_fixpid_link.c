@@ -50,7 +50,7 @@ static uint8_t payload[LINK_FRAMES_MAX]; // of the last frame
 
 void setUp(void)
 {
-    board = (struct fixpid_link_board){.period_us = UINT32_C(0x01020304),
+    board = (struct fixpid_link_board){.period_us = UINT32_C(0x01020305),
                                        .manual_steps = 3,
                                        .setpoint_min = -100,
                                        .setpoint_max = 900,
@@ -415,6 +415,15 @@ void test_key_frame_is_the_state_but_for_the_output(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(state + 2, payload + 13, 12);
 }
 
+void test_key_frame_has_all_32_bits_of_the_number(void)
+{
+    begin(0);
+    link_controller.steps = UINT32_C(0x87654321);
+    fixpid_link_lost(&link_controller);
+    key_for(LINK_LOST);
+    TEST_ASSERT_EQUAL_HEX32(0x87654321, link_number(payload + 3, 4));
+}
+
 void test_key_frame_has_the_tag_of_the_last_command(void)
 {
     begin(ALL);
@@ -532,7 +541,7 @@ void test_hello_says_what_the_board_is(void)
     TEST_ASSERT_EQUAL_HEX8(FIXPID_VERSION_PATCH, payload[5]);
     TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_FEATURES, payload[6]);
     TEST_ASSERT_EQUAL_HEX8(FIXPID_LINK_GAINS, payload[7]);
-    TEST_ASSERT_EQUAL_HEX32(0x01020304, link_number(payload + 8, 4));
+    TEST_ASSERT_EQUAL_HEX32(0x01020305, link_number(payload + 8, 4));
     TEST_ASSERT_EQUAL(3, link_number(payload + 12, 2));
     TEST_ASSERT_EQUAL_STRING("oven 1", (const char *)payload + 14);
     TEST_ASSERT_EQUAL_HEX8(0, payload[23]);
@@ -582,6 +591,39 @@ void test_receive_command_waits_until_it_is_answered(void)
     TEST_ASSERT_EQUAL(3, link_number(payload + 3, 4));
 }
 
+void test_step_in_which_a_command_waits_keeps_other_reasons(void)
+{
+    const uint8_t hello[] = {LINK_ASK_HELLO, 9};
+
+    begin(0);
+    fixpid_link_changed(&link_controller);
+    TEST_ASSERT_TRUE(sent(hello, 2));
+    step();
+    answered();
+    key_for(LINK_LOST | LINK_CHANGED);
+}
+
+void test_manual_that_lets_go_keeps_other_reasons(void)
+{
+    begin(FIXPID_LINK_MANUAL);
+    board.manual_steps = 1;
+    gives(LINK_SET_MANUAL, 1, 77, LINK_DONE);
+    step();
+    fixpid_link_lost(&link_controller);
+    key_for(LINK_LOST | LINK_CHANGED);
+}
+
+void test_manual_that_lets_go_without_a_stream_keeps_other_reasons(void)
+{
+    fixpid_link_allow(&link_controller, ALL);
+    board.manual_steps = 1;
+    fixpid_link_lost(&link_controller);
+    gives(LINK_SET_MANUAL, 1, 77, LINK_DONE);
+    step();
+    stream(1);
+    key_for(LINK_LOST | LINK_CHANGED | LINK_COMMANDED | LINK_BEGAN);
+}
+
 void test_step_in_which_a_command_waits_without_a_stream_is_not_lost(void)
 {
     const uint8_t hello[] = {LINK_ASK_HELLO, 9};
@@ -602,6 +644,25 @@ void test_receive_31_bytes_are_no_command(void)
     TEST_ASSERT_FALSE(received(bytes, 32));
     TEST_ASSERT_EQUAL(0, answer());
     gives(LINK_SET_STREAM, 1, 1, LINK_DONE);
+}
+
+// Without its last byte it would be the longest command.
+void test_receive_one_byte_behind_the_longest_command_spoils_it(void)
+{
+    struct fixpid_record record;
+    uint8_t bytes[2 + FIXPID_RECORD_SIZE] = {LINK_WRITE, 1};
+    uint8_t framed[LINK_FRAMES_MAX];
+    unsigned count;
+
+    fixpid_record_pack(&record, &config);
+    memcpy(bytes + 2, record.bytes, sizeof record.bytes);
+    count = link_command(bytes, sizeof bytes, framed);
+    TEST_ASSERT_EQUAL(FIXPID_LINK_COMMAND + 1, count);
+    TEST_ASSERT_TRUE(received(framed, count));
+    answer();
+    framed[count - 1] = 1;
+    framed[count] = 0;
+    TEST_ASSERT_FALSE(received(framed, count + 1));
 }
 
 void test_receive_any_number_of_bytes_before_a_0_are_no_command(void)
@@ -953,6 +1014,8 @@ void test_auto_ends_it_at_once(void)
     begin(FIXPID_LINK_MANUAL);
     gives(LINK_SET_MANUAL, 1, 77, LINK_DONE);
     gives(LINK_SET_AUTO, 2, 0, LINK_DONE);
+    TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_SEEDED,
+                           fixpid_pid_flags(&pid_controller) & 0x60);
     key_for(LINK_COMMANDED);
     TEST_ASSERT_EQUAL(77, output);
     for (unsigned i = 0; i < 5; i++) { // the hand's time has ended
@@ -1221,9 +1284,8 @@ static unsigned tracked_step(int16_t setpoint, int16_t applied, uint8_t shift)
     fixpid_pid_track(&pid_controller, applied, shift);
     bytes = fixpid_link_step_tracked(&link_controller, &pid_controller,
                                      setpoint, 40, output, applied, shift);
-    return bytes == 0
-               ? 0
-               : link_payload(link_controller.frame, bytes - 1u, payload);
+    return bytes < 2 ? bytes
+                     : link_payload(link_controller.frame, bytes - 1u, payload);
 }
 
 void test_step_tracked_without_a_stream_has_no_frame(void)

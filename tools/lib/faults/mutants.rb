@@ -51,7 +51,7 @@ Run = Struct.new(:test, :sources, :options) do
 
   # All of them in one, which is linked to thousands of mutants.
   def rest
-    "#{ROOT}/rest/#{[test, *sources].join('+').tr('/', '_')}.o"
+    "#{ROOT}/rest/#{[test, *sources.map { |source| File.basename(source, '.c') }].join('+')}.o" # of 255 characters at most
   end
 end
 
