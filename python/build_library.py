@@ -26,8 +26,7 @@ def beside(*names):
     return sorted(glob.glob(os.path.join(*names), recursive=True))
 
 
-# The live link is not a part of the package yet.
-HEADERS = [path for path in beside(INCLUDE, "*.h") if not path.endswith("fixpid_link.h")]
+HEADERS = beside(INCLUDE, "*.h")
 READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
@@ -62,6 +61,5 @@ def declarations():
 
 ffi = FFI()
 ffi.cdef(declarations())
-SOURCES = [path for path in beside(SOURCE, "*", "*.c") if "fixpid_link" not in path]
-ffi.set_source("fixpid._library", TEXT, sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
+ffi.set_source("fixpid._library", TEXT, sources=beside(SOURCE, "*", "*.c"), depends=beside(SOURCE, "**", "*.h") + READ,
                include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])
