@@ -5,8 +5,7 @@ import { COUNT, EVENT, LIMIT, PARAM, RESULT, RULE, VALUE, WASM, WORD } from './b
 let wasm = null;
 
 export async function startEngine() {
-    const packed = new Blob([Uint8Array.from(atob(WASM), (c) => c.charCodeAt(0))]);
-    const bytes = await new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+    const bytes = Uint8Array.from(atob(WASM), (c) => c.charCodeAt(0));
     wasm = (await WebAssembly.instantiate(bytes, {})).instance.exports;
 }
 

@@ -16,18 +16,15 @@ folder = ARGV.fetch(0)
 wasm = "#{folder}/tuner.wasm"
 exit 1 unless system(*Sources.wasm(wasm))
 
-def packed(bytes)
-  [Zlib.gzip(bytes, level: Zlib::BEST_COMPRESSION)].pack('m0')
-end
-
 # What the modules import from built.js.
 built = { **Names.lists, COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
-          WASM: packed(File.binread(wasm)) }
+          WASM: [File.binread(wasm)].pack('m0') }
 text = built.map { |name, value| "export const #{name} = #{JSON.generate(value)};\n" }.join
 File.write("#{folder}/built.js", text)
 
 page = File.read('web/page.html')
-{ 'page.css' => File.read('web/page.css'), 'page.js' => packed(Modules.joined('web/page.js', "#{folder}/built.js")) }
+script = Zlib.gzip(Modules.joined('web/page.js', "#{folder}/built.js"), level: Zlib::BEST_COMPRESSION)
+{ 'page.css' => File.read('web/page.css'), 'page.js' => [script].pack('m0') }
   .each do |name, content|
   raise "web/page.html does not name #{name} once" unless page.scan("/* #{name} */").size == 1
 
