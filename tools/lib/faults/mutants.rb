@@ -71,7 +71,7 @@ end
 # With all that it has of src/ compiled anew, too.
 def whole_run_of(test)
   objects = Dir["#{ROOT}/ceedling/test/out/**/#{test}/**/*.o"].map { |object| File.basename(object, '.o') }
-  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }], [], 'gcc')
+  Run.new(test, ["test/unit/#{test}.c", *Dir['src/*/*.c'].select { |file| objects.include?(File.basename(file, '.c')) }]).by('gcc')
 end
 
 # Of fixpid_autotune also the recorded experiments.
