@@ -89,15 +89,16 @@ def angle_panel(plot, column, run, every, x_range)
             ["set title 'supply falls by 25 % from 10 to 30 s, KP follows'"]][column]
   range = ['set yrange [-6:9]', 'set yrange [-2:2]'][column]
   texts = [[Plot.text('angle', 0.75, -3.2, Plot::MEASUREMENT), Plot.text('limit', 3.2, 1.7, Plot::LIMIT_TEXT)],
-           [Plot.text('angle', 19, -0.55, Plot::MEASUREMENT), Plot.text('limit', 19, 1.2, Plot::LIMIT_TEXT),
-            Plot.text('setpoint', 50, 0.4, Plot::SETPOINT)]][column]
+           [Plot.text('angle', 19, -1.25, Plot::MEASUREMENT), Plot.text('limit', 19, 1.2, Plot::LIMIT_TEXT),
+            Plot.text('setpoint', 50, 0.6, Plot::SETPOINT)]][column]
   plot.panel(0, column, curves,
              [*x_range, *labels, *texts, "set format x ''", range,
               *y_label(column, 'angle, degrees')])
 end
 
 def terms_panel(plot, row, column, run, every, ranges)
-  places = [[[0.15, 165], [0.5, 85], [0.35, -95]], [[19, 40], [23, 40], [27, 40]]][column]
+  # Heights as parts of the panel's: the terms of 8 x 8 bits are smaller.
+  places = [[[0.15, 0.82], [0.5, 0.6], [0.35, 0.1]], [[19, 0.9], [23, 0.9], [27, 0.9]]][column].map { |x, y| [x, "graph #{y}"] }
   plot.panel(row, column, Plot.terms(run, every: every, span: [8.0, 52.0][column]),
              [*ranges, *Plot.terms_text(*places), "set format x ''", *y_label(column, 'terms, counts')])
 end
@@ -105,7 +106,7 @@ end
 def drive_panel(plot, row, column, run, every, x_range, full)
   curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", nil,
                        Plot::OUTPUT, every: every, width: 1.2)]
-  texts = [Plot.text('drive', [3.2, 19][column], 18, Plot::OUTPUT)]
+  texts = [Plot.text('drive', [3.2, 19][column], 32, Plot::OUTPUT)]
   if run.values('time_s').last > 30.0 && column == 1
     curves << Plot.curve(run, 'supply_percent', nil, Plot::DISTURBANCE,
                          every: every)
