@@ -11,6 +11,9 @@
 // port_wait_tick for each tick, and so feeds the watchdog while it waits.
 #include "port.h"
 
+#include "configuration.h"
+#include "registers.h"
+
 // The interrupt counts in the first, and only the interrupt writes to it; the
 // loop counts in the second what it has been told. Their difference is the
 // ticks to tell, so nothing is ever masked. Both are single bytes, which every

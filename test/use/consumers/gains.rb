@@ -1,17 +1,25 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What FIXPID_PID_GAINS folds 1000 random gains of up to four digits to, with each
-# compiler, against the exact quotients rounded half up. Where a double has 64 bits none is
-# another one; where it has 32, include/fixpid_pid.h says how many are, and by how much.
+# What FIXPID_PID_GAINS folds 1000 random gains of up to four digits to, and
+# FIXPID_SLEW_RATE 1000 rates, with each compiler, against the exact quotients rounded half
+# up. Where a double has 64 bits none is another one; where it has 32, their headers say how
+# many are, and by how much.
 #
 #   ruby test/use/consumers/gains.rb FOLDER
 #
 # FOLDER is for what it builds. It prints what it found, and the sentences that differ.
 COUNT = 1000
 HEADER = 'include/fixpid_pid.h'
+SLEW_HEADER = 'include/fixpid_slew.h'
 INCLUDE = %w[-std=c99 -Iinclude].freeze
 XC8 = %w[--target=avr -ffreestanding -funsigned-char -include test/support/as_xc8.h -D_PIC18].freeze
+
+# How many units a number that was folded in 32 bits may be away: two constants, their
+# quotient and the half that is added are rounded, each to 24 bits.
+def near?(exact, folded)
+  (exact - folded).abs <= 1 + exact / 2**22
+end
 
 # Little-endian members, and SDCC's for an STM8, where they are bytes of text.
 COMPILERS = {
@@ -48,6 +56,29 @@ Gains = Struct.new(:kp, :ki, :kd, :rate, :filter) do
   end
 end
 
+Rate = Struct.new(:counts, :steps) do
+  def self.draw(random)
+    new(*[-2.0..4.8, -1.0..3.0].map { |range| format('%.*e', random.rand(4), 10**random.rand(range)) })
+  end
+
+  def exact
+    Rational(counts) * 2**16 / Rational(steps)
+  end
+
+  # The macro takes them, with some distance.
+  def legal?
+    exact.between?(1, 0xFFFE0000)
+  end
+
+  def integer
+    (exact + 1/2r).floor
+  end
+
+  def to_c
+    "    FIXPID_SLEW_RATE(#{to_a.join(', ')}),\n"
+  end
+end
+
 # As the controller keeps it.
 def kept(gain)
   places = [gain.bit_length - 15, 0].max
@@ -58,23 +89,52 @@ def run(*command)
   system(*command) or abort "failed: #{command.join(' ')}"
 end
 
-folder = ARGV.fetch(0)
-random = Random.new(1)
-gains = Enumerator.produce { Gains.draw(random) }.lazy.select(&:legal?).first(COUNT)
-File.write("#{folder}/gains.c", "#include \"fixpid_pid.h\"\nconst struct fixpid_pid_gains table[] = {\n#{gains.map(&:to_c).join}};\n")
-exact = gains.map(&:integers)
+def drawn(kind, seed)
+  random = Random.new(seed)
+  Enumerator.produce { kind.draw(random) }.lazy.select(&:legal?).first(COUNT)
+end
 
-header = File.read(HEADER).gsub(%r{\n// }, ' ')
+def write(folder, name, header, type, rows)
+  File.write("#{folder}/#{name}.c", "#include \"#{header}\"\nconst #{type} table[] = {\n#{rows.map(&:to_c).join}};\n")
+end
+
+# The bytes of the table.
+def compiled(folder, name, compiler, objcopy)
+  run(*compiler, *INCLUDE, '-c', "#{folder}/#{name}.c", '-o', "#{folder}/#{name}.o")
+  run(objcopy, '-O', 'binary', '-j', '.rodata', "#{folder}/#{name}.o", "#{folder}/#{name}.bin")
+  File.binread("#{folder}/#{name}.bin")
+end
+
+def said(header)
+  File.read(header).gsub(%r{\n// }, ' ')
+end
+
+folder = ARGV.fetch(0)
+gains = drawn(Gains, 1)
+write(folder, 'gains', 'fixpid_pid.h', 'struct fixpid_pid_gains', gains)
+exact = gains.map(&:integers)
+rates = drawn(Rate, 2)
+write(folder, 'rates', 'fixpid_slew.h', 'uint32_t', rates)
+
+wrong_rates = COMPILERS.reject do |name, (compiler, objcopy)|
+  folded = compiled(folder, 'rates', compiler, objcopy).unpack('V*')
+  others = rates.map(&:integer).zip(folded).reject { |a, b| a == b }
+  puts "#{name}: rates #{others.size}"
+  next others.empty? if WIDE.include?(name)
+
+  others.all? { |a, b| near?(a, b) } && said(SLEW_HEADER).include?("of #{COUNT} random rates #{others.size} were another number")
+end
+abort "#{wrong_rates.keys.join(', ')}: not as #{SLEW_HEADER} says" unless wrong_rates.empty?
+
+header = said(HEADER)
 wrong = COMPILERS.reject do |name, (compiler, objcopy, members)|
-  run(*compiler, *INCLUDE, '-c', "#{folder}/gains.c", '-o', "#{folder}/gains.o")
-  run(objcopy, '-O', 'binary', '-j', '.rodata', "#{folder}/gains.o", "#{folder}/gains.bin")
-  folded = File.binread("#{folder}/gains.bin").unpack(members * COUNT).each_slice(3).to_a
+  folded = compiled(folder, 'gains', compiler, objcopy).unpack(members * COUNT).each_slice(3).to_a
   kp, ki, kd = [0, 1, 2].map { |at| exact.zip(folded).map { |a, b| [a[at], b[at]] }.reject { |a, b| a == b } }
   controller = ki.count { |a, b| kept(a) != kept(b) }
   puts "#{name}: kp_q8 #{kp.size}, ki_q24 #{ki.size}, kd_q8 #{kd.size}, ki of the controller #{controller}"
   next [kp, ki, kd].all?(&:empty?) if WIDE.include?(name)
 
-  ki.all? { |a, b| (a - b).abs <= 1 + a / 2**22 } && header.include?("of #{COUNT} random gains ki_q24 was another one in #{ki.size}, kp_q8 in #{kp.size} and kd_q8 in #{kd.size}; " \
+  ki.all? { |a, b| near?(a, b) } && header.include?("of #{COUNT} random gains ki_q24 was another one in #{ki.size}, kp_q8 in #{kp.size} and kd_q8 in #{kd.size}; " \
                   "of the bits of ki that a controller keeps, #{controller}")
 end
 abort "#{wrong.keys.join(', ')}: not as #{HEADER} says" unless wrong.empty?

@@ -35,6 +35,8 @@ const QUERIES = [
     ['EEPROM', 'docs/recipes.html'],
     ['interrupt', 'docs/recipes.html'],
     ['FastPID', 'docs/migrating.html'],
+    ['PIDMain', 'docs/migrating.html'],
+    ['C18', 'docs/migrating.html'],
     ['flash size', 'docs/cost.html'],
     ['MISRA', 'docs/assurance.html'],
     ['watchdog', 'docs/faults.html'],

@@ -67,7 +67,7 @@ end
 
 # A chip's memory as the linker's script has it.
 class Memory
-  PLACE = /^\s*(CODEPAGE|ACCESSBANK|DATABANK|SHAREBANK)\s+NAME=(\S+)\s+START=0x(\h+)\s+END=0x(\h+)\s*$/.freeze
+  PLACE = /^\s*(CODEPAGE|ACCESSBANK|DATABANK|SHAREBANK)\s+NAME=(\S+)\s+START=0x(\h+)\s+END=0x(\h+)(?:\s+SHADOW=\S+)?\s*$/.freeze
 
   # The last word of flash, in bytes of a PIC18; the RAM, as ranges.
   attr_reader :flash_end, :ram

@@ -12,6 +12,7 @@ require_relative 'docs/chip_choices'
 require_relative 'docs/code_blocks'
 require_relative 'docs/commands'
 require_relative 'docs/feature_comments'
+require_relative 'docs/levels'
 require_relative 'docs/misra'
 require_relative 'docs/names'
 require_relative 'docs/forms'
@@ -85,7 +86,7 @@ def renewed(path, text)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
   when 'docs/ports.md'
-    part(text, 'other chips', OtherChips.table)
+    part(part(text, 'other chips', OtherChips.table), 'levels', Levels.table)
   when 'docs/recipes.md'
     @failures.concat(Recipes.missing(text).map { |name| "#{path} does not show #{name}" })
     Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }

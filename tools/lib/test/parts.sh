@@ -184,6 +184,7 @@ part_firmware() {
     count 'chips of tools/firmware' '^ok ' '^FAILED ' once whole test/use/firmware/run
     check 'tools/firmware' tools/firmware
     count 'the sources under XC8' '^ok ' '^FAILED ' once whole test/use/xc8_check/run
+    count 'test/use/notes/run' '^ok ' '^FAILED ' once whole test/use/notes/run
 }
 
 part_target() {

@@ -6,7 +6,8 @@ require_relative '../../project'
 module Shown
   MARKED = /^<!-- shown (\S+):begin -->\n.*?^<!-- shown \1:end -->\n/m.freeze
   BEFORE = /<!-- shown \S+:begin -->\n\z/.freeze # a block that is a file's
-  LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini' }.freeze
+  LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini',
+                '.asm' => 'nasm' }.freeze
   BEGINNERS = %r{\A(?:docs/start/|web/site/)}.freeze
   RELEASED = /^  (\S+) {2,}(.*(?:\n {33}.*)*)/.freeze # in the usage of tools/release
 
@@ -37,7 +38,7 @@ module Shown
 
     # Without the line of the licence.
     def block(path)
-      lines = File.readlines(path).reject { |line| line.match?(/\A(?:#|\/\/) SPDX-/) }
+      lines = File.readlines(path).reject { |line| line.match?(/\A(?:#|\/\/|;) SPDX-/) }
       "```#{LANGUAGES.fetch(File.extname(path))}\n#{lines.join}```\n"
     end
   end
