@@ -18,10 +18,15 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
     part || id
   end
 
-  # Of the library, without the check, the record, the state and the step by the error, which
-  # only a program that calls them links.
+  # Of the library, without the check, the record, the state, the step by the error and tracked
+  # steps of a link, which only a program that calls them links.
   def files
-    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_(?:error|state)\.c\z/)
+    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_(?:error|state)\.c\z|_link_tracked\.c\z/)
+  end
+
+  # Of the modules that it uses, what a program needs of them; they do not count.
+  def used
+    (Modules.linked(id, Host.root) - Modules.sources(id, Host.root)).grep_v(/_pid_(?:check|error|track)\.c\z/)
   end
 
   # Of its recorded rows.
@@ -37,7 +42,7 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
 
   # What makes the calls.
   def callers
-    program || %w[test/support/numbers_control.c] + Modules.numbers(id)
+    (program || %w[test/support/numbers_control.c] + Modules.numbers(id)) + used
   end
 end
 
