@@ -26,7 +26,8 @@ def beside(*names):
     return sorted(glob.glob(os.path.join(*names), recursive=True))
 
 
-HEADERS = beside(INCLUDE, "*.h")
+# The live link is not a part of the package yet.
+HEADERS = [path for path in beside(INCLUDE, "*.h") if not path.endswith("fixpid_link.h")]
 READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
@@ -61,5 +62,6 @@ def declarations():
 
 ffi = FFI()
 ffi.cdef(declarations())
-ffi.set_source("fixpid._library", TEXT, sources=beside(SOURCE, "*", "*.c"), depends=beside(SOURCE, "**", "*.h") + READ,
+SOURCES = [path for path in beside(SOURCE, "*", "*.c") if "fixpid_link" not in path]
+ffi.set_source("fixpid._library", TEXT, sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
                include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])

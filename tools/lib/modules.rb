@@ -11,6 +11,7 @@
 #   narrow   that it makes them for the arithmetic of an 8-bit chip, too
 #   rows     the columns of its recorded rows, with their types, that its calls_x.c takes
 #   shared   more of them, which are the same in many rows
+#   uses     modules whose sources a program of it links, too
 #   calls    what tools/cost meters of its calls_x.c, and bounds: CalledModule in tools/lib/measure/
 #
 # A controller of the notes, and fixpid_pid, has its cost in CONTROLLERS of
@@ -73,6 +74,21 @@ module Modules
       calls: [{ calls: 2000, functions: { 'fixpid_record_pack' => 'pack', 'fixpid_record_unpack' => 'unpack' },
                 program: %w[test/support/numbers_pid.c test/support/numbers_control.c],
                 turns: %w[check_of check_of.constprop.0 fixpid_record_pack fixpid_record_unpack].to_h { |name| [name, [22, 9]] } }]
+    },
+    'link' => {
+      title: 'Link', what: 'The steps of fixpid_pid over a serial wire, and commands back',
+      fuzz: [20_000, 512], uses: %w[pid record],
+      # The turns of a check are those of its bytes, which no constant tells. What meters an ARM passes four arguments. A
+      # PIC18F4520 has room for the stream alone.
+      calls: [[:pic, { 'step' => 'stream only, step' }, { pic: %w[object], takes: %r{/fixpid_link\.c\z},
+                                                         flags: %w[-DCALLS_STREAM -DFIXPID_PID_OBJECT=pid -DFIXPID_PID_FEATURES=0x00] }],
+              [:avr, { 'step' => 'step', 'receive' => 'receive' }], [:avr, { 'answer' => 'answer' }],
+              [:avr, { 'step_tracked' => 'step_tracked' }, { takes: /_link/, flags: %w[-DCALLS_TRACKED] }, 'src/pid/fixpid_pid_track.c'],
+              [:arm, { 'receive' => 'receive', 'answer' => 'answer' }]].map do |kind, functions, more, *linked|
+        names = functions.transform_keys { |name| "fixpid_link_#{name}" }
+        { object: 'wire', calls: 1000, kinds: [kind], functions: names, unbounded: names.keys,
+          program: %w[control pid link].map { |name| "test/support/numbers_#{name}.c" } + linked, **(more || {}) }
+      end
     },
     'pid' => {
       title: 'PID', what: 'The general-purpose controller',
@@ -165,6 +181,11 @@ module Modules
   # Its sources, with those of chips behind the others, from the project's folder.
   def sources(name, root = '.')
     Dir.glob("src/#{name}/*.c", base: root).sort_by { |path| [path.match?(/_pic1[48]\.c\z/) ? 1 : 0, path] }
+  end
+
+  # And those of the modules that it uses.
+  def linked(name, root = '.')
+    [name, *ALL.fetch(name)[:uses]].flat_map { |each| sources(each, root) }
   end
 
   # The entry of a module or part.

@@ -13,6 +13,7 @@ module Beside
   FLAGS = %W[-DCALLS=#{CALLS} -Iinclude -Itest/support -I#{FOLDER} -I#{Alone::FOLDER}].freeze
   NUMBERS = %w[test/support/numbers.c test/support/numbers_control.c test/support/numbers_pid.c].freeze
   CHIPS = Alone::CHIPS.select(&:runs).reject { |chip| chip.name == 'atmega328p' } # test/chips/target has an AVR with its multiplier
+  NO_ROOM = { 'attiny85' => %w[link] }.freeze # its 8 KB, with the controller
   MODULES = (Modules.called - %w[autotune]).freeze # Alone does its experiments
 
   # The tests. `folder` is for what they build.
@@ -24,8 +25,11 @@ module Beside
     end
 
     def add(tests)
-      CHIPS.product(MODULES).each { |chip, name| tests.add("beside #{chip.name} #{name}") { compare(chip, name) } }
-      MODULES.each { |name| tests.add("seeded beside #{name}") { notice(CHIPS.first, name) } }
+      MODULES.each do |name|
+        chips = CHIPS.reject { |chip| NO_ROOM.fetch(chip.name, []).include?(name) }
+        chips.each { |chip| tests.add("beside #{chip.name} #{name}") { compare(chip, name) } }
+        tests.add("seeded beside #{name}") { notice(chips.first, name) }
+      end
     end
 
     private
@@ -76,7 +80,7 @@ module Beside
     end
 
     def library(name, tree)
-      Modules.sources(Modules::PARTS.dig(name, :of) || name, tree).map { |source| "#{tree}/#{source}" }
+      Modules.linked(Modules::PARTS.dig(name, :of) || name, tree).map { |source| "#{tree}/#{source}" }
     end
 
     # The folder of its recorded rows, which the same file has calls of.

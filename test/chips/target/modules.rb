@@ -22,14 +22,14 @@ class CalledModule
 
   # What is metered, if not `step`.
   FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result],
-                'step_error' => %w[step_error state restore], 'table' => %w[at] }.freeze
+                'step_error' => %w[step_error state restore], 'table' => %w[at], 'link' => %w[step receive answer] }.freeze
 
   # Whether a machine has the same of the autotuner's record, too.
   MORE_CALLS = { 'autotune' => %w[-DCALLS_RECORD] }.freeze
 
   # Where the calls of a module with its rows, each of its functions among them, need more
   # than 32 KB.
-  CHIPS = %w[autotune guard step_error].to_h { |name| [name, 'pic18f26k22'] }.freeze
+  CHIPS = %w[autotune guard step_error link].to_h { |name| [name, 'pic18f26k22'] }.freeze
 
   # The autotuner has no definition in C: test/model/autotune compares it.
   def initialize(name)
@@ -56,7 +56,7 @@ class CalledModule
   end
 
   def sources(folder = 'src')
-    Modules.sources(@module, File.dirname(folder)).map { |file| Pathname("#{folder}/../#{file}").cleanpath.to_s }
+    Modules.linked(@module, File.dirname(folder)).map { |file| Pathname("#{folder}/../#{file}").cleanpath.to_s }
   end
 
   # What makes the calls, with its recorded rows.

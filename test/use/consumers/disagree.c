@@ -7,6 +7,7 @@
 #include "fixpid_an964_8bit.h"
 #include "fixpid_autotune.h"
 #include "fixpid_guard.h"
+#include "fixpid_link.h"
 #include "fixpid_pid.h"
 
 #define CAT_(a, b) a##b

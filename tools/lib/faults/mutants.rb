@@ -60,7 +60,7 @@ Run = Struct.new(:test, :sources, :options, :compiler) do
 
   # All of them in one, which is linked to thousands of mutants.
   def rest
-    "#{ROOT}/rest/#{[test, *sources].join('+').tr('/', '_')}.o"
+    "#{ROOT}/rest/#{[test, *sources.map { |source| File.basename(source, '.c') }].join('+')}.o" # of 255 characters at most
   end
 end
 
@@ -89,6 +89,13 @@ def state_runs(sources)
   [Run.new('test_fixpid_pid_state', sources), Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
+# Of fixpid_link: a board and its twin, too, and what has no features.
+def link_runs(sources)
+  untracked = sources.grep_v(/_tracked\.c\z/)
+  [Run.new('test_fixpid_link', sources), Run.new('test_fixpid_link_twin', sources),
+   *(untracked.empty? ? [] : [Run.new('test_fixpid_link_typical', untracked, %w[-DFIXPID_PID_FEATURES=0x00])])]
+end
+
 # The runs in which a file is compiled: what tcc's do not notice or do not reach, gcc's
 # are asked.
 def runs_of(file)
@@ -101,6 +108,7 @@ def runs_by_name(file)
   name = File.basename(file, '.*')
   return [run_of('test_fixpid_constants'), whole_run_of("test_#{name}")] if file.start_with?('include/')
   return autotune_runs([file]) if file.match?(/fixpid_autotune\w*\.c\z/)
+  return link_runs([file]) if file.match?(/fixpid_link\w*\.c\z/)
   return state_runs([file]) if file.end_with?('fixpid_pid_state.c')
   return pid_runs([file]) if file.match?(/fixpid_pid\w*\.c\z/)
   return [Run.new("test_#{noun(name)}", [file])] if file.end_with?('.c')
@@ -115,6 +123,9 @@ def runs_by_name(file)
   when 'fixpid_table_text' then runs_of('src/table/fixpid_table.c')
   when 'fixpid_difference'
     %w[guard table].map { |noun| Run.new("test_fixpid_#{noun}", ["src/#{noun}/fixpid_#{noun}.c"]) }
+  when 'fixpid_link_private' then link_runs(Dir['src/link/*.c'].sort)
+  when 'fixpid_get' then [*runs_of('src/common/fixpid_bytes.h'), *link_runs(%w[src/link/fixpid_link.c src/link/fixpid_link_commands.c])]
+  when 'fixpid_put' then [*runs_of('src/common/fixpid_bytes.h'), *link_runs(%w[src/link/fixpid_link.c src/link/fixpid_link_tracked.c])]
   when 'fixpid_bytes' then [*runs_of('src/common/fixpid_check.h'), *state_runs(%w[src/pid/fixpid_pid_state.c])]
   when 'fixpid_check' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c]), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
   when 'fixpid_an937_turns' then [run_of('test_fixpid_an937_arith', %w[-D__riscv])]

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+#include "fixpid.h"
+// fixpid_link: the steps of a fixpid_pid over a serial wire, and a few commands
+// back. A program on a PC that has the same C makes each step again, bit for
+// bit, and so knows P, I and D, which are not sent: it is called the twin.
+//
+// The module turns calls into bytes and bytes into calls. The application reads
+// and writes its UART; nothing here waits, and there is no clock: the steps are
+// the time. The loop, where send(n) writes the first n bytes of link.frame if
+// the UART takes all of them at once, and else calls fixpid_link_lost:
+//
+//   while (uart_get(&byte)) {
+//       (void)fixpid_link_receive(&link, byte);
+//   }
+//   if (uart_room() >= FIXPID_LINK_FRAME) {
+//       send(fixpid_link_answer(&link, &board, &pid, &config));
+//   }
+//   setpoint = fixpid_link_setpoint(&link);
+//   output = fixpid_pid_step(&pid, setpoint, measurement);
+//   send(fixpid_link_step(&link, &pid, setpoint, measurement, output));
+//
+// Whoever has the wire may do what fixpid_link_allow allows, which is nothing
+// after init. No command widens what the board's constants allow: a setpoint
+// and output limits beyond them are refused, gains are those that
+// fixpid_pid_set_gains accepts, and an output by hand ends by itself when the
+// other end falls silent. There is no password: a radio needs its own.
+//
+// Only firmware that calls these functions grows: fixpid_link.c has the stream,
+// fixpid_link_commands.c the commands that change something, and
+// fixpid_link_tracked.c a stream with fixpid_pid_track. All of them need
+// fixpid_pid_state.c and fixpid_record.c.
+//
+// Any number of them work side by side, each with a wire. Functions of one must
+// not interrupt each other; fixpid.h says on which chips those of two must not.
+// An interrupt that receives bytes keeps them for the loop.
+//
+// Framing. A frame is a payload, its CRC-16 (fixpid_record's, low byte first),
+// both stuffed by COBS so that no byte is 0, and a 0. An answer has a 0 in
+// front, too, so that text which the program prints spoils only itself. A
+// command has two bytes more behind the CRC: the sum of the payload's bytes,
+// and the sum of that sum's values after each byte, both modulo 256. Numbers
+// are little-endian. Payloads of the board:
+//
+//   step    0 flags + 8, 1..2 number modulo 16384, 3..4 measurement,
+//           5..6 output, 7..8 setpoint if it is not that of the frame before
+//   tracked a step's, and behind it 2 applied, 1 shift
+//   key     0 1, 1 why, 2 tag of the last command, 3..6 number, 7..8 setpoint,
+//           9..10 measurement, 11..12 output, 13..24 bytes 2..13 of
+//           fixpid_pid_state
+//   answer  0 2, 1 tag, 2 command, 3 result: 0 done, 1 not allowed, 2 refused
+//   hello   0 3, 1 tag, 2 version, 3..5 the library's version, 6 features,
+//           7 allowed, 8..11 period_us, 12..13 manual_steps, 14..23 name
+//   record  0 4, 1 tag, 2..24 the record of `config`
+//
+// `why` is a sum: 1 the 256th frame since the last key frame, 2 a stream
+// begins, 4 a command, 8 changed, 16 lost. Payloads of commands, the tag behind
+// the first byte, a number of 16 bits behind the tag:
+//
+//   0x40 hello                      the tag of the last command becomes 0
+//   0x41 record
+//   0x42 stream, 1 byte every       0 none; else a frame each so many steps,
+//                                   from the next on, the first a key frame
+//   0x43 setpoint                   needs FIXPID_LINK_SETPOINT
+//   0x44 manual                     needs FIXPID_LINK_MANUAL
+//   0x45 auto                       likewise
+//   0x46 seed                       likewise
+//   0x47 write, 23 bytes: a record  needs FIXPID_LINK_GAINS, and for other
+//                                   limits FIXPID_LINK_LIMITS
+//
+// A command whose tag and first byte are those of the last one of 0x42..0x47 is
+// answered as that was and not carried out again, unless the tag is 0: who gets
+// no answer may repeat it. docs/link.md has more of the other end.
+#ifndef FIXPID_LINK_H
+#define FIXPID_LINK_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fixpid_pid.h"
+
+FIXPID_C_BEGIN
+
+#define FIXPID_LINK_VERSION 1u
+#define FIXPID_LINK_FRAME 30u   // bytes of the longest frame
+#define FIXPID_LINK_COMMAND 30u // of the longest command, without its 0
+#define FIXPID_LINK_NAME 10u
+
+// What fixpid_link_allow takes: a sum of these.
+#define FIXPID_LINK_SETPOINT 0x01u
+#define FIXPID_LINK_GAINS 0x02u
+#define FIXPID_LINK_LIMITS 0x04u // the output's and the integral's
+#define FIXPID_LINK_MANUAL 0x08u // by hand, automatic and seed
+
+// What a board is, for all of its time.
+struct fixpid_link_board {
+    uint32_t period_us; // between two steps
+
+    // The other end repeats its last output by hand at least each so many
+    // steps, else the controller is automatic again. 0: never by hand.
+    uint16_t manual_steps;
+
+    int16_t setpoint_min;
+    int16_t setpoint_max;
+    int16_t output_min; // the widest limits that a record may set
+    int16_t output_max;
+    uint8_t name[FIXPID_LINK_NAME]; // filled up with 0
+};
+
+// This is private but for `frame`, and open only so that the application can
+// allocate it: 79 bytes, 80 where a number of 32 bits is aligned.
+struct fixpid_link {
+    uint32_t steps;
+    int16_t setpoint;
+    int16_t told;    // the setpoint that the other end knows
+    uint16_t manual; // steps until the controller is automatic; 0: it is
+    uint8_t allowed;
+    uint8_t every;   // each so many steps have a frame; 0: none has
+    uint8_t skipped; // steps since the last one that had a frame
+    uint8_t frames;  // until a key frame is due; 0: 256
+    uint8_t why;     // the next frame is a key frame, unless it is 0
+    uint8_t tag;     // of the last command of 0x42..0x47,
+    uint8_t command; // its first byte
+    uint8_t result;  // and what was answered
+    uint8_t count;   // of `bytes`, or private
+    uint8_t bytes[FIXPID_LINK_COMMAND];
+    uint8_t frame[FIXPID_LINK_FRAME]; // to be sent
+};
+
+// Object mode, for firmware with one link: compile the application and
+// fixpid_link*.c with -DFIXPID_LINK_OBJECT=name, and define that object at file
+// scope, not static. Calls stay as they are; the pointer is ignored.
+// FIXPID_LINK_PLACE may put it at an address.
+//
+// Sources that disagree about the object or its place do not link: see
+// FIXPID_MARKED.
+#ifdef FIXPID_LINK_PLACE
+#define FIXPID_LINK_NAMED                                                      \
+    FIXPID_JOINED(FIXPID_LINK_OBJECT, FIXPID_PLACE_MARK(FIXPID_LINK_PLACE))
+#else
+#define FIXPID_LINK_NAMED FIXPID_LINK_OBJECT
+#define FIXPID_LINK_PLACE
+#endif
+#ifdef FIXPID_LINK_OBJECT
+extern FIXPID_DATA struct fixpid_link FIXPID_LINK_PLACE FIXPID_LINK_OBJECT;
+#define fixpid_link_mark FIXPID_JOINED(, FIXPID_LINK_NAMED)
+#else
+#define fixpid_link_mark
+#endif
+#define fixpid_link_init FIXPID_MARKED(link, init)
+#define fixpid_link_allow FIXPID_MARKED(link, allow)
+#define fixpid_link_changed FIXPID_MARKED(link, changed)
+#define fixpid_link_lost FIXPID_MARKED(link, lost)
+#define fixpid_link_receive FIXPID_MARKED(link, receive)
+#define fixpid_link_answer FIXPID_MARKED(link, answer)
+#define fixpid_link_answer_stream FIXPID_MARKED(link, answer_stream)
+#define fixpid_link_setpoint FIXPID_MARKED(link, setpoint)
+#define fixpid_link_step FIXPID_MARKED(link, step)
+#define fixpid_link_step_tracked FIXPID_MARKED(link, step_tracked)
+
+// No stream, nothing allowed, the next step is number 0. The setpoint is any
+// int16_t, until a command changes it.
+void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint);
+
+// What commands may do from now on, in place of what they might before. A
+// jumper, a menu or a temperature may decide, and change, it.
+void fixpid_link_allow(FIXPID_DATA struct fixpid_link *self, uint8_t allowed);
+
+// The program itself changed the controller, otherwise than by a step: by other
+// gains or limits, a feed-forward, a reset, or by a track without
+// fixpid_link_step_tracked. The next frame is a key frame. Where gains or
+// limits changed, change `config`, too.
+void fixpid_link_changed(FIXPID_DATA struct fixpid_link *self);
+
+// A frame was not sent, for want of room. The next one is a key frame.
+void fixpid_link_lost(FIXPID_DATA struct fixpid_link *self);
+
+// Takes a byte from the wire. True if it ends a whole command, which then
+// waits: until it is answered further bytes are ignored, and steps have no
+// frame. What is not a whole command, up to a 0, changes nothing.
+bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte);
+
+// Carries out the command that waits, or nothing of it, between two steps, and
+// returns how many bytes of `frame` say so; 0 if none waits.
+//
+// `config` is what the controller runs with: what init was given, and what the
+// program changed since. A written record changes it. Permission is asked
+// first. Then a command is refused, and changes nothing, for
+//   setpoint  a value outside setpoint_min..setpoint_max
+//   manual    manual_steps of 0, or a firmware without FIXPID_PID_HAS_MANUAL,
+//             as are auto and seed
+//   write     bytes that are no record; other options or another setpoint
+//             weight than config's, which need an init; output limits beyond
+//             the board's or of which the lower is not below the upper; limits
+//             other than config's without permission (not allowed); gains or
+//             limits of the integral that fixpid_pid's setters refuse
+uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
+                           const struct fixpid_link_board *board,
+                           FIXPID_DATA struct fixpid_pid *pid_self,
+                           struct fixpid_pid_config *config);
+
+// The same for firmware that only streams: hello, record and stream are carried
+// out, and all others are not allowed. Call either of the two; without the
+// other, fixpid_link_commands.c is not needed.
+uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
+                                  const struct fixpid_link_board *board,
+                                  const struct fixpid_pid_config *config);
+
+// The setpoint of init or of the last command. The program may step with
+// another one, such as a ramp's or its own.
+int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self);
+
+// To be called after each step, with what it got and gave. Returns how many
+// bytes of `frame` are to be sent; 0 without a stream, in steps between those
+// that have a frame, and while a command waits. Then, manual_steps steps after
+// the last output by hand, the controller is automatic again.
+uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
+                         FIXPID_DATA struct fixpid_pid *pid_self,
+                         int16_t setpoint, int16_t measurement, int16_t output);
+
+// The same after fixpid_pid_track(pid, applied, shift), for a program that
+// tracks after each step: with a slew rate behind the controller, or a cascade.
+// `output` is what the step returned. A frame is three bytes longer. The other
+// end tracks likewise, so that no key frame is due; a key frame has the state
+// after the tracking.
+uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
+                                 FIXPID_DATA struct fixpid_pid *pid_self,
+                                 int16_t setpoint, int16_t measurement,
+                                 int16_t output, int16_t applied,
+                                 uint8_t shift);
+
+FIXPID_C_END
+
+#endif

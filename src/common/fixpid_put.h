@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A number to bytes, the lowest first: a file of its own as fixpid_get.h is.
+#ifndef FIXPID_PUT_H
+#define FIXPID_PUT_H
+#include <stdint.h>
+
+#ifndef BYTES_DATA // as in fixpid_get.h
+#define BYTES_DATA
+#endif
+
+static void put(BYTES_DATA uint8_t bytes[], uint16_t value)
+{
+    bytes[0] = (uint8_t)(value & 0xFFu);
+    bytes[1] = (uint8_t)(value >> 8);
+}
+
+#endif

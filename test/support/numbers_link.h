@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Frames of fixpid_link, made and read from the definition in its header and
+// not from src/.
+#ifndef NUMBERS_LINK_H
+#define NUMBERS_LINK_H
+#include <stdint.h>
+
+#define LINK_FRAMES_MAX 64u // bytes of any frame here
+
+// First bytes of payloads.
+enum { LINK_KEY = 1, LINK_ANSWER, LINK_HELLO, LINK_RECORD, LINK_STEP = 8 };
+enum {
+    LINK_ASK_HELLO = 0x40,
+    LINK_ASK_RECORD,
+    LINK_SET_STREAM,
+    LINK_SET_SETPOINT,
+    LINK_SET_MANUAL,
+    LINK_SET_AUTO,
+    LINK_SET_SEED,
+    LINK_WRITE
+};
+enum { LINK_DONE, LINK_NOT_ALLOWED, LINK_REFUSED };
+
+// Why there is a key frame.
+enum {
+    LINK_IN_TURN = 1,
+    LINK_BEGAN = 2,
+    LINK_COMMANDED = 4,
+    LINK_CHANGED = 8,
+    LINK_LOST = 16
+};
+
+// Makes a command of a payload; returns its bytes, with the 0 behind it.
+unsigned link_command(const uint8_t payload[], unsigned bytes,
+                      uint8_t framed[]);
+
+// Reads a frame of the board, without the 0 behind it; returns the payload's
+// bytes, and 0 for what is no frame.
+unsigned link_payload(const uint8_t framed[], unsigned bytes,
+                      uint8_t payload[]);
+
+// A number of so many bytes, the lowest first.
+uint32_t link_number(const uint8_t bytes[], unsigned count);
+
+#endif
