@@ -88,7 +88,6 @@ class Link:
     features: Optional[int] = None
     compared: int
     not_compared: int
-    spoilt: int
     difference: Optional[Difference]
 
     def __init__(self, port: Any, *, every: int = 1, timeout: float = 2.0, save: Any = None, keep: int = KEPT):
@@ -108,7 +107,7 @@ class Link:
         self._setpoint: Optional[int] = None
         self._heard = time.monotonic()
         self._streams = self._key_due = False
-        self.compared = self.not_compared = self.spoilt = 0
+        self.compared = self.not_compared = 0
         self.difference = None
         if self._live:
             self.hello()
@@ -179,25 +178,18 @@ class Link:
         payload = bytes(ffi.buffer(self._payload, lib.link_payload(framed, len(framed), self._payload)))
         if payload[:1] in (HELLO, RECORD) and not self._is_news(payload):
             return
-        before = twin.frames, twin.equal, twin.different
+        before = twin.frames, twin.different
         self._before[0] = twin.pid
         tracked = twin.tracked
         for byte in framed:
             lib.link_twin_receive(twin, byte)
         lib.link_twin_receive(twin, 0)
         if twin.frames == before[0]:
-            self.spoilt += 1
-        elif payload[0] & lib.LINK_STEP or payload[0] == lib.LINK_KEY:
-            equal = None
-            if twin.different != before[2]:
-                equal = False
-            elif twin.equal != before[1]:
-                equal = True
-            self._take_step(payload, equal, tracked)
+            return  # it is spoilt
+        if payload[0] & lib.LINK_STEP or payload[0] == lib.LINK_KEY:
+            self._take_step(payload, False if twin.different != before[1] else True if twin.compared else None, tracked)
         elif payload[0] == lib.LINK_HELLO:
             self._take_hello(payload)
-        elif payload[0] == lib.LINK_ANSWER and not self._live:
-            self._take_answer(payload)
 
     def _is_news(self, payload: bytes) -> bool:
         """False for what a command that was sent again made the board say again, when another one is
@@ -221,13 +213,6 @@ class Link:
         if payload[2] != lib.FIXPID_LINK_VERSION:
             raise ValueError(f"the board has version {payload[2]} of the link, and fixpid {__version__} "
                              f"version {lib.FIXPID_LINK_VERSION}")
-
-    def _take_answer(self, payload: bytes) -> None:
-        """In a recording there are no commands: the twin cannot do what was done."""
-        if payload[3] == lib.LINK_DONE and payload[2] > lib.LINK_SET_SETPOINT:
-            self._twin.running = False
-            if payload[2] == lib.LINK_WRITE:
-                self._twin.known = False
 
     def _take_step(self, payload: bytes, equal: Optional[bool], tracked: bool) -> None:
         twin, key = self._twin, payload[0] == lib.LINK_KEY
@@ -290,6 +275,11 @@ class Link:
         self._twin.wants_record = True
 
     # ---- steps ----
+
+    @property
+    def spoilt(self) -> int:
+        """How often what stood between two zeros was no frame."""
+        return int(self._twin.spoilt)
 
     @property
     def equal(self) -> bool:
