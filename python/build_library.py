@@ -20,15 +20,16 @@ from headers import NUMBER
 ROOT = "c" if os.path.isdir("c") else ".."
 INCLUDE, SOURCE, TUNER = (os.path.join(ROOT, *path) for path in (("include",), ("src",), ("sim", "tuner")))
 SIM = os.path.join(ROOT, "sim")
+LINK = os.path.join(SIM, "link")
 
 
 def beside(*names):
     return sorted(glob.glob(os.path.join(*names), recursive=True))
 
 
-# The live link is not a part of the package yet.
-HEADERS = [path for path in beside(INCLUDE, "*.h") if not path.endswith("fixpid_link.h")]
-READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")]
+HEADERS = beside(INCLUDE, "*.h")
+READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")] + [
+    os.path.join(LINK, name) for name in ("link_frames.h", "link_twin.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
 # What the page is made of: tools/lib/pages/tuner/sources.rb has the same.
@@ -47,13 +48,13 @@ def preprocessed(*options):
         for name in ("limits", "stdbool", "stddef", "stdint"):
             open(os.path.join(empty, name + ".h"), "w").close()
         command = [os.environ.get("CC", "cc"), "-E", "-P", "-nostdinc", "-I", INCLUDE, "-I", TUNER,
-                   "-I", empty]
+                   "-I", LINK, "-I", empty]
         return subprocess.run(command + list(options) + ["-x", "c", "-"], input=TEXT, check=True,
                               stdout=subprocess.PIPE, universal_newlines=True).stdout
 
 
 def declarations():
-    macros = re.findall(r"^#define ((?:FIXPID|TUNER)_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
+    macros = re.findall(r"^#define ((?:FIXPID|LINK|TUNER)_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
     numbers = [name for name, value in macros if NUMBER.fullmatch(value)]
     # An inline function is declared like any other.
     declared = re.sub(r"static inline ([^{]*)\{[^}]*\}", r"\1;", preprocessed())
@@ -62,6 +63,7 @@ def declarations():
 
 ffi = FFI()
 ffi.cdef(declarations())
-SOURCES = [path for path in beside(SOURCE, "*", "*.c") if "fixpid_link" not in path]
+# The twin of a live link is in the library itself: it is a controller.
+SOURCES = beside(SOURCE, "*", "*.c") + [os.path.join(LINK, name) for name in ("link_frames.c", "link_twin.c")]
 ffi.set_source("fixpid._library", TEXT, sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
-               include_dirs=[INCLUDE, TUNER], extra_compile_args=["-std=c99"])
+               include_dirs=[INCLUDE, TUNER, LINK], extra_compile_args=["-std=c99"])

@@ -11,6 +11,7 @@ import re
 import textwrap
 
 EXTENDED = ("Autotune", "Pid")  # classes of which Python has more: not for `from ._nouns import *`
+WITHOUT = ("link",)  # the board's end, of which Python is the other: no class is made of it
 TRAILING = 8  # a comment that begins further to the right goes on with the line above
 FUNCTION = re.compile(r"(?:static inline )?((?:const )?[\w ]+?[ *]+)(fixpid_\w+)\(([^{;]*)\)\s*[;{]")
 ARGUMENT = re.compile(r"(?:FIXPID_DATA )?(.*?)\s*(\*?)(\w+)(\[\w*\])?$")
@@ -136,7 +137,8 @@ class Headers:
     def classes(self):
         """The text of `_nouns.pyi`."""
         enumerators = [name for fields in self.fields.values() for name in fields if name.startswith("FIXPID_")]
-        nouns = [line for noun in self.nouns if f"fixpid_{noun}_init" in self.functions for line in self._noun(noun)]
+        nouns = [line for noun in self.nouns
+                 if f"fixpid_{noun}_init" in self.functions and noun not in WITHOUT for line in self._noun(noun)]
         constants = [name[len("FIXPID_"):] for name in sorted({*self.constants, *enumerators})]
         classes = [line[len("class "):-len("(Noun):")] for line in nouns if line.startswith("class ")]
         exported = ["Noun", *(name for name in classes if name not in EXTENDED), *constants]
@@ -157,7 +159,7 @@ def write(folder, paths):
               for owner, all_fields in headers.fields.items()}
     with open(os.path.join(folder, "_headers.py"), "w", encoding="utf-8") as file:
         file.write("# Written by headers.py from include/.\n")
-        for name, value in (("EXTENDED", EXTENDED), ("NOUNS", headers.nouns), ("FUNCTIONS", functions), ("FIELDS", fields)):
+        for name, value in (("EXTENDED", EXTENDED), ("WITHOUT", WITHOUT), ("NOUNS", headers.nouns), ("FUNCTIONS", functions), ("FIELDS", fields)):
             file.write(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}\n")
     with open(os.path.join(folder, "_nouns.pyi"), "w", encoding="utf-8") as file:
         file.write(headers.classes())

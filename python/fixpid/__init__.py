@@ -9,6 +9,7 @@ Each noun whose header has an `init` is a class with its verbs: Pid, An937, An96
 Autotune and so on. What `init` takes in C makes an object here; fields that are left
 out are 0. The verbs take the library's integers: `help(fixpid.Pid.step)` has what the
 header says. The headers' constants stand here without FIXPID_: fixpid.PID_AT_MAX.
+Link is no such noun: it is the other end of a board that runs fixpid_link.
 Structures come back as dictionaries, and are given as keywords.
 
 Who passes what is no whole number gets a TypeError, what does not fit an OverflowError, and
@@ -16,6 +17,7 @@ what C refuses by returning false a ValueError; each names the value.
 """
 from ._core import __version__
 from ._library import ffi, lib
+from ._link import Difference, Link, Step
 from ._loop import Fit, Loop, Plant, fit, simulate, tune
 from ._modules import (Autotune, AutotuneCause, AutotuneState, Table, gains_from_milli, gains_to_milli,
                        guard_config, record_pack, record_unpack, sat16, slew_rate, table)

@@ -119,7 +119,7 @@ class Noun:
 def _make():
     for name in dir(lib):
         noun = name[len("fixpid_"):-len("_init")]
-        if name.startswith("fixpid_") and name.endswith("_init"):
+        if name.startswith("fixpid_") and name.endswith("_init") and noun not in _headers.WITHOUT:
             globals()[noun.capitalize()] = type(noun.capitalize(), (Noun,), {
                 "__doc__": _headers.NOUNS[noun], "__module__": "fixpid"}, noun=noun)
 

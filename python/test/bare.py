@@ -8,6 +8,7 @@ import sysconfig
 import zipfile
 
 import fixpid
+from board import Board
 from runner import refuses, run, same
 
 WHEEL = sys.argv[1]
@@ -51,4 +52,12 @@ def a_recording_becomes_a_header():
     assert refuses(ImportError, found.plot)
 
 
-run((comes_from_the_wheel, lists_do_for_arrays, a_recording_becomes_a_header))
+def a_live_link_has_lists():
+    with fixpid.Link(Board()) as link:
+        link.setpoint(90)
+        steps = link.read(50)
+    same(link.log["output"][:50], [step.output for step in steps])
+    assert isinstance(link.recording()[0], list) and link.equal and link.log["p"][0] == steps[0].p
+
+
+run((comes_from_the_wheel, lists_do_for_arrays, a_recording_becomes_a_header, a_live_link_has_lists))

@@ -5,9 +5,11 @@ Prints `ok NAME: N rows` or `FAILED NAME` with the rows that differ.
 """
 import csv
 import os
+import struct
 import sys
 
 import fixpid
+from board import Board
 from plant import Plant
 
 REPORTED = 5  # rows that differ; the rest is only counted
@@ -260,6 +262,48 @@ def autotune_record_row(_, row, __):
     yield row["record"], tuner.pack().hex()
 
 
+LINK_EVENTS = range(6)
+
+
+def link_bytes(at, name):
+    """So many bytes, which the columns behind have as words."""
+    return struct.pack("<16i", *(at[f"{name}{word}"] for word in range(16)))[:at[name]]
+
+
+def link_init(board, given):
+    config = fixpid.record_unpack(given[:fixpid.RECORD_SIZE])
+    board.board.period_us, board.board.manual_steps, *limits, setpoint = struct.unpack("<IH4h10xh", given[fixpid.RECORD_SIZE:])
+    for name, limit in zip(("setpoint_min", "setpoint_max", "output_min", "output_max"), limits):
+        setattr(board.board, name, limit)
+    board.board.name = given[37:47]
+    board.start(config, setpoint)
+
+
+def link_row(board, at, _):
+    given, event, frames, heard = link_bytes(at, "in"), at["event"], b"", len(board.heard)
+    init, allow, receive, step, reset, lost = LINK_EVENTS
+    if event == init:
+        link_init(board, given)
+    elif event == allow:
+        fixpid.lib.fixpid_link_allow(board.link, given[0])
+    elif event == receive:
+        frames = board.receive(given)
+    elif event == step:
+        output, frames = board.step(at["setpoint"], at["measurement"])
+        yield at["output"], output
+    elif event == reset:
+        fixpid.lib.fixpid_pid_reset(board.pid)
+        fixpid.lib.fixpid_link_changed(board.link)
+    elif event == lost:
+        fixpid.lib.fixpid_link_lost(board.link)
+    yield at["taken"], len(board.heard) - heard
+    if event != allow:
+        yield link_bytes(at, "out"), bytes(frames)
+    if event != step:
+        yield at["setpoint"], fixpid.lib.fixpid_link_setpoint(board.link)
+    yield at["flags"], fixpid.lib.fixpid_pid_flags(board.pid)
+
+
 # File, rows, object, what compares a row.
 FILES = (
     ("an937_firmware", 2000, lambda: fixpid.An937(accumulated_error_limit=1,
@@ -272,6 +316,7 @@ FILES = (
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
     ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
     ("gains", 1000, lambda: None, gains_row),
+    ("link", 300, Board, link_row),
     ("table", 800, list, table_row),
     ("autotune", 317, lambda: fixpid.Autotune(output_max=1, measurement_max=1, timeout_steps=2,
                                               cycles=1), autotune_row),
@@ -306,7 +351,6 @@ def main(folder):
         all_rows = f"{count}" if compared == count else f"{compared} of {count}"
         print(f"FAILED {name}: {different} differ" if different else f"ok {name}: {all_rows} rows")
     unknown = {name[:-len(".csv")] for name in os.listdir(folder)} - {row[0] for row in FILES}
-    unknown -= {"link"}  # which the package has not
     for name in sorted(unknown):
         print(f"FAILED {name}: nothing replays it")
     return 1 if failed or unknown else 0

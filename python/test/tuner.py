@@ -86,6 +86,23 @@ def fitted_again(row):
     return _fit.fit_models(t, y, read["stepAt"], every)
 
 
+def columns_are_read_at_their_limits():
+    """Just below and just above each: a move that is as large as another, what is far and what stands
+    alone, and how many may."""
+    def among(values, at, value):
+        return _columns.outliers_of([value if i == at else one for i, one in enumerate(values)])
+
+    noisy, steep, still = [0, 1] * 50, [0] * 50 + [1] * 50, [0.0] * 100
+    same((among(noisy, 50, 12.8), among(noisy, 50, 12.9)), ([], [50]))  # 1 and 8 times 1.4826
+    same((among(steep, 25, 0.149), among(steep, 25, 0.151)), ([], [25]))
+    same((among(steep, 50, 4.3), among(steep, 50, 4.4)), ([], [50]))
+    for count, found in (5, 5), (6, 0):
+        spikes = [9.0 if i in range(10, 10 + 15 * count, 15) else one for i, one in enumerate(still)]
+        same(len(_columns.outliers_of(spikes)), found)
+    for second, at in (0.3 * (1 + 5e-10), 10), (0.3 * (1 + 2e-9), 20):
+        same(_columns.jump_of([0] * 10 + [0.3] * 10 + [0.3 + second] * 10)["at"], at)
+
+
 def worded(sentence):
     """Without its numbers."""
     return re.sub(r"[\d.]+", "N", sentence or "")
@@ -479,10 +496,11 @@ def plots_have_what_they_show():
     same(pair[1].lines[0].get_ydata().tolist(), loop.output.tolist())
 
 
-run((near_tells_numbers_apart, fits_are_the_pages, fits_without_numpy_are_too, plants_of_models_are_the_pages, scenes_are_the_pages,
-     rules_are_the_pages, links_are_the_pages, numbers_are_written_as_on_the_page, the_table_is_whole, recordings_of_all_kinds,
+run((near_tells_numbers_apart, columns_are_read_at_their_limits, fits_are_the_pages, fits_without_numpy_are_too,
+     plants_of_models_are_the_pages, scenes_are_the_pages, rules_are_the_pages, links_are_the_pages,
+     numbers_are_written_as_on_the_page, the_table_is_whole, recordings_of_all_kinds,
      a_number_is_a_step_at_the_first_time_or_where_it_is_said, what_is_left_out_is_said, each_kind_is_told_apart,
      each_kind_is_tuned_and_simulated, what_is_no_step_is_refused, what_is_refused_can_be_looked_at,
-     lags_that_are_no_part_of_a_step_are_simulated, tuning_is_on_the_hardware_that_is_given, without_hardware_it_is_the_pages,
-     what_has_no_gains_says_what_to_do, a_simulated_loop_is_that_controllers, plants_and_events_that_are_none_are_refused,
-     the_header_compiles_to_these_gains, plots_have_what_they_show))
+     lags_that_are_no_part_of_a_step_are_simulated, tuning_is_on_the_hardware_that_is_given,
+     without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do, a_simulated_loop_is_that_controllers,
+     plants_and_events_that_are_none_are_refused, the_header_compiles_to_these_gains, plots_have_what_they_show))

@@ -6,7 +6,7 @@
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
-#include "numbers_link.h"
+#include "link_frames.h"
 #include "poison.h"
 #include "unity.h"
 #include "vectors.h"

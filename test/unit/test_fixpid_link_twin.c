@@ -7,10 +7,10 @@
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
 #include "fixpid_record.h"
+#include "link_frames.h"
 #include "link_twin.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_link.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/link/fixpid_link.c")
@@ -104,7 +104,7 @@ static void carry(uint8_t byte, void (*take)(uint8_t byte))
 
 static void to_twin(uint8_t byte)
 {
-    link_twin_receive(&twin, byte);
+    (void)link_twin_receive(&twin, byte);
 }
 
 static void send(uint8_t bytes)
@@ -310,6 +310,183 @@ void test_twin_takes_over_what_the_program_changed(void)
     TEST_ASSERT_GREATER_OR_EQUAL(20, twin.taken_over);
 }
 
+// ---- What it says ----
+
+void test_first_difference_has_both_answers(void)
+{
+    unsigned steps = 1000;
+
+    run(1000);
+    pid.integral += INT32_C(3) << 16; // three counts
+    for (; twin.different == 0; steps++) {
+        run(1); // where the output is limited both are equal
+    }
+    TEST_ASSERT_EQUAL(twin.first.own_output + 3, twin.first.output);
+    TEST_ASSERT_EQUAL(steps - 1, twin.first.number);
+    run(1000);
+    TEST_ASSERT_EQUAL(steps - 1, twin.first.number);
+    TEST_ASSERT_FALSE(twin.first.state);
+    TEST_ASSERT_GREATER_THAN(0, twin.by_reason[LINK_TWIN_DIFFERENCE]);
+}
+
+void test_first_difference_may_be_in_the_state_alone(void)
+{
+    run(1000);
+    pid.integral_fraction ^= 0x01;
+    run(1);
+    TEST_ASSERT_EQUAL(0, twin.different);
+    run(1000);
+    TEST_ASSERT_TRUE(twin.first.state);
+    TEST_ASSERT_EQUAL(twin.first.own_output, twin.first.output);
+}
+
+static unsigned reasons(void)
+{
+    unsigned sum = 0;
+
+    for (unsigned at = 0; at < LINK_TWIN_REASONS; at++) {
+        sum += twin.by_reason[at];
+    }
+    return sum;
+}
+
+void test_each_frame_is_counted_once(void)
+{
+    unsigned frames = 0;
+
+    damage = 1000;
+    for (unsigned i = 0; i < 10000; i++) {
+        const unsigned before = twin.frames;
+
+        step_board(fixpid_link_setpoint(&link_of_board));
+        frames += twin.frames - before;
+        command();
+    }
+    TEST_ASSERT_EQUAL(frames, twin.equal + twin.not_compared);
+    TEST_ASSERT_EQUAL(twin.not_compared, reasons());
+    TEST_ASSERT_NOT_EQUAL(0, twin.by_reason[LINK_TWIN_GAP]);
+    TEST_ASSERT_NOT_EQUAL(0, twin.by_reason[LINK_TWIN_BEGINNING]);
+    TEST_ASSERT_NOT_EQUAL(0, twin.spoilt);
+}
+
+void test_thinned_stream_is_not_compared_and_said_to_be_thinned(void)
+{
+    const uint8_t third[] = {3};
+
+    run(100);
+    while (twin.command_bytes != 0) {
+        run(1);
+    }
+    link_twin_send(&twin, LINK_SET_STREAM, third, 1);
+    transmit();
+    for (unsigned i = 0; i < 300; i++) {
+        step_board(0);
+    }
+    // Two frames show a distance, and each key frame begins anew.
+    TEST_ASSERT_GREATER_THAN(90, twin.by_reason[LINK_TWIN_THINNED]);
+    TEST_ASSERT_EQUAL(0, twin.different);
+}
+
+// ---- Another's log ----
+
+// Commands were sent by a program whose bytes are not here.
+static void another_sends(uint8_t command, const uint8_t value[],
+                          unsigned bytes)
+{
+    static uint8_t tag = 200;
+    uint8_t payload[LINK_FRAMES_MAX] = {command, ++tag};
+    uint8_t framed[LINK_FRAMES_MAX];
+    unsigned count;
+
+    memcpy(payload + 2, value, bytes);
+    count = link_command(payload, bytes + 2, framed);
+    for (unsigned at = 0; at < count; at++) {
+        if (fixpid_link_receive(&link_of_board, framed[at])) {
+            send(fixpid_link_answer(&link_of_board, &board, &pid, &config));
+        }
+    }
+}
+
+static void step_times(unsigned steps)
+{
+    while (steps != 0) {
+        step_board(fixpid_link_setpoint(&link_of_board));
+        steps--;
+    }
+}
+
+static void begin_log(void)
+{
+    const uint8_t each[] = {1};
+
+    another_sends(LINK_ASK_RECORD, each, 0);
+    another_sends(LINK_SET_STREAM, each, 1);
+    step_times(100);
+    TEST_ASSERT_EQUAL(99, twin.equal);
+}
+
+void test_log_goes_on_behind_a_setpoint_and_a_hand(void)
+{
+    const uint8_t value[] = {100, 0};
+
+    begin_log();
+    another_sends(LINK_SET_SETPOINT, value, 2);
+    step_times(100);
+    TEST_ASSERT_EQUAL(199, twin.equal);
+    another_sends(LINK_SET_MANUAL, value, 2);
+    step_times(5);
+    another_sends(LINK_SET_AUTO, value, 0);
+    step_times(95);
+    TEST_ASSERT_EQUAL(0, twin.different);
+    TEST_ASSERT_EQUAL(297, twin.equal); // but for two key frames
+}
+
+void test_log_is_not_compared_behind_a_write_until_its_record_comes(void)
+{
+    struct fixpid_pid_config wanted = config;
+    struct fixpid_record record;
+
+    begin_log();
+    wanted.gains.kp_q8 = 77;
+    fixpid_record_pack(&record, &wanted);
+    another_sends(LINK_WRITE, record.bytes, sizeof record.bytes);
+    step_times(1000);
+    TEST_ASSERT_EQUAL(99, twin.equal);
+    TEST_ASSERT_EQUAL(0, twin.different);
+    another_sends(LINK_ASK_RECORD, record.bytes, 0);
+    step_times(1000);
+    TEST_ASSERT_GREATER_THAN(800, twin.equal);
+    TEST_ASSERT_EQUAL(0, twin.different);
+}
+
+// A tag comes again after 255 others, of which the twin has carried out none.
+void test_same_tag_and_command_later_are_carried_out_again(void)
+{
+    struct fixpid_record record;
+    struct fixpid_pid_config wanted = config;
+    const uint8_t beyond[] = {0xFF, 0x7F};
+
+    run(50);
+    while (twin.command_bytes != 0) {
+        run(1);
+    }
+    for (uint16_t kp = 300; kp < 302; kp++) {
+        wanted.gains.kp_q8 = kp;
+        fixpid_record_pack(&record, &wanted);
+        link_twin_send(&twin, LINK_WRITE, record.bytes, sizeof record.bytes);
+        transmit();
+        step_times(1);
+        for (unsigned i = 0; i < 254; i++) {
+            link_twin_send(&twin, LINK_SET_SETPOINT, beyond, 2);
+            transmit();
+            step_times(1);
+        }
+    }
+    TEST_ASSERT_EQUAL(301, config.gains.kp_q8);
+    TEST_ASSERT_EQUAL(301, twin.config.gains.kp_q8);
+    TEST_ASSERT_EQUAL(0, twin.different);
+}
+
 // ---- Tracked ----
 
 void test_twin_is_equal_in_each_tracked_step(void)
@@ -441,7 +618,7 @@ static void count_commands(uint8_t byte)
 
 static void count_frames(uint8_t byte)
 {
-    link_twin_receive(&reader, byte);
+    (void)link_twin_receive(&reader, byte);
     good = reader.frames;
 }
 

@@ -3,7 +3,7 @@
 // FIXPID_PID_FEATURES 0x00 for it.
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
-#include "numbers_link.h"
+#include "link_frames.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("src/link/fixpid_link.c")

@@ -87,7 +87,7 @@ module Modules
               [:arm, { 'receive' => 'receive', 'answer' => 'answer' }]].map do |kind, functions, more, *linked|
         names = functions.transform_keys { |name| "fixpid_link_#{name}" }
         { object: 'wire', calls: 1000, kinds: [kind], functions: names, unbounded: names.keys,
-          program: %w[control pid link].map { |name| "test/support/numbers_#{name}.c" } + linked, **(more || {}) }
+          program: %w[test/support/numbers_control.c test/support/numbers_pid.c sim/link/link_frames.c] + linked, **(more || {}) }
       end
     },
     'pid' => {
@@ -195,7 +195,7 @@ module Modules
 
   # What makes the random arguments of a module alone.
   def numbers(name)
-    Dir["test/support/numbers_#{name}.c"]
+    Dir["{test/support/numbers_#{name},sim/link/#{name}_frames}.c"]
   end
 
   # Those that calls_x.c calls on simulated chips, against the host: all but

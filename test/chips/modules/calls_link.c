@@ -2,12 +2,12 @@
 // A controller and its link: steps, and commands of which some are damaged. All
 // frames are answers, and what they must say is known here. With -DCALLS_STREAM
 // the firmware only streams, with -DCALLS_TRACKED it tracks after each step.
+#include "../../../sim/link/link_frames.h"
 #include "calls.h"
 #include "fixpid_link.h"
 #include "fixpid_record.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_link.h"
 #include "numbers_pid.h"
 
 FIXPID_DATA struct fixpid_link wire;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_link.h"
+#include "link_frames.h"
 
 // SDCC's port for PIC18 has no memcpy.
 static void copy(uint8_t to[], const uint8_t from[], unsigned count)

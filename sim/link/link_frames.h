@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Frames of fixpid_link, made and read from the definition in its header and
 // not from src/.
-#ifndef NUMBERS_LINK_H
-#define NUMBERS_LINK_H
+#ifndef LINK_FRAMES_H
+#define LINK_FRAMES_H
 #include <stdint.h>
 
 #define LINK_FRAMES_MAX 64u // bytes of any frame here
