@@ -9,6 +9,11 @@ export async function startEngine() {
     wasm = (await WebAssembly.instantiate(bytes, {})).instance.exports;
 }
 
+// What the C exports: twin.js has the other half of it.
+export function exported() {
+    return wasm;
+}
+
 // The numbers that the C gets: of the state's parameters and of its events, in
 // their order in time.
 export function sceneOf(state) {

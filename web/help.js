@@ -41,6 +41,10 @@ export const HELP = {
     'Phase margin': ['How much later the loop may answer, as an angle, before it swings.', 'tuning#how-it-is-judged'],
     'Base’s way': ['How far the base goes from where it began.', 'tuning#the-pendulum-by-the-steps-of-an964'],
     Shove: ['The largest angle after the shove.', 'tuning#the-pendulum-by-the-steps-of-an964'],
+    'Baud rate': ['The speed of the board’s UART, as its program has set it.', 'link#on-the-tuner-page'],
+    'Board’s setpoint': ['A whole number of the counts that the board measures in, within the range of its program.', 'link#on-the-tuner-page'],
+    'Step of': ['How far the setpoint or the output goes from where it is, and back at the end.', 'link#on-the-tuner-page'],
+    'Recorded for': ['How long the step is watched: some times as long as the plant takes.', 'link#on-the-tuner-page'],
 };
 
 // The documents stand beside the page on the site, and above it in the sources.

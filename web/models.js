@@ -80,7 +80,7 @@ function projected({ times, values, weights }, kind, numbers) {
 }
 
 // Nelder and Mead's simplex from a place, with the first sides of it.
-function lowest(f, start, sides, turns) {
+export function lowest(f, start, sides, turns) {
     const at = (x) => ({ x, f: f(x) });
     let corners = [at(start), ...sides.slice(0, start.length).map((side, i) => at(start.map((one, k) => one + (k === i ? side : 0))))];
     for (let turn = 0; turn < turns; turn++) {

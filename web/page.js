@@ -13,12 +13,13 @@ import { digits, short, whole } from './format.js';
 import { guardOf, guardRule, guardText } from './guard.js';
 import { wholeHeaderOf } from './header.js';
 import { helpFor } from './help.js';
+import { createLive } from './live.js';
 import { loadAlone, loadPairs, restText } from './load.js';
 import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
 import { recordingOf } from './models.js';
 import { createPendulum } from './pendulum.js';
-import { simcGains } from './own.js';
+import { plantOfKind, simcGains } from './own.js';
 import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
@@ -39,6 +40,7 @@ let panel = null;
 let pendulum = null;
 let past = null;
 let recorder = null;
+let live = null;
 let clock = null;
 let mode = 'run'; // or 'load', or 'tune': what the plots show
 let cursor = null;
@@ -450,6 +452,32 @@ function useRecorded(plant) {
     say('The plant is the one that was recorded; sensor, output and rate are yours.');
 }
 
+// --- A board ------------------------------------------------------------------------
+
+function gainsOfPage() {
+    const s = currentState();
+    const { n, results } = run(s);
+    return s.CONTROLLER === CONTROLLER.PID && n >= 0 ? { ...results, RATE: s.RATE } : null;
+}
+
+// The board's hardware and gains, on a plant that was found there or the page's own.
+function useBoard(hardware, plant) {
+    const s = { ...currentState(), ...hardware };
+    const own = s.preset === 'own' && s.PLANT !== PLANT.PENDULUM ? {} : plantOfKind(s, PLANT.LAGS);
+    const { KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX, OPTIONS } = hardware;
+    mode = 'run';
+    changeNow({ ...ownState(s, plant ?? own), CONTROLLER: CONTROLLER.PID, KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX, OPTIONS });
+    find('#view').scrollIntoView();
+    say(plant === null ? 'Rate, limits and gains are the board’s; the plant is this page’s.' : 'Plant, rate, limits and gains are the board’s: what is shown is a prediction.');
+}
+
+function useHandStep(hardware, text) {
+    useBoard(hardware, null);
+    find('#record-unit').value = 'counts';
+    recorder.take(text, 'the board’s step');
+    find('#recorder').scrollIntoView();
+}
+
 // --- A sensor -----------------------------------------------------------------------
 
 function sensorOfPage() {
@@ -545,6 +573,7 @@ function listen() {
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
         show();
         recorder.draw();
+        live.draw();
     });
 }
 
@@ -563,13 +592,14 @@ async function startPage() {
             find('#redo').disabled = !redo;
         } });
     recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX });
+    live = createLive(find('#live'), { gains: gainsOfPage, onPlant: useBoard, onStep: useHandStep, download });
     listen();
     showTour(find('#tour'));
     onChange(show);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     past.settle();
     // What the tests take hold of.
-    window.tuner = { headerOf: wholeHeaderOf, CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, simcGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, isStable, linearResponse,
+    window.tuner = { live, headerOf: wholeHeaderOf, CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, simcGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, isStable, linearResponse,
         controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, redraw: () => plots.redraw(), run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
     document.body.dataset.ready = 'yes';
 }

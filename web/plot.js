@@ -220,7 +220,7 @@ function valueAt(one, view, cursor) {
 
 // Returns what shows the values: { one: the series, place }.
 function fillLegend(legend, pane) {
-    const values = pane.series.filter((one) => one.data.length > 0).map((one) => ({ one, place: make('output') }));
+    const values = pane.series.filter((one) => one.data.length > 0).map((one) => ({ one, place: make('span', { className: 'value' }) }));
     const entries = values.map(({ one, place }) => {
         const mark = make('i');
         mark.style.borderTopColor = color(one.color);

@@ -402,5 +402,5 @@ export function createRecorder(section, { onUse, outputMost }) {
     own('#record-unit').addEventListener('input', showFit);
     own('#use-fit').addEventListener('click', use);
     canvas.addEventListener('pointerdown', grip);
-    return { draw: showFit };
+    return { draw: showFit, take };
 }

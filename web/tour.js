@@ -8,7 +8,7 @@ const KEY = 'fixpid-tour';
 const TOUR = [
     ['1 Your plant', 'Take “Your own” and say what your hardware and your plant are, or paste a step that you recorded.', ['#presets button']],
     ['2 Tune', 'Move one slider from calm to quick, ask for an Ms, or take a row of the autotuner.', ['#c-calm', '#c-kp']],
-    ['3 Take', 'Copy the header into your firmware: its integers are those that ran here.', ['#copy']],
+    ['3 Take', 'Copy the header into your firmware: its integers are those that ran here; or connect a board and send them.', ['#copy']],
 ];
 
 // A browser may refuse to remember.

@@ -10,6 +10,10 @@
 #define STATE_SENT 14
 #define NUMBER_MASK 0x3FFFu
 
+// So many equal distances above 1 behind each other, and the stream is thinned
+// out: where one of ten frames is lost, that comes once in 10^8 steps.
+#define STRIDES 8u
+
 // The board has decided already.
 static const struct fixpid_link_board any_board = {.period_us = 1,
                                                    .manual_steps = 1,
@@ -49,11 +53,29 @@ static void replay(struct link_twin *self)
     }
 }
 
+static bool is_own(const struct link_twin *self,
+                   const struct fixpid_record *record)
+{
+    struct fixpid_record own;
+    bool equal = self->known;
+
+    fixpid_record_pack(&own, &self->config);
+    for (unsigned at = 0; at < FIXPID_RECORD_SIZE; at++) {
+        equal = equal && own.bytes[at] == record->bytes[at];
+    }
+    return equal;
+}
+
+// One that is known already changes nothing.
 static void take_record(struct link_twin *self, const uint8_t payload[])
 {
     struct fixpid_record record;
 
     memcpy(record.bytes, payload + 2, sizeof record.bytes);
+    if (is_own(self, &record)) {
+        self->wants_record = false;
+        return;
+    }
     self->known = fixpid_record_unpack(&record, &self->config) &&
                   fixpid_pid_init(&self->pid, &self->config);
     self->wants_record = !self->known;
@@ -68,11 +90,13 @@ static void doubt(struct link_twin *self)
     self->reason = LINK_TWIN_GAP;
 }
 
-// True if it is the answer to the command under way.
-static bool is_expected(const struct link_twin *self, const uint8_t payload[])
+// True if it is the answer to the command under way, and not to one before that
+// was sent twice.
+static bool is_expected(const struct link_twin *self, uint8_t command,
+                        uint8_t tag)
 {
-    return self->command_bytes != 0 && payload[1] == self->payload[1] &&
-           payload[2] == self->payload[0];
+    return self->command_bytes != 0 && tag == self->payload[1] &&
+           command == self->payload[0];
 }
 
 // An answer to nothing comes twice, or another program asked: in a log. What
@@ -99,7 +123,7 @@ static void take_answer(struct link_twin *self, const uint8_t payload[])
     const bool again = payload[1] == self->last_tag;
 
     self->last_tag = payload[1];
-    if (!is_expected(self, payload)) {
+    if (!is_expected(self, command, payload[1])) {
         overhear(self, payload, again);
         return;
     }
@@ -215,8 +239,14 @@ static void come(struct link_twin *self, uint32_t number, uint32_t mask)
         self->gaps++;
         self->reason = LINK_TWIN_GAP;
     }
-    if (!self->running && stride > 1 && stride == self->stride) {
+    self->strides =
+        stride > 1 && stride == self->stride ? self->strides + 1 : 0;
+    if (!self->running && self->strides >= STRIDES) {
         self->reason = LINK_TWIN_THINNED;
+    } else if (self->reason == LINK_TWIN_THINNED) {
+        self->reason = LINK_TWIN_GAP;
+    } else {
+        // it is what it was
     }
     self->stride = stride;
     self->last = number;
@@ -285,12 +315,17 @@ static void take(struct link_twin *self, const uint8_t payload[],
     } else if (payload[0] == LINK_ANSWER) {
         take_answer(self, payload);
     } else {
-        if (payload[0] == LINK_HELLO) {
+        const bool is_hello = payload[0] == LINK_HELLO;
+
+        if (is_hello) {
             self->last_tag = 0;
         } else {
             take_record(self, payload);
         }
-        self->command_bytes = 0;
+        if (is_expected(self, is_hello ? LINK_ASK_HELLO : LINK_ASK_RECORD,
+                        payload[1])) {
+            self->command_bytes = 0;
+        }
     }
 }
 

@@ -70,8 +70,9 @@ struct link_twin {
 
     bool compared; // the last step was, and it was equal
     enum link_twin_reason reason;
-    unsigned stride; // from the step before the last one to that
-    uint32_t last;   // number of the last step that came
+    unsigned stride;  // from the step before the last one to that
+    unsigned strides; // so many before it were equal, and above 1
+    uint32_t last;    // number of the last step that came
     struct link_twin_difference first;
 };
 

@@ -340,6 +340,20 @@ void test_first_difference_may_be_in_the_state_alone(void)
     TEST_ASSERT_EQUAL(twin.first.own_output, twin.first.output);
 }
 
+void test_first_difference_may_be_in_the_flags_alone(void)
+{
+    int16_t output;
+
+    run(1000);
+    output = fixpid_pid_step(&pid, 0, measurement);
+    pid.status ^= FIXPID_PID_AT_MAX;
+    send(fixpid_link_step(&link_of_board, &pid, 0, measurement, output));
+    TEST_ASSERT_EQUAL(1, twin.different);
+    TEST_ASSERT_EQUAL(twin.first.own_output, twin.first.output);
+    TEST_ASSERT_EQUAL(twin.first.own_flags ^ FIXPID_PID_AT_MAX,
+                      twin.first.flags);
+}
+
 static unsigned reasons(void)
 {
     unsigned sum = 0;
@@ -366,6 +380,7 @@ void test_each_frame_is_counted_once(void)
     TEST_ASSERT_EQUAL(twin.not_compared, reasons());
     TEST_ASSERT_NOT_EQUAL(0, twin.by_reason[LINK_TWIN_GAP]);
     TEST_ASSERT_NOT_EQUAL(0, twin.by_reason[LINK_TWIN_BEGINNING]);
+    TEST_ASSERT_EQUAL(0, twin.by_reason[LINK_TWIN_THINNED]);
     TEST_ASSERT_NOT_EQUAL(0, twin.spoilt);
 }
 
@@ -382,9 +397,47 @@ void test_thinned_stream_is_not_compared_and_said_to_be_thinned(void)
     for (unsigned i = 0; i < 300; i++) {
         step_board(0);
     }
-    // Two frames show a distance, and each key frame begins anew.
-    TEST_ASSERT_GREATER_THAN(90, twin.by_reason[LINK_TWIN_THINNED]);
+    // Nine equal distances show it.
+    TEST_ASSERT_GREATER_THAN(85, twin.by_reason[LINK_TWIN_THINNED]);
     TEST_ASSERT_EQUAL(0, twin.different);
+}
+
+void test_record_that_is_known_does_not_stop_comparing(void)
+{
+    const uint8_t none[] = {0};
+
+    run(50);
+    while (twin.command_bytes != 0) {
+        run(1);
+    }
+    for (unsigned i = 0; i < 10; i++) {
+        const unsigned before = twin.equal;
+
+        link_twin_send(&twin, LINK_ASK_RECORD, none, 0);
+        transmit();
+        step_board(0);
+        TEST_ASSERT_EQUAL(before + 1, twin.equal);
+    }
+}
+
+// Hello is sent twice, as its answer is late; the second answer comes when the
+// record is asked for.
+void test_answer_that_comes_twice_does_not_end_the_next_command(void)
+{
+    const uint8_t none[] = {0};
+    uint8_t frame[FIXPID_LINK_FRAME];
+
+    link_twin_send(&twin, LINK_ASK_HELLO, none, 0);
+    transmit();
+    TEST_ASSERT_EQUAL(0, twin.command_bytes);
+    memcpy(frame, link_of_board.frame, sizeof frame);
+    link_twin_send(&twin, LINK_ASK_RECORD, none, 0);
+    for (unsigned at = 0; at < sizeof frame; at++) {
+        (void)link_twin_receive(&twin, frame[at]);
+    }
+    TEST_ASSERT_NOT_EQUAL(0, twin.command_bytes);
+    transmit();
+    TEST_ASSERT_EQUAL(0, twin.command_bytes);
 }
 
 // ---- Another's log ----

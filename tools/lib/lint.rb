@@ -215,7 +215,7 @@ end
 # SDCC compiles the support files, the co-simulation those of chips, and the
 # comparisons, guarded loops, faults and recipes of tools/demo are programs for a PC, as is what the
 # tuner page computes with.
-programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/guard/|/faults/|/tuner/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/guard/|/faults/|/tuner/|/link/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
 avr, others = programs.partition { |file| file.start_with?('port/avr/') }
 avr.each { |file| judged(file) { avr_warnings(file) } }
 library.each { |file| judged(file) { [warnings(file), modes_and_forms(file), tidy(file)] } }

@@ -10,14 +10,15 @@ export const PAGE = `file://${process.cwd()}/${WORK}/index.html`;
 // A module of the page in Node.
 export const moduleOf = (name) => import(`${process.cwd()}/${WORK}/modules/${name}.js`);
 
-// A page that notes its errors and requests in `page.noted`.
-export async function open(fragment = '', options = {}, within = browser) {
+// A page that notes its errors and requests in `page.noted`. `before(page)` prepares it.
+export async function open(fragment = '', options = {}, within = browser, before = () => {}) {
     const page = await within.newPage({ viewport: { width: 1360, height: 1000 }, ...options });
     page.setDefaultTimeout(PATIENCE);
     page.noted = { errors: [], requests: [] };
     page.on('pageerror', (error) => page.noted.errors.push(error.message));
     page.on('console', (message) => message.type() === 'error' && page.noted.errors.push(message.text()));
     page.on('request', (request) => page.noted.requests.push(request.url().slice(0, 80)));
+    await before(page);
     await page.goto(`${PAGE}${fragment ? '#' : ''}${fragment}`);
     await page.waitForSelector('body[data-ready]');
     return page;

@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 # The lists of names that the page shares with the C: each enumeration of
-# sim/tuner/tuner.h, those of fixpid_autotune.h that the page shows, the bits of
+# sim/tuner/tuner.h and of sim/link/link_page.h, those of fixpid_autotune.h that the page shows, the bits of
 # fixpid_pid.h and the ends of its ranges.
 module Names
   class << self
@@ -13,17 +13,19 @@ module Names
       tuner = File.read('include/fixpid_autotune.h')
       pid = File.read('include/fixpid_pid.h')
       an964 = File.read('include/fixpid_an964.h')
+      live = File.read('sim/link/link_page.h')
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'),
         CAUSE: of(tuner, 'fixpid_autotune_cause', 'FIXPID_AUTOTUNE_'), RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
         WORD: %w[QUICK SAFE CALM].to_h { |name| [name, number(tuner, "FIXPID_AUTOTUNE_#{name}")] },
-        OPTION: bits(header, 'TUNER_OPTION_'), FEATURE: bits(pid, 'FIXPID_PID_HAS_'),
+        STEP: of(live, 'live_step', 'LIVE_'), TWIN: of(live, 'live_count', 'LIVE_'), CONFIG: of(live, 'live_config', 'LIVE_'),
+        ALLOWED: link_bits, OPTION: bits(header, 'TUNER_OPTION_'), FEATURE: bits(pid, 'FIXPID_PID_HAS_'),
         LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid),
                  **%w[SUM TERM OUTPUT].to_h { |name| ["AN964_#{name}", number(an964, "FIXPID_AN964_#{name}_LIMIT")] },
                  RECORD_SIZE: number(tuner, 'FIXPID_AUTOTUNE_RECORD_SIZE'),
-                 RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION') } }
+                 RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION'), LIVE_BYTES: number(live, 'LIVE_BYTES') } }
     end
 
     def version
@@ -44,6 +46,11 @@ module Names
     # Of the macros with this beginning.
     def bits(text, prefix)
       text.scan(/^#define #{prefix}(\w+) (0x\h+)u/).to_h { |name, value| [name, value.hex] }
+    end
+
+    # What a board may allow: { SETPOINT: 1, .. }.
+    def link_bits
+      File.read('include/fixpid_link.h').scan(/^#define FIXPID_LINK_(SETPOINT|GAINS|LIMITS|MANUAL) (0x\h+)u/).to_h { |name, value| [name, value.hex] }
     end
 
     # The largest gains; that of ki with HAS_COARSE_KI, and without.

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+// The card of a board: Chromium with a serial port of the test's own, behind which a board
+// runs the loop of docs/link.md with the library's C, as another WebAssembly.
+import { readFileSync } from 'node:fs';
+import { violations } from '../browser/browser.mjs';
+import { check, checkNone, finish, frame, moduleOf, open, random, text, WORK } from './harness.mjs';
+
+const ALL = 15; // SETPOINT, GAINS, LIMITS, MANUAL
+const ANSWERS = 4; // steps that the board makes when something was sent
+
+async function loadBoard(name = 'board', allowed = ALL) {
+    const { instance: { exports: c } } = await WebAssembly.instantiate(readFileSync(`${WORK}/${name}.wasm`), {});
+    c.board_begin(allowed);
+    const memory = (at, n) => new Uint8Array(c.memory.buffer, at, n);
+    let waiting = [];
+    return {
+        kp: () => c.board_kp(), meddle: (kp) => c.board_meddle(kp), setpoint: () => c.board_setpoint(), begin: () => c.board_begin(allowed), sent: [],
+        receive: (bytes) => waiting.push(...bytes),
+        run(steps) {
+            memory(c.board_in(), waiting.length).set(waiting);
+            const n = c.board_run(waiting.length, steps);
+            waiting = [];
+            return memory(c.board_out(), n).slice();
+        },
+    };
+}
+
+// One of a hundred bytes is lost, has a wrong bit or is doubled.
+function spoiled(bytes, draw) {
+    const found = [];
+    for (const byte of bytes) {
+        const kind = draw() < 0.01 ? Math.floor(3 * draw()) : -1;
+        found.push(...(kind === 0 ? [] : kind === 1 ? [byte ^ (1 << Math.floor(8 * draw()))] : kind === 2 ? [byte, byte] : [byte]));
+    }
+    return Uint8Array.from(found);
+}
+
+// In the page: a port as Web Serial has it, whose bytes go through the test.
+function fakeSerial() {
+    const takes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    let source = null;
+    window.port = {
+        give: (base64) => source.enqueue(takes(base64)),
+        end: (message) => source.error(new DOMException(message, 'NetworkError')),
+    };
+    const port = {
+        readable: null, writable: null,
+        async open({ baudRate }) {
+            if (window.refused) {
+                throw new DOMException('Failed to open serial port.', 'NetworkError');
+            }
+            window.baud = baudRate;
+            port.readable = new ReadableStream({ start(controller) { source = controller; }, cancel() { port.readable = null; } });
+            port.writable = new WritableStream({ write: (bytes) => window.toBoard([...bytes]) });
+        },
+        async close() { window.portClosed = true; },
+    };
+    Object.defineProperty(navigator, 'serial', { value: {
+        async requestPort() {
+            if (window.noPort) {
+                throw new DOMException('No port selected by the user.', 'NotFoundError');
+            }
+            return port;
+        },
+    } });
+}
+
+// A page with a board behind its port: { here, board, run(steps), say() }.
+async function connected({ name, allowed, spoil = (bytes) => bytes, options = {}, click = true } = {}) {
+    const board = await loadBoard(name, allowed);
+    const here = await open('', options, undefined, async (page) => {
+        await page.exposeFunction('toBoard', async (bytes) => {
+            board.sent.push(bytes);
+            board.receive(spoil(Uint8Array.from(bytes)));
+            await run(ANSWERS);
+        });
+        await page.addInitScript(fakeSerial);
+    });
+    async function run(steps) {
+        const bytes = Buffer.from(spoil(board.run(steps))).toString('base64');
+        await here.evaluate((base64) => window.port.give(base64), bytes);
+    }
+    if (click) {
+        await here.click('#live-connect');
+        await said(here, /^Connected\.$/);
+    }
+    return { here, board, run };
+}
+
+const said = (here, wanted) => here.waitForFunction(([source]) => new RegExp(source).test(document.querySelector('#live-said').textContent), [wanted.source]);
+const verdict = async (here) => {
+    await here.waitForTimeout(150); // it is drawn ten times a second
+    return text(here, '#live-verdict');
+};
+const equalOf = (sentence) => Number((sentence.match(/([\d\u202F]+) steps? equal/) ?? ['', '0'])[1].replaceAll('\u202F', ''));
+const left = (here) => text(here, '#live-left');
+
+// --- Without a browser ------------------------------------------------------------
+const { startEngine } = await moduleOf('engine');
+const { fitLoop } = await moduleOf('loopfit');
+const { bytesOfFile, bytesOfText } = await moduleOf('log');
+const { takeBytes, twinCounts, beginTwin, commandBytes } = await moduleOf('twin');
+await startEngine();
+{
+    check('hexadecimal is read', bytesOfText('0x0b, 09 01;FF').bytes.join() === '11,9,1,255');
+    check('what is no digit is named', bytesOfText('0b 0g').refused.includes('“g”'), bytesOfText('0b 0g').refused);
+    check('half a byte is refused', bytesOfText('0b0').refused.includes('left over'));
+    check('another JSON is refused', bytesOfText('{"a":1}').refused.includes('no log'));
+    check('a file with a 0 in it is bytes', bytesOfFile(Uint8Array.of(49, 0, 50)).bytes.length === 3 && bytesOfFile(Uint8Array.of(49, 50)).bytes.join() === '18');
+}
+async function streamed(name, steps) {
+    const board = await loadBoard(name);
+    beginTwin();
+    const rows = [];
+    const give = (bytes) => takeBytes(bytes, (numbers, n) => rows.push(numbers.slice(0, 10 * n)), () => {});
+    for (const [command, value] of [[0x40, []], [0x41, []], [0x42, [1]]]) {
+        board.receive(commandBytes(command, value));
+        give(board.run(1));
+    }
+    for (let done = 0; done < steps; done += 10000) {
+        give(board.run(Math.min(10000, steps - done)));
+    }
+    return { counts: twinCounts(), rows };
+}
+{
+    const { counts, rows } = await streamed('board', 1000);
+    check('the twin has each step', counts.EQUAL === 1000 && counts.LEFT_BEGINNING === 1 && counts.DIFFERENT === 0, JSON.stringify(counts));
+    const one = rows.at(-1);
+    const [output, p, i, d] = [one.at(-6), one.at(-3), one.at(-2), one.at(-1)];
+    check('its terms add up to the output', Math.abs(p / 256 + i / 65536 + d / 256 - output) <= 0.51, `${p} ${i} ${d} ${output}`);
+}
+{
+    // The board's plant, by another hand: lag 64, gain 4, dead time 8 and the step between.
+    const [u, y] = [[], []];
+    let x = 20;
+    const draw = random(5);
+    for (let k = 0; k < 1500; k++) {
+        y.push(Math.round(x + 2 * draw() - 1));
+        u.push(k < 300 ? 60 : 60 + Math.round(40 * Math.exp(-(k - 300) / 150) + 20 * Math.sin(k / 90)));
+        x += (4 * (u[k - 8] ?? 60) + 20 - x) / 64;
+    }
+    const fit = fitLoop(u, y);
+    check('a closed loop’s plant is found', fit.refused === null && Math.abs(fit.lag - 64) < 2 && Math.abs(fit.gain - 4) < 0.1 && Math.abs(fit.dead - 8) < 1.5 && Math.abs(fit.rest - 20) < 6, JSON.stringify(fit));
+    check('an output that stands still shows nothing', fitLoop(u.map(() => 60), y).refused.includes('stood still'));
+    check('what does not follow is refused', fitLoop(u, u.map(() => 100 * draw())).refused !== null);
+}
+
+// --- A good wire --------------------------------------------------------------------
+{
+    const { here, board, run } = await connected();
+    check('the baud rate is the chosen one', await here.evaluate(() => window.baud) === 115200);
+    const about = await text(here, '#live-board');
+    check('the board is told in words', /^“oven”, fixpid \d+\.\d+\.\d+, 100 steps per second\. Allowed: setpoint: yes, gains: yes, limits: yes, output by hand: for 3\.00 s at a time\.$/.test(about), about);
+    for (let i = 0; i < 10; i++) {
+        await run(10000);
+    }
+    const sentence = await verdict(here);
+    check(`100 000 steps are equal: ${sentence}`, equalOf(sentence) >= 100000 && /^[\d\u202F]+ steps equal, bit for bit\.$/.test(sentence), sentence);
+    check('what is not compared is counted', (await left(here)) === 'Not compared: 1 before the record and the first key frame.', await left(here));
+    const legend = await here.locator('#live-plots figcaption').allTextContents();
+    check('setpoint, measurement, output and terms are drawn', ['setpoint 300.0', 'measured', 'output', 'P', 'I', 'D'].every((word) => legend.join().includes(word)), legend.join());
+    const cost = await here.evaluate(() => {
+        const from = performance.now();
+        window.tuner.live.draw();
+        return performance.now() - from;
+    });
+    check(`a redraw takes ${cost.toFixed(1)} ms`, cost < 500);
+
+    // Commands.
+    await here.fill('#live-setpoint', '450');
+    await here.click('#live-set');
+    await said(here, /^The setpoint is 450\.$/);
+    check('a setpoint is taken', board.setpoint() === 450);
+    await here.fill('#live-setpoint', '950');
+    await here.click('#live-set');
+    await said(here, /^Refused by the board: the setpoint is outside/);
+    check('a refused one changes nothing', board.setpoint() === 450);
+    await here.click('#live-send');
+    await said(here, /take the board’s settings first/);
+    check('gains for another rate are not sent', !(await here.isVisible('#live-confirm')));
+    await here.click('#live-use');
+    await frame(here);
+    const own = await here.evaluate(() => {
+        const { KP, KI, KD, RATE, OUTPUT_MAX, unit } = window.tuner.currentState();
+        return { KP, KI, KD, RATE, OUTPUT_MAX, unit };
+    });
+    check('the page has the board’s settings', own.KP === 1 && own.RATE === 100 && own.OUTPUT_MAX === 255 && own.unit === 'counts' && (await text(here, '#header')).includes('256u'), JSON.stringify(own));
+    await here.fill('#c-kp', '2.5');
+    await frame(here);
+    await here.click('#live-send');
+    const compared = await here.locator('#live-compare tbody tr').first().locator('td').allTextContents();
+    check('old and new stand beside each other', compared.join() === '256,640', compared.join());
+    check('a much larger kp is asked about', await here.isDisabled('#live-sure') && await here.isVisible('#live-bold'));
+    check('nothing is sent before', board.kp() === 256);
+    checkNone('axe-core, with all of the card in view', await violations(here));
+    await here.check('#live-bold');
+    await here.click('#live-sure');
+    await said(here, /^Sent: .* equal in all bytes/);
+    check('the board has the page’s gains', board.kp() === 640, `${board.kp()}`);
+    await run(2000);
+    await here.click('#live-revert');
+    await said(here, /^The board has its former gains again\.$/);
+    check('and its own again', board.kp() === 256 && await here.isDisabled('#live-revert'));
+    await run(2000);
+    const after = await verdict(here);
+    check('all of it is equal', /^[\d\u202F]+ steps equal, bit for bit\.$/.test(after) && equalOf(after) > 104000, `${after} ${await left(here)}`);
+
+    // A step, and the plant of it.
+    await here.fill('#live-step', '-150');
+    await here.fill('#live-length', '6');
+    await here.click('#live-record');
+    await said(here, /^The setpoint is 300; 600 steps are recorded\.$/);
+    await run(700);
+    await said(here, /^The setpoint is 450 again\.$/);
+    await here.waitForSelector('#live-fit', { state: 'visible' });
+    const fit = await text(here, '#live-fit-said');
+    const [, gain, lag, dead] = fit.match(/^Gain ([\d.]+) counts per count of output, lag ([\d.]+) (?:m?s), dead time ([\d.]+) ms/) ?? [];
+    check(`the plant is found: ${fit}`, Math.abs(gain - 4) < 0.2 && Math.abs(lag - 0.64) < 0.04 && dead > 60 && dead < 110, fit);
+    await here.click('#live-fit-use');
+    await frame(here);
+    const plant = await here.evaluate(() => {
+        const { GAIN, T1, DEAD, KP } = window.tuner.currentState();
+        return { GAIN, T1, DEAD, KP };
+    });
+    check('it becomes the page’s plant, with the board’s gains', Math.abs(plant.GAIN - 4 * 255) < 50 && Math.abs(plant.T1 - 0.64) < 0.04 && plant.KP === 1, JSON.stringify(plant));
+    check('and is said to be a prediction', (await text(here, '#said')).includes('prediction'));
+
+    // By hand: for the card of recordings.
+    await run(1000);
+    await here.fill('#live-step', '40');
+    await here.click('#live-hand');
+    await said(here, /^The output is \d+; 600 steps are recorded\.$/);
+    for (let i = 0; i < 16; i++) {
+        await run(50);
+        await here.waitForTimeout(110);
+    }
+    await said(here, /automatic again/);
+    await here.waitForSelector('#recorder[data-done]:not([data-busy])');
+    const hand = await text(here, '#fit');
+    check(`a step by hand goes to the card of recordings: ${hand}`, /^Gain (9|10)\d\d counts at full drive, lag (0\.6\d+|6\d\d m)/.test(hand) && !(await here.isDisabled('#use-fit')), hand);
+    await run(500);
+    const last = await verdict(here);
+    check('a hand, too, is equal in each step', !last.includes('Different'), last);
+
+    // What is saved is read again.
+    const [json] = await Promise.all([here.waitForEvent('download'), here.click('#live-json')]);
+    const saved = readFileSync(await json.path());
+    const log = JSON.parse(saved);
+    check('the JSON has the board, its gains and the bytes', log.format === 'fixpid live' && log.board.name === 'oven' && log.config.kp === 256 && log.bytes.length > 30000 && log.whole, JSON.stringify({ ...log, bytes: 0 }));
+    const [csv] = await Promise.all([here.waitForEvent('download'), here.click('#live-csv')]);
+    const rows = readFileSync(await csv.path(), 'utf8').trim().split('\n');
+    check('the CSV has each step with its terms', rows[0] === 'time_s,setpoint,measurement,output,p,i,d,flags,compared' && rows.length > 100000 && /^[\d.e-]+(,-?[\d.e-]+){7},equal$/.test(rows.at(-1)), `${rows.length} ${rows.at(-1)}`);
+    const before = equalOf(last);
+    await here.setInputFiles('#live-file', { name: 'board.json', mimeType: 'application/json', buffer: saved });
+    await said(here, /^board\.json: [\d\u202F]+ steps in/);
+    const again = await verdict(here);
+    check('opened again, it is compared again', equalOf(again) > 0.95 * before && !again.includes('Different'), `${again} of ${before}: ${await left(here)}`);
+    check('a log sends nothing', !(await here.isVisible('#live-commands')) && await here.evaluate(() => window.portClosed));
+    checkNone('a good wire: no error', here.noted.errors);
+    await here.close();
+}
+
+// --- A bad wire ---------------------------------------------------------------------
+{
+    const draw = random(11);
+    let bad = true;
+    const { here, board, run } = await connected({ spoil: (bytes) => (bad ? spoiled(bytes, draw) : bytes) });
+    await run(20000);
+    const wanted = [300, 444];
+    for (const value of [444, 445, 446]) {
+        wanted.push(value);
+        await here.fill('#live-setpoint', String(value));
+        await here.click('#live-set');
+        await said(here, new RegExp(`^The setpoint is ${value}\\.$`));
+        check(`a bad wire: setpoint ${value} is taken whole`, board.setpoint() === value, `${board.setpoint()}`);
+    }
+    const sentence = await verdict(here);
+    check(`a bad wire: nothing is said to be different: ${sentence}`, /^[\d\u202F]+ steps equal, bit for bit\.$/.test(sentence) && board.kp() === 256, sentence);
+    const lost = await left(here);
+    check('a bad wire: what was not compared is counted', /behind [\d\u202F]+ gaps, up to the next key frame/.test(lost) && /[\d\u202F]+ steps did not come/.test(lost) && /pieces between two frames/.test(lost), lost);
+    bad = false;
+    const before = equalOf(sentence);
+    for (let i = 0; i < 200 && equalOf(await verdict(here)) === before; i++) {
+        await run(10); // the record is asked for again, and the stream
+    }
+    const begun = equalOf(await verdict(here));
+    await run(5000);
+    const after = equalOf(await verdict(here));
+    check('mended, it is equal again from the next key frame on', after - begun === 5000, `${after - begun} of 5000, ${begun - before} before`);
+    checkNone('a bad wire: no error', here.noted.errors);
+    await here.close();
+}
+
+// --- Another library, permissions, and ends --------------------------------------------
+{
+    const { here, board, run } = await connected({ name: 'other' });
+    await run(5000);
+    const sentence = await verdict(here);
+    check(`1/256 of a count on the board is said: ${sentence.slice(0, 120)}`, /^Different: in step [\d\u202F]+ the board’s output is -?\d+ with flags \d+, this page’s -?\d+ with flags \d+/.test(sentence), sentence);
+    check('and what was not compared since', (await left(here)).includes('after a difference'), await left(here));
+    await here.click('#live-use');
+    await here.fill('#c-kp', '1.25');
+    await frame(here);
+    board.meddle(77);
+    await here.click('#live-send');
+    await here.click('#live-not');
+    check('not now is no', !(await here.isVisible('#live-confirm')) && board.kp() === 256);
+    await here.click('#live-send');
+    await here.click('#live-sure');
+    await said(here, /^The board’s record is not what was sent/);
+    check('gains that are not in its record are not said to be sent', await here.isDisabled('#live-revert'));
+    await here.evaluate(() => window.port.end('The device has been lost.'));
+    await said(here, /^The port is gone: The device has been lost\. Is the cable still in\?$/);
+    check('a port that vanishes is said, and another may be opened', await here.isVisible('#live-connect') && !(await here.isVisible('#live-commands')));
+    check('what came stays', (await text(here, '#live-verdict')).startsWith('Different'));
+    await here.click('#live-connect');
+    await said(here, /^Connected\.$/);
+    check('and it begins anew', equalOf(await verdict(here)) < 100);
+    await here.click('#live-disconnect');
+    await said(here, /^The port is closed; what came is kept\.$/);
+    await here.evaluate(() => { window.refused = true; });
+    await here.click('#live-connect');
+    await said(here, /^The port cannot be opened: Failed to open serial port\. Does another program/);
+    await here.evaluate(() => { window.noPort = true; });
+    await here.click('#live-connect');
+    await said(here, /^No port was chosen\.$/);
+    checkNone('ends: no error', here.noted.errors);
+    await here.close();
+}
+{
+    const { here, board, run } = await connected({ allowed: 0 });
+    check('what is not allowed cannot be pressed', await here.isDisabled('#live-set') && await here.isDisabled('#live-send') && await here.isDisabled('#live-hand'));
+    // A program may take its permission back.
+    await here.evaluate(() => { document.querySelector('#live-set').disabled = false; document.querySelector('#live-setpoint').disabled = false; });
+    await here.fill('#live-setpoint', '400');
+    await here.click('#live-set');
+    await said(here, /^Not allowed: .*FIXPID_LINK_SETPOINT\.$/);
+    check('the reason is told', board.setpoint() === 300);
+    await run(1000);
+    board.begin();
+    await run(10);
+    await said(here, /^Connected again: the board had fallen silent/);
+    await run(1000);
+    const sentence = await verdict(here);
+    check('a board that began anew is asked again', /^[\d\u202F]+ steps equal/.test(sentence) && equalOf(sentence) > 1900, `${sentence} ${await left(here)}`);
+    checkNone('no permission: no error', here.noted.errors);
+    await here.close();
+}
+
+// --- Without Web Serial: a log ----------------------------------------------------------
+{
+    const board = await loadBoard();
+    const parts = [];
+    for (const [command, value] of [[0x40, []], [0x41, []], [0x42, [1]]]) {
+        board.receive(commandBytes(command, value));
+        parts.push(...board.run(1));
+    }
+    parts.push(...board.run(3000));
+    const bytes = Uint8Array.from(parts);
+    const here = await open('', { viewport: { width: 390, height: 844 }, colorScheme: 'dark' }, undefined, (page) => page.addInitScript(() => { delete Navigator.prototype.serial; }));
+    check('without Web Serial it is said what to do', await here.isDisabled('#live-connect') && (await text(here, '#live-none')).includes('A log of the board’s bytes') && await here.isVisible('#live-none'));
+    await here.click('#live summary');
+    await here.fill('#live-log', [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join(' '));
+    await here.click('#live-read');
+    await said(here, /^The log: 3\u202F001 steps in [\d\u202F]+ bytes\.$/);
+    check('a pasted log is compared', (await verdict(here)) === '3\u202F000 steps equal, bit for bit.', await verdict(here));
+    checkNone('axe-core, on a phone in the dark', await violations(here));
+    check('it does not scroll sideways on a phone', await here.evaluate(() => document.documentElement.scrollWidth) <= 390);
+    await here.setInputFiles('#live-file', { name: 'raw.bin', mimeType: 'application/octet-stream', buffer: Buffer.from(bytes.slice(0, 20000)) });
+    await said(here, /^raw\.bin: /);
+    check('a file of bytes is, too', equalOf(await verdict(here)) > 1500);
+    await here.fill('#live-log', 'hello');
+    await here.click('#live-read');
+    await said(here, /“h” is no such digit/);
+    await here.fill('#live-log', '01 02 03 04');
+    await here.click('#live-read');
+    await said(here, /no frame of fixpid_link is in these 4 bytes/);
+    checkNone('a log: no error', here.noted.errors);
+    await here.close();
+}
+await finish();
