@@ -2,8 +2,11 @@
 # The quick start ends with the lines that stand in the README:
 #
 #   cmake -DPROGRAM=quick_start -DREADME=README.md -P quick_start.cmake
-execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE printed
+#
+# with -DEMULATOR=wine before a program of Windows, whose lines end in two characters.
+execute_process(COMMAND ${EMULATOR} ${PROGRAM} OUTPUT_VARIABLE printed
                 RESULT_VARIABLE status)
+string(REPLACE "\r\n" "\n" printed "${printed}")
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ends with ${status}")
 endif()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program around an application on the host: options, world, trace.
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -55,7 +56,7 @@ static bool number(const char *text, double *value)
     *value = strtod(text, &end);
     const bool in_range = (errno == 0);
     return in_range && (end != text) && (*end == '\0') &&
-           (isfinite(*value) != 0);
+           (fabs(*value) <= DBL_MAX);
 }
 
 static bool set_option(const char *name, const char *text)

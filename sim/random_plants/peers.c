@@ -110,8 +110,9 @@ static bool classic_step(struct classic *self, double value, long now)
     self->highest = fmax(self->highest, value);
     self->lowest = fmin(self->lowest, value);
     classic_look(self, value, &above, &below);
-    memmove(&self->last[1], &self->last[0],
-            (size_t)(self->look_back - 1) * sizeof self->last[0]);
+    for (int i = self->look_back - 1; i > 0; i--) {
+        self->last[i] = self->last[i - 1];
+    }
     self->last[0] = value;
     self->changed = false;
     if (above) {

@@ -16,7 +16,8 @@ FIXPID_INLINE uint16_t fixpid_7x7_div4(uint8_t gain, uint8_t magnitude,
                                        uint8_t round_up, uint8_t limit)
 {
     const uint_fast16_t product = (uint_fast16_t)gain * magnitude;
-    const uint_fast16_t quotient = (product + (round_up & 3u)) >> 2;
+    const uint_fast16_t quotient =
+        (uint_fast16_t)((product + (round_up & 3u)) >> 2);
 
     return (quotient > limit) ? limit : (uint16_t)quotient;
 }

@@ -165,7 +165,7 @@ static void parse(char *line, int32_t columns[], int count)
     line[strcspn(line, "\r\n")] = '\0';
     for (int column = 0; column < count; column++) {
         char *end;
-        const long value = strtol(text, &end, 10);
+        const long long value = strtoll(text, &end, 10);
 
         if (end == text || *end != (column + 1 < count ? ',' : '\0')) {
             stop("does not have the columns of this recording");

@@ -8,7 +8,7 @@ require 'open3'
 module Outside
   # Of those that stop without any, before they ask for a program.
   ARGUMENTS = {
-    'tools/release' => %w[v0.1.0], 'tools/test' => %w[docs],
+    'tools/release' => %w[--snapshot], 'tools/test' => %w[docs],
     'tools/lib/build/build_avr' => %w[atmega328p build/none none.c], 'tools/lib/build/build_pic' => %w[pic18f4520 build/none none.c],
     'tools/lib/build/build_sdcc' => %w[build/none],
     'tools/lib/test/kept' => %w[none true], 'tools/lib/build/one_bank' => %w[check build/none]

@@ -300,3 +300,12 @@ part_claims() {
     need ruby cc:gcc
     count 'tools/prove --claims' '^ok ' '^FAILED ' tools/prove --claims
 }
+
+part_windows() {
+    count 'test/use/windows/run' '^ok ' '^FAILED ' test/use/windows/run
+}
+
+# As root, with a mirror of Debian.
+part_newest() {
+    count 'test/tools/newest/run' '^ok ' '^FAILED ' test/tools/newest/run
+}
