@@ -13,7 +13,7 @@ module Host
   class Failure < StandardError; end
 end
 
-%w[subjects documents limits].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
+%w[subjects documents limits since].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
 
 ROWS = [['', 'chip', 'built', 'worst', 'stack'], ['AN937', 'PIC18F4520', 'object', 410, '3 levels, 12 bytes'],
         ['AN937', 'Cortex-M0', '-O2', 60, '8 bytes']].freeze
@@ -43,6 +43,17 @@ expect('a row that is new', same.lines[0..-2].join, /Cortex-M0, -O2: new/)
 expect('a row that is gone', "#{same}#{same.lines.last.sub('M0', 'M3')}", /Cortex-M3, -O2: gone/)
 expect('another order', (same.lines[0, 2] + same.lines[2, 2].reverse).join, /places/)
 expect('no table', '', /new/)
+# What `--since` tells of two pages.
+def since(before, after)
+  Since.new(*[before, after].map { |text| "<!-- steps:begin -->\n#{text}<!-- steps:end -->\n" }).to_s
+end
+
+Gate.expect('since: the same page', since(same, same), "No figure of `docs/cost.md` changed: 4 are as they were.\n")
+Gate.expect('since: a cycle more', since(same.sub('410', '409'), same), /^\| steps: AN937, PIC18F4520, object \| worst \| 409 \| 410 \| \+1 \|$/)
+Gate.expect('since: a byte less of two numbers', since(same.sub('12 bytes', '13 bytes'), same), /\| stack \| 3 levels, 13 bytes \| 3 levels, 12 bytes \| changed \|$/)
+Gate.expect('since: a row that is new', since(same.lines[0..-2].join, same), /^\| steps: AN937, Cortex-M0, -O2 \| worst \| - \| 60 \| new \|$/)
+Gate.expect('since: a row that is gone', since(same, same.lines[0..-2].join), /\| 60 \| - \| gone \|$/)
+Gate.expect('since: what stayed is counted', since(same.sub('410', '409'), same), /^3 figures of/)
 Gate.expect('a limit kept', Limit.new('', 410, 410, '').kept?, true)
 Gate.expect('a limit exceeded', Limit.new('', 410, 411, '').kept?, false)
 Gate.expect('a limit of nothing', Limit.new('', 410, nil, '').kept?, false)

@@ -62,6 +62,35 @@ Gate.expect('a release waits for the week',
             -> { [jobs('release').dig('weekly', 'uses'), jobs('release').dig('archives', 'needs')] }, ['./.github/workflows/weekly.yml', 'weekly'])
 Gate.expect('the week may be called', -> { workflow('weekly')[true].key?('workflow_call') }, true)
 
+# What a release publishes is what tools/release made, of which the logs of the week are a part;
+# only its last job may write.
+def steps(name, job)
+  jobs(name).fetch(job).fetch('steps')
+end
+
+Gate.expect('a release takes the logs of the week', lambda do
+  kept = steps('weekly', 'by_name').map { |step| step['with'] }.compact.find { |with| with.fetch('path', '') == 'build/kept/' }
+  taken = steps('release', 'archives').map { |step| step['with'] }.compact.find { |with| with.fetch('path', '') == 'build/kept/' }
+  File.fnmatch(taken.fetch('pattern'), kept.fetch('name'))
+end, true)
+Gate.expect('before it makes the archives of the tag', lambda do
+  texts = steps('release', 'archives').map { |step| [step['uses'], step['run']].compact.first }
+  texts.index { |text| text.start_with?('actions/download-artifact@') } < texts.index('tools/release "$GITHUB_REF_NAME"')
+end, true)
+Gate.expect('and publishes them, attested', lambda do
+  texts = steps('release', 'publish').map { |step| [step['uses'], step['run']].compact.first }
+  [/sha256sum -c/, /\Aactions\/attest-build-provenance@/, /\Agh release create "\$GITHUB_REF_NAME" .*release\/\*\z/].map { |wanted| texts.index { |text| text.match?(wanted) } }
+end, [1, 2, 3])
+Gate.expect('only what publishes may write', lambda do
+  %w[release test weekly].flat_map { |name| [workflow(name)['permissions'], *jobs(name).values.map { |job| job['permissions'] }] }.compact
+                          .reject { |given| given == { 'contents' => 'read' } }
+end, [{ 'contents' => 'write', 'id-token' => 'write', 'attestations' => 'write' }])
+Gate.expect('a pull request tells what it costs', -> { [jobs('test').dig('cost', 'if'), commands(jobs('test').fetch('cost')).grep(/\Atools\/cost --since .*GITHUB_STEP_SUMMARY/).size] },
+            ["github.event_name == 'pull_request'", 1])
+Gate.expect('the week has other systems, which were not tried', lambda do
+  %w[macos windows].map { |name| [jobs('weekly').dig(name, 'runs-on'), jobs('weekly').dig(name, 'continue-on-error')] }
+end, [['macos-latest', true], ['windows-latest', true]])
+
 again = "#{KEPT} long tools/test long"
 Gate.expect('a part without a log', -> { toy("#{KEPT} --missing").call.first }, "long\n")
 Gate.expect('one with a log', -> { toy(again, "#{KEPT} --missing").call.first }, '')
