@@ -29,9 +29,10 @@ module Project
   # The headers that Arduino's "Include Library" writes into a sketch.
   FIRST_HEADERS = %w[fixpid_pid.h fixpid_autotune.h].freeze
 
-  # What a program's sources take in, and below what a package manager's users get.
+  # What a program's sources take in, and below what a package manager's users get: with what
+  # README.md links to.
   SMALL_FILES = %w[CMakeLists.txt LICENSE fixpid.pc.in include meson.build src].freeze
-  USER_FILES = [*SMALL_FILES, *%w[CHANGELOG.md README.md conanfile.py examples/arduino examples/esp-idf examples/zephyr
-                                  fixpid.fixpid.pdsc idf_component.yml keywords.txt library.json library.properties
-                                  vcpkg zephyr]].sort.freeze
+  USER_FILES = [*SMALL_FILES, *%w[CHANGELOG.md CONTRIBUTING.md README.md SECURITY.md conanfile.py docs examples
+                                  fixpid.fixpid.pdsc idf_component.yml keywords.txt library.json library.properties port
+                                  python/README.md vcpkg zephyr]].sort.freeze
 end
