@@ -2,7 +2,8 @@
 # Checks what the documents say: parts that are made from the code, code blocks, in C
 # and in C++, and what they print, files, functions and tests that they name, links, sums that
 # are written out, in comments of the code too; the Dockerfile's packages; and that the
-# manifests are those that tools/lib/manifests.rb writes. With --update it renews the
+# manifests are those that tools/lib/manifests.rb writes; and that docs/requirements.csv says what
+# is there. With --update it renews the
 # parts first.
 require 'fileutils'
 require 'open3'
@@ -20,8 +21,10 @@ require_relative 'docs/other_chips'
 require_relative 'docs/packages'
 require_relative 'docs/prose_numbers'
 require_relative 'docs/recipes'
+require_relative 'docs/requirements'
 require_relative 'docs/shown'
 require_relative 'docs/sums'
+require_relative 'docs/tools'
 
 Encoding.default_external = 'UTF-8'
 
@@ -81,7 +84,13 @@ def renewed(path, text)
   when 'CONTRIBUTING.md'
     part(part(text, 'parts', parts_table), 'packages', packages)
   when 'docs/assurance.md'
-    part(part(part(text, 'claims', Assurance.table), 'misra', Misra.table), 'theorems', Assurance.theorems)
+    part(part(text, 'claims', Assurance.table), 'theorems', Assurance.theorems)
+  when 'docs/misra.md'
+    part(text, 'misra', Misra.table)
+  when Tools::PAGE
+    Tools.renewed(text)
+  when Requirements::PAGE
+    Requirements.renewed(text)
   when 'docs/arithmetic.md'
     part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
   when 'docs/ports.md'
@@ -126,12 +135,17 @@ documents.each do |path|
   check_named_tests(path, new_text, tests)
   @failures.concat(Sums.failures(path, new_text))
 end
+if ARGV == ['--update']
+  File.write(Requirements::FILE, Requirements.csv)
+elsif Requirements.csv != File.read(Requirements::FILE)
+  @failures << "#{Requirements::FILE} is stale: ruby tools/lib/pages/check_docs.rb --update"
+end
 Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   comments = File.read(path).scan(%r{//(.*)}).join("\n") # a slash would read as a quotient
   @failures.concat(Sums.failures(path, comments))
 end
 @failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures + ProseNumbers.failures +
-                 FeatureComments.failures + Commands.failures + ChipChoices.failures)
+                 FeatureComments.failures + Commands.failures + ChipChoices.failures + Requirements.failures + Tools.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

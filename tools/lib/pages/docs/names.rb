@@ -13,6 +13,8 @@ module DocumentNames
   ELSEWHERE = {
     'fixpid_pid_single.h' => 'made by tools/release',
     'fixpid_..._single.h' => 'made by tools/release',
+    'fixpid-VERSION.spdx.json' => 'made by tools/release',
+    'fixpid-VERSION-commit.txt' => 'made by tools/release',
     'build_flags' => 'of PlatformIO',
     'fixpid_config.h' => "the user's own",
     'arm_pid_q15' => 'of CMSIS-DSP',
