@@ -26,7 +26,7 @@ build_sketch() {
         return 1
     }
     if grep -e "libraries/fixpid.*warning" -e "$1.ino.*warning" \
-        -e '^WARNING' said; then
+        -e '^WARNING' said | grep -v '^WARNING: Spurious \.[a-z]* folder in'; then
         return 1
     fi
 }
@@ -132,7 +132,8 @@ arduino_assembly() {
 }
 
 # The core's other chips: an ATmega32U4, an ATmega2560.
-# With a clone as the library.
+# With a clone as the library, of whose folders with a dot the builder says that they are
+# spurious.
 arduino_boards() {
     mkdir libraries
     whole_tree libraries/fixpid
