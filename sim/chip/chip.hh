@@ -127,6 +127,11 @@ class Chip
     // ---- Actions; they stay until the end ----
 
     void every(uint64_t cycles, Action action);
+    // A routine's loop that waits for an interrupt goes round once; then only
+    // time passes, until shortly before anything else happens. All else, each
+    // cycle too, is as if each of its instructions had been simulated, which
+    // the simulator of an AVR does.
+    void skip_waiting(const std::string &routine);
     void on_execute(unsigned code_address, Action action); // just before it
     void on_write(unsigned address, ValueAction action);   // just after it
     void on_read(unsigned address, Action action);         // just before it

@@ -53,6 +53,7 @@ const Bound bounds[] = {
 // What the command line asks for.
 std::string firmware;
 std::vector<std::string> metered;
+bool every_instruction = false; // those of the loop that waits, too
 uint32_t seed = 1;
 FILE *trace = nullptr;
 double trace_period_s = tick_s;
@@ -258,6 +259,9 @@ void Cosimulation::watch_loop()
     Meter &wait = chip.meter(probe_wait);
     wait.on_return = [this](uint64_t) { wait_ends(); };
     wait.on_call = [this] { wait_begins(); };
+    if (!every_instruction) {
+        chip.skip_waiting("port_wait_tick");
+    }
 }
 
 void Cosimulation::wait_begins()
@@ -668,6 +672,9 @@ void help(const char *program)
                 "Runs a firmware, .cod of a PIC or .elf of an AVR, on its "
                 "simulated chip, in its\nsimulated world.\n\n"
                 "  --meter ROUTINE   measure a routine's cycles\n"
+                "  --every-instruction   simulate the waiting for a tick, "
+                "too: slower, and\n"
+                "                    the same\n"
                 "  --faults NAME FIRST COUNT [KIND | place BYTES]   alone: "
                 "break the loop,\n"
                 "                    ../faults/faults.h\n\n"
@@ -744,6 +751,8 @@ int main(int count, char **arguments)
         if ((std::strcmp(arguments[i], "--meter") == 0) && (i + 1 < count)) {
             i++;
             metered.emplace_back(arguments[i]);
+        } else if (std::strcmp(arguments[i], "--every-instruction") == 0) {
+            every_instruction = true;
         } else {
             rest.push_back(arguments[i]);
         }

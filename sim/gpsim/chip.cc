@@ -594,6 +594,89 @@ void Chip::every(uint64_t cycles, Action action)
                            new Periodic(cycles, std::move(action)));
 }
 
+// Where a jump goes back to, or the jump's own address if it is none.
+static unsigned jump_back(unsigned at, unsigned opcode, bool is_pic18)
+{
+    if (!is_pic18) { // GOTO, within this page
+        const unsigned to = (at & ~0x7FFu) | (opcode & 0x7FFu);
+        return (opcode & 0x3800u) == 0x2800u ? to : at;
+    }
+    if ((opcode & 0xFE00u) == 0xE000u) { // BZ, BNZ
+        return at + 2u + 2u * (unsigned)(int8_t)(opcode & 0xFFu);
+    }
+    if ((opcode & 0xF800u) == 0xD000u) { // BRA
+        const int words = (int)((opcode & 0x7FFu) ^ 0x400u) - 0x400;
+        return at + 2u + 2u * (unsigned)words;
+    }
+    return at;
+}
+
+// Whether an instruction only compares bytes or jumps.
+static bool only_compares(unsigned opcode, bool is_pic18)
+{
+    if (!is_pic18) { // MOVF, XORWF and SUBWF to W; GOTO, BTFSC and BTFSS; banks
+        const unsigned to_w = opcode & 0x3F80u;
+        return to_w == 0x0800u || to_w == 0x0600u || to_w == 0x0200u ||
+               (opcode & 0x3800u) == 0x2800u || (opcode & 0x3800u) == 0x1800u ||
+               (opcode & 0x387Fu) == 0x1003u;
+    }
+    const unsigned to_w = opcode & 0xFF00u; // the same, of access RAM
+    return to_w == 0x5000u || to_w == 0x1800u || to_w == 0x5C00u ||
+           (opcode & 0xFE00u) == 0xE000u || (opcode & 0xF800u) == 0xD000u;
+}
+
+// A loop whose rounds are alike until an interrupt comes, because it only reads
+// memory. gpsim interrupts after its clock has come to a break; until then
+// nothing but the clock goes on.
+struct Waiting {
+    uint64_t last = 0;  // when it began a round
+    uint64_t round = 0; // what the round before took
+
+    void begins()
+    {
+        const uint64_t now = get_cycles().get();
+        const uint64_t took = now - last;
+        const bool alike = took == round && took <= longest_round;
+        last = now;
+        round = took;
+        const Cycle_Counter_breakpoint_list *const next =
+            get_cycles().active.next;
+        if (!alike || next == nullptr || get_bp().have_interrupt()) {
+            return;
+        }
+        while (last + 2 * round < next->break_value) {
+            for (uint64_t i = 0; i < round; i++) {
+                get_cycles().increment();
+            }
+            last += round;
+        }
+    }
+
+    static constexpr uint64_t longest_round = 8; // an interrupt takes more
+};
+
+void Chip::skip_waiting(const std::string &routine)
+{
+    if (self->routine(routine) == nullptr) {
+        return;
+    }
+    const unsigned words = 16; // it is short
+    const unsigned step = is_pic18() ? 2 : 1;
+    const unsigned begin = code(routine);
+
+    for (unsigned at = begin; at < begin + words * step; at += step) {
+        const unsigned opcode = self->processor->pma->get_opcode(at);
+        if (!only_compares(opcode, is_pic18())) {
+            return;
+        }
+        const unsigned to = jump_back(at, opcode, is_pic18());
+        if (to >= begin && to < at) {
+            on_execute(to, [loop = Waiting()]() mutable { loop.begins(); });
+            return;
+        }
+    }
+}
+
 void Chip::on_execute(unsigned code_address, Action action)
 {
     self->watch(code_address)->actions.push_back(std::move(action));

@@ -626,6 +626,10 @@ void Chip::every(uint64_t cycles, Action action)
         std::min(self->next_periodic, self->periodics.back().next);
 }
 
+void Chip::skip_waiting(const std::string &)
+{
+}
+
 void Chip::on_execute(unsigned code_address, Action action)
 {
     self->kinds.at(code_address / 2) |= begins;

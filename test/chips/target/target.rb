@@ -31,9 +31,9 @@ NARROW = '-D_PIC14'
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.
-Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart)
-SHORT = Amount.new(100_000, 200_000, 10_000, 1000, 1_000_000, 1_000_000, 31).freeze
-LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1).freeze
+Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart, :placed_apart, :unoptimised_apart)
+SHORT = Amount.new(20_000, 50_000, 10_000, 1000, 1_000_000, 1_000_000, 31, 7, 8).freeze
+LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1, 1, 1).freeze
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
@@ -265,18 +265,20 @@ class Table
     end
   end
 
-  # Each row of what the chip does in assembly, some of what its compiler makes.
+  # Each row of what the chip does in assembly, some of what its compiler makes and of the
+  # same assembly at other addresses.
   def arithmetic
-    { '' => [ON_CHIPS, 1], 'plain' => [ON_CHIPS, nil], 'placed' => [PLACED, 1] }.each do |form, (pairs, apart)|
+    amount = Target.amount
+    { '' => [ON_CHIPS, 1], 'plain' => [ON_CHIPS, amount.rows_apart], 'placed' => [PLACED, amount.placed_apart] }.each do |form, (pairs, apart)|
       in_modes(%w[object], pairs) do |controller, chip, mode|
         test('arith', "arith#{form}", controller, chip, mode) do
-          Target.digests(Images.arithmetic(controller, chip, form: form), controller, apart || Target.amount.rows_apart)
+          Target.digests(Images.arithmetic(controller, chip, form: form), controller, apart)
         end
       end
     end
     # As the Arduino IDE compiles, and where no function is inlined.
     { 'arith_avr' => [], 'arith_avr_plain' => [PLAIN], 'arith_avr_arduino' => %w[-Os -flto -std=gnu11],
-      'arith_avr_unoptimised' => %w[-O0] }.each do |name, options|
+      'arith_avr_unoptimised' => ['-O0', "-DARITH_ROWS_APART=#{amount.unoptimised_apart}"] }.each do |name, options|
       test('arith', name) { Target.arithmetic_of_avr(*options) }
     end
   end
