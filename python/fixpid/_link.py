@@ -377,8 +377,6 @@ class Link:
         Of a recording, what it has said up to here."""
         if self._live:
             self._ask("record", lib.LINK_ASK_RECORD)
-            if not self._twin.running:
-                self._twin.wants_record = True  # and a key frame
         if not self._twin.known:
             raise ValueError("the record is not known" if self._live else "the recording has said no record yet")
         return dict(fields_of(self._twin.config))

@@ -196,8 +196,10 @@ def a_silent_board_is_said():
     with link:
         pass  # it does not mind
     board, link = pair(period_us=1000000)
-    board.silent = True
+    board.silent, said = True, []
+    board.write = said.append
     assert "within 5 s" in message(TimeoutError, link.auto)
+    same((len(said), len(set(said))), (3, 1))  # each two steps
 
 
 def a_command_is_repeated_and_done_once():
@@ -253,7 +255,7 @@ def what_the_program_changes_is_taken_over():
     link.read(300)
     link.setpoint(100)
     assert link.equal and link.read(1)[0].equal and link.read(1)[0].setpoint == 100, link
-    assert link._number < 3000, link._number
+    assert link._number < 3000 and link.not_compared < 1000, link
 
 
 def tracked_steps_are_equal():
@@ -263,6 +265,12 @@ def tracked_steps_are_equal():
     board.pid.integral += 9 << 16
     link.read(3)
     assert link.difference.board.keys() == {"output"}, link.difference
+    board, link = pair()
+    board.tracks = True
+    link.read(KEY_FRAMES)
+    board.pid.derivative ^= 1
+    key = link.read(1)[0]
+    same((list(link.difference.board), link.difference.number, key.equal), (["derivative"], key.number, False))
 
 
 def a_thinned_stream_has_no_twin():
@@ -323,6 +331,7 @@ def a_file_is_read_again():
     assert played.difference is None and steps[-1].equal and played.compared > 250, played
     same((played.name, played.period, played.record()["gains"]["kp_q8"]), ("oven", 0.001, 300))
     t, u, y = link.recording()
+    assert abs(t[0]) + abs(t[count - 1] - (link.log["number"][-1] - link.log["number"][0]) / 1000) < 1e-9, t
     until = u[:390].tolist().index(200) + 300
     found = fixpid.fit(t[:until], u[:until], y[:until])
     assert abs(found.gain - 2) < 0.1 and 0.014 < found.lag < 0.018, found
