@@ -225,6 +225,9 @@ static void compare_setpoint(struct link_session *self)
                            self->order->command == LINK_SET_SETPOINT &&
                            self->order->value == self->twin.setpoint;
 
+    if ((self->allowed & FIXPID_LINK_SETPOINT) == 0) {
+        return; // the program has its own
+    }
     if (!self->setpoint_known) {
         self->setpoint = self->twin.setpoint;
         self->setpoint_known = true;
