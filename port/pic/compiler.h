@@ -8,7 +8,8 @@
 // PORT_REGISTERS_HERE. PORT_BYTE defines a byte that an interrupt reaches
 // without choosing a bank: in bank 0 of a PIC16, in the access bank of a PIC18;
 // SDCC wants to be told its address. PORT_TICK_INTERRUPT is the head of tick(),
-// the one interrupt function, in C; PORT_CLEAR_WATCHDOG is an instruction.
+// the one interrupt function, in C, and PORT_UART_INTERRUPT that of what it
+// goes on to when it is not a tick's; PORT_CLEAR_WATCHDOG is an instruction.
 #ifndef PORT_PIC_COMPILER_H
 #define PORT_PIC_COMPILER_H
 #include <stdint.h>
@@ -22,6 +23,8 @@
 #define PORT_BITS(address, type, name) extern volatile type __at(address) name
 #endif
 #define PORT_CLEAR_WATCHDOG() __asm__("clrwdt")
+// Without a number: it has no vector, and returns as an interrupt.
+#define PORT_UART_INTERRUPT() void port_uart_interrupt(void) __interrupt
 #if defined(__SDCC_pic14)
 #define PORT_BYTE(address, name) static volatile uint8_t __at(address) name
 #define PORT_TICK_INTERRUPT() static void tick(void) __interrupt(0)
@@ -53,6 +56,13 @@
 #define PORT_TICK_INTERRUPT()                                                  \
     void tick(void);                                                           \
     void tick(void)
+#endif
+
+// It is called by the interrupt, elsewhere.
+#ifndef PORT_UART_INTERRUPT
+#define PORT_UART_INTERRUPT()                                                  \
+    void port_uart_interrupt(void);                                            \
+    void port_uart_interrupt(void)
 #endif
 
 #endif

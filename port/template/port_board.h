@@ -23,6 +23,10 @@
 #define PORT_SETPOINT 0x00u
 #define PORT_TACHOMETER 0x01u
 
+// Of port_uart.h, if there is a port_uart.c: a rate that the clock divides
+// well.
+#define PORT_UART_BAUD 250000u
+
 // On a chip the loop never ends. As a constant it costs nothing; without this
 // line port.c defines the function.
 #define port_running() true

@@ -162,6 +162,14 @@ class Chip
     uint64_t probe_high_cycles(unsigned probe);       // since the last call
     void on_edge(unsigned probe, ValueAction action); // value: the new level
 
+    // ---- UART: a PIC18's at "portc6" and "portc7", an AVR's USART0 ----
+
+    // With each byte that the firmware hands to it.
+    void on_send(ValueAction action);
+    // A byte begins to arrive, one at a time: with so many cycles a bit, or of
+    // an AVR's as fast as it is set.
+    void receive(unsigned byte, unsigned cycles_a_bit);
+
     // ---- Simulator ----
 
     // What gpsim has printed since the last call; empty when all is well.

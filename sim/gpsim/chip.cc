@@ -25,6 +25,7 @@ namespace
 
 constexpr unsigned codes = 1024;
 constexpr unsigned poison = 0xA5;
+constexpr unsigned txreg = 0xFAD; // of a PIC18
 
 std::string printed(const char *format, ...)
     __attribute__((format(printf, 1, 2)));
@@ -75,6 +76,7 @@ struct Chip::Implementation {
     std::map<std::string, Stimulus_Node *> nodes;
     std::vector<Source *> sources;
     std::vector<Probe *> probes;
+    Arrival *arrival = nullptr;
 
     Implementation();
     ~Implementation();
@@ -842,6 +844,21 @@ uint64_t Chip::probe_high_cycles(unsigned probe)
 void Chip::on_edge(unsigned probe, ValueAction action)
 {
     self->probes.at(probe)->action = std::move(action);
+}
+
+// ---- UART ----
+
+void Chip::on_send(ValueAction action)
+{
+    on_write(txreg, std::move(action));
+}
+
+void Chip::receive(unsigned byte, unsigned cycles_a_bit)
+{
+    if (self->arrival == nullptr) {
+        self->arrival = new Arrival(this);
+    }
+    self->arrival->begin(byte, cycles_a_bit);
 }
 
 // ---- Simulator ----

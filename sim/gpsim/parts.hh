@@ -93,6 +93,34 @@ struct Periodic : TriggerObject {
     }
 };
 
+// The bits of a byte at a UART's input: a start bit, the lowest first, and a
+// stop bit, which is the line at rest.
+struct Arrival : TriggerObject {
+    Chip *chip;
+    unsigned line;
+    unsigned bits = 0; // those to come
+    unsigned cycles = 0;
+
+    explicit Arrival(Chip *of) : chip(of), line(of->analog_input("portc7"))
+    {
+        chip->set_volts(line, supply_volts);
+    }
+    void begin(unsigned byte, unsigned cycles_a_bit)
+    {
+        bits = (byte | 0x100u) << 1;
+        cycles = cycles_a_bit;
+        callback();
+    }
+    void callback() override
+    {
+        chip->set_volts(line, (bits & 1u) != 0 ? supply_volts : 0);
+        bits >>= 1;
+        if (bits != 0) {
+            get_cycles().set_break(get_cycles().get() + cycles, this);
+        }
+    }
+};
+
 // Ends a run from between two instructions: a halt from inside one would lose
 // its cycle.
 struct Halt : TriggerObject {

@@ -18,6 +18,7 @@
 #include <simavr/avr_adc.h>
 #include <simavr/avr_eeprom.h>
 #include <simavr/avr_timer.h>
+#include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_core.h>
 #include <simavr/sim_elf.h>
@@ -143,6 +144,7 @@ struct Chip::Implementation {
     std::vector<std::unique_ptr<Meter>> meters;
     std::vector<Frame> frames;
     std::vector<std::unique_ptr<Probe>> probes;
+    std::vector<std::unique_ptr<ValueAction>> sends;
     uint64_t in_interrupts = 0;
     unsigned lowest_stack = 0;
     Stop stop = Stop::none;
@@ -349,6 +351,10 @@ Chip::Chip(const std::string &elf, const std::string &processor)
     avr.vcc = avr.avcc = millivolts;
     avr.aref = millivolts / 4; // not used: an Uno has a capacitor there
     avr_load_firmware(&avr, &self->firmware);
+    uint32_t uart = 0; // what is sent is not printed
+    (void)avr_ioctl(&avr, AVR_IOCTL_UART_GET_FLAGS('0'), &uart);
+    uart &= ~(uint32_t)AVR_UART_FLAG_STDIO;
+    (void)avr_ioctl(&avr, AVR_IOCTL_UART_SET_FLAGS('0'), &uart);
     self->ordinary = avr.run;
     self->lowest_stack = avr.ramend;
     for (uint32_t i = 0; i < self->firmware.symbolcount; i++) {
@@ -748,6 +754,30 @@ uint64_t Chip::probe_high_cycles(unsigned probe)
 void Chip::on_edge(unsigned probe, ValueAction action)
 {
     self->probes.at(probe)->actions.push_back(std::move(action));
+}
+
+// ---- UART ----
+
+static avr_irq_t *uart_irq(avr_t *avr, int which)
+{
+    return avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), which);
+}
+
+static void sent(avr_irq_t *, uint32_t value, void *param)
+{
+    (*static_cast<Chip::ValueAction *>(param))(value);
+}
+
+void Chip::on_send(ValueAction action)
+{
+    self->sends.push_back(std::make_unique<ValueAction>(std::move(action)));
+    avr_irq_register_notify(uart_irq(self->avr, UART_IRQ_OUTPUT), sent,
+                            self->sends.back().get());
+}
+
+void Chip::receive(unsigned byte, unsigned)
+{
+    avr_raise_irq(uart_irq(self->avr, UART_IRQ_INPUT), byte);
 }
 
 // ---- Simulator ----

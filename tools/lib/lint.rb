@@ -23,7 +23,7 @@ SYSTEMS = {
   'RISC-V' => [%w[-D__GNUC__ -D__riscv], []],
   'SDCC' => [%w[-D__SDCC -D__SDCC_stm8] + SDCC_WORDS, %w[5.8 8.4 8.10 10.1]]
 }.freeze
-BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|kept|autotune|experiment/ }.freeze
+BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|kept|autotune|experiment|watched/ }.freeze
 BARE = 'build/lint'.freeze # the sources without the preprocessor's lines
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
@@ -33,6 +33,7 @@ COMPLEXITY_MAX = 8
 def includes(file)
   base = %w[-Iinclude -Isrc -Iport -Isim/host -Isim/world -Isim/plant -Isim/chip]
   return [base] if file.start_with?('src/', 'include/')
+  return [base + %w[-Iport/pic/pic18f4520]] if file.start_with?('port/pic/pic18/')
   return [base + ["-I#{File.dirname(file)}"]] if file.start_with?('port/avr/', 'port/pic/', 'port/template/')
 
   boards = BOARDS.select { |_, names| file =~ names }.keys

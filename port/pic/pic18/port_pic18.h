@@ -10,6 +10,8 @@
 //   T1CON_ON                on, 16-bit access, 1:1 of the instruction clock
 //   CCP2_COUNTS_TIMER1()    the time base of CCP2, where a chip has others
 //   ACCESS_RAM_END          the last byte that needs no bank
+// With -DPORT_UART, for firmware with port_uart.c, the interrupt is that one's,
+// too: a tick is two cycles later.
 #ifndef PORT_PIC_PORT_PIC18_H
 #define PORT_PIC_PORT_PIC18_H
 
@@ -46,7 +48,21 @@ PORT_BYTE(ACCESS_RAM_END, status_saved);
 // The same as below, saving only what it changes.
 // clang-format off
 #define STATUS 0xFD8
+#if defined(PORT_UART)
+// It goes on to the tick, which is behind it.
+#pragma code first 0x0008
+static void first(void) __naked
+{
+    __asm
+    extern  _port_uart_interrupt
+    btfss   _PIR2, 0, 0             ; CCP2IF
+    goto    _port_uart_interrupt
+    __endasm;
+}
+#pragma code tick 0x000E
+#else
 #pragma code tick 0x0008
+#endif
 static void tick(void) __naked
 {
     __asm
@@ -69,7 +85,15 @@ static void tick(void) __naked
 }
 // clang-format on
 #else
-PORT_TICK_INTERRUPT()
+#if defined(PORT_UART)
+void port_uart_interrupt(void);
+#define IS_TICK() ((PIR2 & PIR2_CCP2IF) != 0u)
+#else
+#define port_uart_interrupt() ((void)0)
+#define IS_TICK() true
+#endif
+
+static void count_tick(void)
 {
     CCPR2L = (uint8_t)(CCPR2L + (uint8_t)TICK_LOW);
     if (CCPR2L < (uint8_t)TICK_LOW) {
@@ -81,6 +105,14 @@ PORT_TICK_INTERRUPT()
         ticks_counted += 1u;
     }
     PIR2 &= (uint8_t)~PIR2_CCP2IF;
+}
+
+PORT_TICK_INTERRUPT()
+{
+    if (IS_TICK()) {
+        count_tick();
+    }
+    port_uart_interrupt();
 }
 #endif
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The registers that port_pic18.h uses and that all of its chips have at the
-// same address, and the bits that it names. The rest is in a chip's
-// registers.h, which includes this.
+// The registers that port_pic18.h, port_eeprom.c and port_uart.c use and that
+// all of their chips have at the same address, and bits. The rest is in a
+// chip's registers.h, which includes this.
 #ifndef PORT_PIC_REGISTERS_PIC18_H
 #define PORT_PIC_REGISTERS_PIC18_H
 #include "../compiler.h"
@@ -12,7 +12,9 @@ PORT_REGISTER(0xF8B, LATC);
 PORT_REGISTER(0xF92, TRISA);
 PORT_REGISTER(0xF93, TRISB);
 PORT_REGISTER(0xF94, TRISC);
+PORT_REGISTER(0xF9D, PIE1);
 PORT_REGISTER(0xF9E, PIR1);
+PORT_REGISTER(0xF9F, IPR1);
 PORT_REGISTER(0xFA0, PIE2);
 PORT_REGISTER(0xFA1, PIR2);
 PORT_REGISTER(0xFA2, IPR2);
@@ -20,6 +22,11 @@ PORT_REGISTER(0xFA6, EECON1);
 PORT_REGISTER(0xFA7, EECON2);
 PORT_REGISTER(0xFA8, EEDATA);
 PORT_REGISTER(0xFA9, EEADR);
+PORT_REGISTER(0xFAB, RCSTA);
+PORT_REGISTER(0xFAC, TXSTA);
+PORT_REGISTER(0xFAD, TXREG);
+PORT_REGISTER(0xFAE, RCREG);
+PORT_REGISTER(0xFAF, SPBRG);
 PORT_REGISTER(0xFBD, CCP1CON);
 PORT_REGISTER(0xFBE, CCPR1L);
 PORT_REGISTER(0xFC0, ADCON2);

@@ -19,4 +19,7 @@
 #define PORT_SELECTOR PORT_TACHOMETER
 #define PORT_TEMPERATURE 0x09u
 
+// Of port_uart.h, on RC6 (TX) and RC7 (RX): the clock divides by it exactly.
+#define PORT_UART_BAUD 250000u
+
 #endif

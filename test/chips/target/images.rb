@@ -56,6 +56,11 @@ module Broken
       "#{with("faults/#{fault.words(1).first}", [fault])}/port"
     end
 
+    # All of them with a fault of the link's firmware.
+    def link(fault, number)
+      with("links/#{number}", [fault])
+    end
+
     private
 
     def with(name, faults)
@@ -120,6 +125,17 @@ module Images
       build(chip, "fault-#{ports.split('/')[-2]}", ports, '-I.', *('-DFIXPID_PID_OBJECT=oven' unless chip == 'atmega328p'),
             *library('pid', 'src'), 'src/record/fixpid_record.c', "#{ports}/port_wait_ticks.c", eeprom, 'examples/kept/kept.c',
             '--all-banks', "#{folder}/port.c")
+    end
+
+    # examples/watched on a PIC18, with the library and the port of that folder.
+    def watched(chip, folder)
+      ports = "#{folder}/port"
+      sources = %w[pid/fixpid_pid pid/fixpid_pid_more pid/fixpid_pid_state record/fixpid_record link/fixpid_link]
+      sources += ['pid/fixpid_pid_pic18'].select { |name| File.exist?("#{folder}/src/#{name}.c") }
+      build(chip, "watched-#{File.basename(folder)}", ports, '-I.', '-DFIXPID_PID_OBJECT=motor', '-DFIXPID_LINK_OBJECT=wire',
+            '-DFIXPID_PID_FEATURES=0xDF', '-DPORT_UART', *sources.map { |name| "#{folder}/src/#{name}.c" },
+            "#{ports}/port_wait_ticks.c", "#{ports}/pic/pic18/port_uart.c", 'examples/watched/watched.c',
+            '--all-banks', "#{board(ports, chip)}/port.c")
     end
 
     # Any other program for a PIC18.

@@ -31,14 +31,14 @@ NARROW = '-D_PIC14'
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.
-Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart, :placed_apart, :unoptimised_apart)
-SHORT = Amount.new(20_000, 50_000, 10_000, 1000, 1_000_000, 1_000_000, 31, 7, 8).freeze
-LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1, 1, 1).freeze
+Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart, :placed_apart, :unoptimised_apart, :streamed)
+SHORT = Amount.new(20_000, 50_000, 10_000, 1000, 1_000_000, 1_000_000, 31, 7, 8, 5000).freeze
+LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1, 1, 1, 200_000).freeze
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
   C = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Itest/support -I#{HERE}].freeze
-  CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Iinclude -I#{HERE}].freeze
+  CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Iinclude -Itest/support -I#{HERE}].freeze
   ASKING = [*%w[cases arith arith_an937 arith_an964 arith_an964_8bit arith_pid].map { |name| "#{HERE}/#{name}.c" },
             *%w[numbers numbers_pid reference reference_pid].map { |name| "test/support/#{name}.c" }].freeze
   SIMULATORS = { 'gpsim' => %w[build/gpsim/libchip.a -lgpsim], 'simavr' => %w[build/gpsim/libchip_avr.a -lsimavr] }.freeze
@@ -46,14 +46,27 @@ module Programs
   KEPT = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -I. -Iinclude -Isrc -Iport -Iport/pic/pic18f4520 -r
             #{HERE}/kept_host.c src/pid/fixpid_pid.c src/pid/fixpid_pid_more.c src/record/fixpid_record.c].freeze
 
+  # The other end of a link: the library and what makes each step again.
+  TWIN = %w[src/link/fixpid_link.c src/link/fixpid_link_commands.c src/pid/fixpid_pid.c src/pid/fixpid_pid_more.c
+            src/pid/fixpid_pid_state.c src/pid/fixpid_pid_track.c src/record/fixpid_record.c test/support/link_session.c
+            test/support/link_twin.c test/support/numbers.c test/support/numbers_link.c].freeze
+
   class << self
     def of(name, simulator = 'gpsim')
-      objects = name == 'kept' ? [kept] : [object(CC, "#{HERE}/driver.cc"), *ASKING.map { |file| object(C, file) }]
+      objects = objects_of(name)
       output = "#{WORK}/#{name}.#{simulator}"
       BUILT.command(output, 'g++', '-o', output, object(CC, "#{HERE}/#{name}.cc"), *objects, *SIMULATORS.fetch(simulator))
     end
 
     private
+
+    def objects_of(name)
+      case name
+      when 'kept' then [kept]
+      when 'link' then TWIN.map { |file| object(C, file) }
+      else [object(CC, "#{HERE}/driver.cc"), *ASKING.map { |file| object(C, file) }]
+      end
+    end
 
     def object(compiler, source)
       output = "#{WORK}/#{File.basename(source)}.o"
@@ -130,6 +143,13 @@ module Target
     def kept(chip)
       Images.firmware
       on_simulator('kept', chip == 'atmega328p' ? "build/firmware/kept_#{chip}.elf" : 'build/firmware/kept.cod')
+    end
+
+    # The steps of each part, and the one before which a bit flips, if there is one.
+    def watched(chip, *steps)
+      Images.firmware
+      image = chip == 'pic18f4520' ? 'watched.cod' : "watched_#{chip}.#{chip.start_with?('pic') ? 'cod' : 'elf'}"
+      on_simulator('link', "build/firmware/#{image}", *steps.map(&:to_s))
     end
 
     def firmware(name)
@@ -327,6 +347,9 @@ class Table
       test('port', 'port_configuration', chip) { Target.port(Images.port(chip), chip, 'configuration') }
     end
     %w[pic18f4520 atmega328p].each { |chip| test('port', 'kept', chip) { Target.kept(chip) } }
+    { 'pic18f4520' => 1, 'pic18f26k22' => 10, 'atmega328p' => 2 }.each do |chip, part|
+      test('port', 'watched', chip) { Target.watched(chip, Target.amount.streamed / part, 1500, 500) }
+    end
     needs = @tests.names.grep(/\Aport(_configuration)?-/)
     test('port', 'port_page', needs: needs) { said('ruby', "#{HERE}/port_page.rb", WORK, 'docs/ports.md') }
   end
@@ -372,6 +395,7 @@ class Table
     end
     seeded_interrupted
     seeded_ports
+    seeded_links
     seeded_machines
     seeded_rows
   end
@@ -407,6 +431,19 @@ class Table
         image = Images.public_send(check == 'kept' ? :kept : :port, chip, Broken.port(fault))
         Target.noticed(/^#{check}: /) { Target.port(image, chip, check) }
       end
+    end
+  end
+
+  # A bit of the library, the rate of the UART, and a bit of the controller in RAM.
+  def seeded_links
+    Faults.of('watched').each_with_index do |fault, number|
+      test('seeded', 'seeded_watched', fault.words(1).first, (number + 1).to_s) do
+        image = Images.watched(fault.words(1).first, Broken.link(fault, number))
+        Target.noticed(/^link: /) { Target.on_simulator('link', image, '1000', '100', '400') }
+      end
+    end
+    test('seeded', 'seeded_watched_flip', 'atmega328p') do
+      Target.noticed(/^link: clean: a step is different/) { Target.watched('atmega328p', 1000, 100, 400, 500) }
     end
   end
 

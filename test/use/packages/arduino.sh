@@ -120,6 +120,38 @@ arduino_oven() {
     done
 }
 
+# live_on_uno STEPS...: as live.c is told. The sketch fifty times as fast, by its RATE, at
+# a baud rate of its UART, of which simavr makes half.
+live_on_uno() {
+    ino=libraries/fixpid/examples/arduino/05.Live/05.Live.ino
+    sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \
+        -e 's/^\(const unsigned long BAUD = \)115200;/\1500000;/' "$ino"
+    build_sketch 05.Live uno
+    ./live built/05.Live.ino.elf "$@"
+}
+
+# Its steps are made again on this machine, while commands change setpoint and gains, and
+# while the wire is noisy. A bit of the library that is another, and a sketch that does not
+# use the link's setpoint, are noticed.
+arduino_live() {
+    user_files libraries/fixpid
+    support=$root/test/support
+    # shellcheck disable=SC2046 # a list of files
+    gcc -std=c99 -O2 -Wall -Wextra -Ilibraries/fixpid/src -Ilibraries/fixpid/include \
+        "-I$support" "$here/arduino/live.c" \
+        $(find libraries/fixpid/src/link libraries/fixpid/src/pid libraries/fixpid/src/record -name '*.c') \
+        "$support/link_session.c" "$support/link_twin.c" "$support/numbers.c" \
+        "$support/numbers_link.c" -lsimavr -o live
+    live_on_uno 100000 5000 1000
+    for number in 1 2; do
+        rm -rf libraries
+        user_files libraries/fixpid
+        ruby "$root/tools/lib/faults/seed.rb" 'arduino 05.Live' libraries/fixpid "$number"
+        refused 'a step is different\|not all are right' live_on_uno 3000 500 500
+        cat output
+    done
+}
+
 # Nobody can define a macro in the IDE: the assembly must be there without one.
 arduino_assembly() {
     sketch 02.Heater uno 'compiler.c.extra_flags=-fno-lto -save-temps=obj'

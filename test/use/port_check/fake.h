@@ -54,6 +54,19 @@ unsigned chip_conversions(void);
 extern const uint32_t chip_code_most;
 unsigned chip_input_of(uint8_t channel);
 
+// --- the same, of a UART: only where there is a port_uart.c ---
+
+// The UART can take a byte: calls the port's interrupt function if the port has
+// enabled that interrupt, or, `late`, as if it had been disabled too late.
+// Returns the byte that was written, or -1.
+int chip_uart_sends(bool late);
+
+// A byte has come: calls the port's interrupt function if that is enabled.
+void chip_uart_receives(uint8_t byte);
+
+// Bits a second, as the port has set it.
+uint32_t chip_uart_baud(void);
+
 // --- the check's, for those ---
 
 #define FAKE_INPUTS 32u

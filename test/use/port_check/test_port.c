@@ -14,6 +14,9 @@
 
 #include "fake.h"
 #include "port.h"
+#ifdef UART
+#include "port_uart.h"
+#endif
 
 #define FULL PORT_DRIVE_FULL
 #define LEAST PORT_DRIVE_LEAST
@@ -169,10 +172,12 @@ static void ticks(long n)
     }
 }
 
+static void (*at_signal)(void) = tick;
+
 static void on_signal(int signal)
 {
     (void)signal;
-    tick();
+    at_signal();
 }
 
 // Ticks as signals from now on; 0 us ends them. pre: below a second.
@@ -408,6 +413,141 @@ static void drive_is_off_before_it_turns(void)
     }
 }
 
+// --- those of port_uart.h ---
+
+#ifdef UART
+static int sends(bool late)
+{
+    int byte = 0;
+
+    in_interrupt++;
+    byte = chip_uart_sends(late);
+    in_interrupt--;
+    return byte;
+}
+
+static void receives(uint8_t byte)
+{
+    in_interrupt++;
+    chip_uart_receives(byte);
+    in_interrupt--;
+}
+
+static void nothing_is_sent(void)
+{
+    expect_number(-1, sends(false), "what is sent after the last byte");
+    expect_number(-1, sends(true), "what is sent when none is to be");
+    expect_number(PORT_UART_OUT, port_uart_room(), "the room");
+}
+
+static void uart_has_its_rate(void)
+{
+    const long off = (long)chip_uart_baud() - (long)PORT_UART_BAUD;
+
+    expect(labs(off) * 50 <= (long)PORT_UART_BAUD, "the rate is 2 % off");
+}
+
+static void uart_begins_empty(void)
+{
+    nothing_is_sent();
+    expect_number(0, port_uart_waiting(), "what waits");
+    receives(1);
+    port_uart_put(1);
+    port_uart_init();
+    nothing_is_sent();
+    expect_number(0, port_uart_waiting(), "what waits after another init");
+}
+
+// Fills the ring from each place of it.
+static void uart_sends_what_it_has_room_for(void)
+{
+    for (unsigned from = 0; from <= PORT_UART_OUT; from++) {
+        unsigned byte = from;
+
+        for (; port_uart_room() != 0u; byte++) {
+            expect_number((long)(PORT_UART_OUT - (byte - from)),
+                          port_uart_room(), "the room");
+            port_uart_put((uint8_t)byte);
+        }
+        expect_number((long)(from + PORT_UART_OUT), byte, "the last byte");
+        port_uart_put(0xEE); // is lost
+        for (unsigned next = from; next != byte; next++) {
+            expect_number((uint8_t)next, sends(false), "what is sent");
+        }
+        nothing_is_sent();
+        port_uart_put(0xAA); // the next place
+        expect_number(0xAA, sends(false), "what is sent");
+    }
+}
+
+static void uart_keeps_what_it_has_room_for(void)
+{
+    for (unsigned from = 0; from <= PORT_UART_IN; from++) {
+        for (unsigned byte = 0; byte < PORT_UART_IN + 5u; byte++) {
+            receives((uint8_t)(from + byte));
+        }
+        for (unsigned byte = 0; byte < PORT_UART_IN; byte++) {
+            expect_number((long)(PORT_UART_IN - byte), port_uart_waiting(),
+                          "what waits");
+            expect_number((uint8_t)(from + byte), port_uart_get(),
+                          "what has come");
+        }
+        expect_number(0, port_uart_waiting(), "what waits");
+        (void)port_uart_get(); // of an empty ring, and it stays so
+        expect_number(0, port_uart_waiting(), "what waits");
+        receives(0xAA); // the next place
+        expect_number(0xAA, port_uart_get(), "what has come");
+    }
+}
+
+static volatile uint8_t next_sent;
+static volatile uint8_t next_received;
+static volatile long moved;
+static volatile bool wrong;
+
+static void one_each_way(void)
+{
+    const int byte = sends(false);
+
+    if (byte >= 0) {
+        wrong = wrong || (byte != next_sent);
+        next_sent++;
+    }
+    if (port_uart_waiting() < PORT_UART_IN) {
+        receives(next_received);
+        next_received++;
+    }
+    moved++;
+}
+
+static void uart_bytes_are_not_lost_whenever_they_come(void)
+{
+    uint8_t put = 0;
+    uint8_t got = 0;
+
+    at_signal = one_each_way;
+    ticks_every(30);
+    while (moved < 3000) {
+        if (port_uart_room() != 0u) {
+            port_uart_put(put);
+            put++;
+        }
+        if (port_uart_waiting() != 0u) {
+            expect_number(got, port_uart_get(), "what has come");
+            got++;
+        }
+        expect(!wrong, "another byte is sent than was to be");
+    }
+    ticks_every(0);
+    while (sends(false) >= 0) {
+        next_sent++;
+    }
+    expect_number(put, next_sent, "the number of bytes that were sent");
+    got = (uint8_t)(got + port_uart_waiting());
+    expect_number(next_received, got, "the number of bytes that came");
+}
+#endif
+
 struct promise {
     const char *name;
     void (*check)(void);
@@ -438,6 +578,13 @@ static const struct promise promises[] = {
     PROMISE(drive_below_the_least_is_off),
     PROMISE(drive_is_limited_to_full),
     PROMISE(drive_is_off_before_it_turns),
+#ifdef UART
+    PROMISE(uart_has_its_rate),
+    PROMISE(uart_begins_empty),
+    PROMISE(uart_sends_what_it_has_room_for),
+    PROMISE(uart_keeps_what_it_has_room_for),
+    PROMISE(uart_bytes_are_not_lost_whenever_they_come),
+#endif
 };
 
 static void power_on(const struct promise *promise)
@@ -448,6 +595,9 @@ static void power_on(const struct promise *promise)
     running_check = promise->name;
     chip_reset();
     port_init();
+#ifdef UART
+    port_uart_init();
+#endif
     promise->check();
     (void)printf("ok %s\n", promise->name);
     (void)fflush(stdout);

@@ -34,6 +34,9 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
     'test_thermostat':
       - FIXPID_PID_OBJECT=thermostat
       - FIXPID_GUARD_OBJECT=guard
+    'test_watched':
+      - FIXPID_PID_OBJECT=motor
+      - FIXPID_LINK_OBJECT=wire
     'test_kept':
       - FIXPID_PID_OBJECT=oven
     'test_autotune_example':

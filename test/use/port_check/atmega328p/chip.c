@@ -18,7 +18,8 @@ volatile uint8_t fake_portb, fake_portc, fake_portd, fake_ddrb;
 volatile uint8_t fake_didr0, fake_tifr1, fake_tccr1a, fake_tccr1b;
 volatile uint8_t fake_admux, fake_adcsra, fake_tccr0a, fake_tccr0b;
 volatile uint8_t fake_ocr0a, fake_timsk0;
-volatile uint16_t fake_ocr1a, fake_adc;
+volatile uint8_t fake_ucsr0a, fake_ucsr0b, fake_ucsr0c;
+volatile uint16_t fake_ocr1a, fake_adc, fake_ubrr0, fake_udr0;
 volatile bool fake_interrupts_on;
 volatile unsigned fake_feeds;
 
@@ -123,4 +124,41 @@ unsigned chip_conversions(void)
 unsigned chip_input_of(uint8_t channel)
 {
     return channel & CHANNEL;
+}
+
+// --- the UART ---
+
+#define UNWRITTEN_BYTE 0x100u
+#define EIGHT_BITS 0x06u // UCSZ, and nothing else
+#define CLOCK_HZ 16000000u
+
+static bool uart_is(unsigned on, unsigned interrupt)
+{
+    const unsigned both = _BV(on) | _BV(interrupt);
+
+    return fake_interrupts_on && ((fake_ucsr0b & both) == both) &&
+           (fake_ucsr0c == EIGHT_BITS);
+}
+
+int chip_uart_sends(bool late)
+{
+    fake_udr0 = UNWRITTEN_BYTE;
+    if (late || uart_is(TXEN0, UDRIE0)) {
+        USART_UDRE_vect();
+    }
+    return (fake_udr0 == UNWRITTEN_BYTE) ? -1 : (int)fake_udr0;
+}
+
+void chip_uart_receives(uint8_t byte)
+{
+    fake_udr0 = byte;
+    if (uart_is(RXEN0, RXCIE0)) {
+        USART_RX_vect();
+    }
+}
+
+// 16 clocks a bit without U2X.
+uint32_t chip_uart_baud(void)
+{
+    return (fake_ucsr0a != 0u) ? 0u : CLOCK_HZ / 16u / (fake_ubrr0 + 1u);
 }

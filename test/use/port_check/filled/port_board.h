@@ -14,6 +14,8 @@
 #define PORT_SETPOINT 0x00u
 #define PORT_TACHOMETER 0x03u
 
+#define PORT_UART_BAUD 125000u
+
 #define port_running() true
 
 #endif

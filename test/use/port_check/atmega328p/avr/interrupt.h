@@ -5,6 +5,8 @@
 
 #define ISR(vector) void vector(void)
 void TIMER0_COMPA_vect(void);
+void USART_UDRE_vect(void);
+void USART_RX_vect(void);
 
 extern volatile bool fake_interrupts_on;
 #define sei() (fake_interrupts_on = true)

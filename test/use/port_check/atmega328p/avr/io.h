@@ -8,7 +8,8 @@ extern volatile uint8_t fake_portb, fake_portc, fake_portd, fake_ddrb;
 extern volatile uint8_t fake_didr0, fake_tifr1, fake_tccr1a, fake_tccr1b;
 extern volatile uint8_t fake_admux, fake_adcsra, fake_tccr0a, fake_tccr0b;
 extern volatile uint8_t fake_ocr0a, fake_timsk0;
-extern volatile uint16_t fake_ocr1a, fake_adc;
+extern volatile uint8_t fake_ucsr0a, fake_ucsr0b, fake_ucsr0c;
+extern volatile uint16_t fake_ocr1a, fake_adc, fake_ubrr0, fake_udr0;
 
 #define PORTB (*fake_byte(&fake_portb))
 #define PORTC (*fake_byte(&fake_portc))
@@ -24,6 +25,11 @@ extern volatile uint16_t fake_ocr1a, fake_adc;
 #define TCCR0B (*fake_byte(&fake_tccr0b))
 #define OCR0A (*fake_byte(&fake_ocr0a))
 #define TIMSK0 (*fake_byte(&fake_timsk0))
+#define UCSR0A (*fake_byte(&fake_ucsr0a))
+#define UCSR0B (*fake_byte(&fake_ucsr0b))
+#define UCSR0C (*fake_byte(&fake_ucsr0c))
+#define UBRR0 (*fake_word(&fake_ubrr0))
+#define UDR0 (*fake_word(&fake_udr0)) // beyond a byte: not written
 #define OCR1A (*fake_word(&fake_ocr1a))
 #define ADC (*fake_word(&fake_adc))
 
@@ -31,5 +37,9 @@ extern volatile uint16_t fake_ocr1a, fake_adc;
 #define TOV1 0
 #define ADSC 6
 #define OCIE0A 1
+#define TXEN0 3
+#define RXEN0 4
+#define UDRIE0 5
+#define RXCIE0 7
 
 #endif

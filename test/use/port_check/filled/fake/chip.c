@@ -20,6 +20,10 @@ volatile uint8_t fake_levels;
 volatile uint8_t fake_adc_control;
 volatile uint8_t fake_adc_channel;
 volatile uint8_t fake_watchdog;
+volatile uint8_t fake_uart_flags;
+volatile uint8_t fake_uart_interrupts;
+volatile uint16_t fake_uart_byte;
+volatile uint16_t fake_uart_clocks;
 volatile uint16_t fake_timer_top;
 volatile uint16_t fake_pwm_top;
 volatile uint16_t fake_pwm_duty;
@@ -145,4 +149,40 @@ unsigned chip_conversions(void)
 unsigned chip_input_of(uint8_t channel)
 {
     return channel;
+}
+
+// --- the UART ---
+
+#define UNWRITTEN 0x100u
+#define CLOCK_HZ 16000000u
+
+static void uart_says(uint8_t flag)
+{
+    fake_uart_flags |= flag;
+    if ((fake_uart_interrupts & flag) != 0u) {
+        uart_vector();
+    }
+    fake_uart_flags &= (uint8_t)~UART_EMPTY;
+}
+
+int chip_uart_sends(bool late)
+{
+    const uint8_t before = fake_uart_interrupts;
+
+    fake_uart_byte = UNWRITTEN;
+    fake_uart_interrupts |= late ? UART_EMPTY : 0u;
+    uart_says(UART_EMPTY);
+    fake_uart_interrupts = late ? before : fake_uart_interrupts;
+    return (fake_uart_byte == UNWRITTEN) ? -1 : (int)fake_uart_byte;
+}
+
+void chip_uart_receives(uint8_t byte)
+{
+    fake_uart_byte = byte;
+    uart_says(UART_CAME);
+}
+
+uint32_t chip_uart_baud(void)
+{
+    return (fake_uart_clocks == 0u) ? 0u : CLOCK_HZ / fake_uart_clocks;
 }

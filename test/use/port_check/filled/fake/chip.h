@@ -15,6 +15,10 @@ extern volatile uint8_t fake_levels;
 extern volatile uint8_t fake_adc_control;
 extern volatile uint8_t fake_adc_channel;
 extern volatile uint8_t fake_watchdog;
+extern volatile uint8_t fake_uart_flags;
+extern volatile uint8_t fake_uart_interrupts;
+extern volatile uint16_t fake_uart_byte;
+extern volatile uint16_t fake_uart_clocks;
 extern volatile uint16_t fake_timer_top;
 extern volatile uint16_t fake_pwm_top;
 extern volatile uint16_t fake_pwm_duty;
@@ -34,6 +38,16 @@ extern volatile uint16_t fake_adc_result;
 #define ADC_CHANNEL (*fake_byte(&fake_adc_channel))
 #define ADC_RESULT (*fake_word(&fake_adc_result)) // 12 bits
 #define WATCHDOG (*fake_byte(&fake_watchdog))     // 0x5A restarts it
+
+#define UART_FLAGS (*fake_byte(&fake_uart_flags)) // as below
+#define UART_INTERRUPTS (*fake_byte(&fake_uart_interrupts))
+#define UART_BYTE (*fake_word(&fake_uart_byte))     // written, or that came
+#define UART_CLOCKS (*fake_word(&fake_uart_clocks)) // of a bit
+#define UART_EMPTY 0x01u                            // it can take a byte
+#define UART_CAME 0x02u
+
+// The port's interrupt function of the UART.
+void uart_vector(void);
 
 // The port's interrupt function. A chip's compiler has a word for it.
 void timer_vector(void);
