@@ -3,7 +3,15 @@
 // autotune.h says in whole numbers, and where the next relay's centre lies.
 #include "autotune.h"
 
+static bool share_turn(uint8_t *quotient, uint16_t *rest, uint8_t *bit,
+                       uint16_t whole);
+
+// clang-format would make another macro of it.
+// clang-format off
+#define for(head) for (head) if (share_turn(&quotient, &rest, &bit, whole))
+// clang-format on
 #include "autotune/fixpid_autotune_cycle.c"
+#undef for
 
 // The outputs of every relay, and how far they are apart.
 void prove_level(void)
@@ -27,6 +35,61 @@ void prove_level(void)
     claim_same(&c, &was);
 }
 
+// Where the turn began that is proved.
+static struct {
+    number bits; // that are there
+    number rest;
+    number quotient;
+} began;
+
+static number whole_of;
+
+static bool is_shared(number rest, number bits)
+{
+    return inside(bits, 0, 8) && (rest < whole_of);
+}
+
+// Long division: twice the rest is the next one, and the whole if it goes into
+// it.
+static bool is_next(number rest, number quotient, number bits)
+{
+    return (bits == began.bits + 1) &&
+           (floor_by(quotient, 1) == began.quotient) &&
+           (rest == (began.rest * 2) - (((quotient & 1) != 0) ? whole_of : 0));
+}
+
+// The bits before the quotient's are shifted out.
+static bool share_turn(uint8_t *quotient, uint16_t *rest, uint8_t *bit,
+                       uint16_t whole)
+{
+    claim((whole == whole_of) && is_shared(*rest, *bit) &&
+          (begins() ? ((*bit == 0u) && (*rest == began.rest))
+                    : is_next(*rest, *quotient & ones(*bit), *bit)));
+    any_turn();
+    *quotient = nondet_uint8();
+    *rest = nondet_uint16();
+    *bit = nondet_uint8();
+    assume((*bit < 8u) && is_shared(*rest, *bit));
+    began.bits = *bit;
+    began.rest = *rest;
+    began.quotient = *quotient & ones(*bit);
+    return true;
+}
+
+// floor(256 part / whole)
+void prove_share(void)
+{
+    const uint16_t part = nondet_uint16();
+    number found;
+
+    whole_of = nondet_uint16();
+    assume(part < whole_of);
+    began.rest = part;
+    found = share(part, (uint16_t)whole_of);
+    claim((began.bits == 7) &&
+          (found == (began.quotient * 2) + (began.rest * 2 >= whole_of)));
+}
+
 // The same for the same, and no more is known of it.
 uint8_t __CPROVER_uninterpreted_share(uint16_t part, uint16_t whole);
 
@@ -46,8 +109,7 @@ uint32_t amplitude_for_contract(uint16_t wanted, uint16_t over, uint16_t relay)
     return __CPROVER_uninterpreted_amplitude(wanted, over, relay);
 }
 
-// D * share / 256, to the nearest: at most D, as D * 255 + 128 is below
-// 256 (D + 1). This is argued, as a solver is slow at it.
+// D * share / 256, to the nearest: at most D.
 uint16_t __CPROVER_uninterpreted_counts(uint16_t counts, uint8_t part);
 
 uint16_t counts_of_contract(uint16_t counts, uint8_t part)
@@ -56,6 +118,52 @@ uint16_t counts_of_contract(uint16_t counts, uint8_t part)
 
     assume(found <= counts);
     return found;
+}
+
+// At most D with any share. Of a share with one bit it is the equation; a
+// solver is slow at other products.
+void prove_counts(void)
+{
+    const uint16_t counts = nondet_uint16();
+    const unsigned bit = nondet_uint8();
+
+    claim(counts_of(counts, nondet_uint8()) <= counts);
+    assume(bit < 8u);
+    claim(counts_of(counts, (uint8_t)(1u << bit)) ==
+          floor_by(((number)counts << bit) + 128, 8));
+}
+
+static unsigned share_is;
+
+uint8_t one_share(uint16_t part, uint16_t whole)
+{
+    pre(part < whole);
+    return (uint8_t)share_is;
+}
+
+// The swing that is wanted is halved, and the relay doubled, until a relay
+// overshoots by no less; what is missing then is its share. Of all shares those
+// with one bit are taken, as a solver is slow at other products. By contract:
+// share (one_share).
+void prove_amplitude(void)
+{
+    const uint16_t wanted = nondet_uint16();
+    const uint16_t over = nondet_uint16();
+    const uint16_t relay = nondet_uint16();
+    const unsigned bit = nondet_uint8();
+    unsigned turns = 0;
+    number amplitude;
+
+    assume(inside(wanted, 1, 36864) && inside(over, 2, 65534) && (bit < 8u));
+    share_is = 1u << bit;
+    while (floor_by(wanted, turns) > over) {
+        turns++;
+    }
+    amplitude = lesser((number)relay << turns, 131072);
+    if (floor_by(wanted, turns) < over) {
+        amplitude = floor_by(amplitude << bit, 8);
+    }
+    claim(amplitude_for(wanted, over, relay) == amplitude);
 }
 
 // It has switched on both sides.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fixpid_gains against its header, whatever its quotients are: those of 64 bits
-// are for its unit test, because a solver is slow at them.
+// fixpid_gains against its header. Its conversions are proved whatever their
+// quotients are, a quotient turn by turn, and the product that it divides with
+// a power of two on either side: a solver is slow at others.
 #include "prove.h"
 
 #include "fixpid_gains.h"
@@ -8,7 +9,17 @@
 struct fixpid_gains_milli nondet_milli(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
 
+struct wide;
+static bool at_turn(struct wide *rest, uint8_t *turn, uint32_t divisor);
+
+// clang-format would make another macro of it.
+// clang-format off
+#define for(head) for (head) if (at_turn(&rest, &turn, divisor))
+// clang-format on
 #include "gains/fixpid_gains.c"
+#undef for
+
+struct wide nondet_wide(void);
 
 static bool legal_rate(number rate_milli)
 {
@@ -122,11 +133,104 @@ void prove_to_milli(void)
     }
 }
 
-// Whatever it divides, it ends and does nothing undefined.
+static struct wide dividend;
+
+void multiply_wide_contract(struct wide *product, uint32_t a, uint32_t b)
+{
+    (void)a;
+    (void)b;
+    dividend = nondet_wide();
+    *product = dividend;
+}
+
+// Where the turn began that is proved.
+static struct {
+    number turns; // to go
+    number rest;
+    number quotient;
+    number next; // bit of the dividend
+} began;
+
+// Of the quotient there are 32 - turns bits, of the dividend's lower half the
+// others.
+static bool is_divided(const struct wide *rest, number turns, number divisor)
+{
+    return inside(turns, 0, 32) && (rest->high < divisor) &&
+           (floor_by(rest->low, (unsigned)(32 - turns)) ==
+            (dividend.low & ones(turns)));
+}
+
+// Long division: the rest and the next bit of the dividend are the next rest,
+// and the divisor if it goes into them.
+static bool is_next(const struct wide *rest, number turns, number divisor)
+{
+    const number quotient = rest->low & ones(32 - turns);
+    const number taken = ((quotient & 1) != 0) ? divisor : 0;
+
+    return (turns == began.turns - 1) &&
+           (floor_by(quotient, 1) == began.quotient) &&
+           (rest->high == (began.rest * 2) + began.next - taken);
+}
+
+static bool at_turn(struct wide *rest, uint8_t *turn, uint32_t divisor)
+{
+    claim(is_divided(rest, *turn, divisor) &&
+          (begins() ? ((*turn == 32u) && (rest->high == dividend.high))
+                    : is_next(rest, *turn, divisor)));
+    any_turn();
+    *rest = nondet_wide();
+    *turn = nondet_uint8();
+    assume((*turn != 0u) && is_divided(rest, *turn, divisor));
+    began.turns = *turn;
+    began.rest = rest->high;
+    began.quotient = rest->low & ones(32 - (number)*turn);
+    began.next = floor_by(dividend.low, *turn - 1u) & 1;
+    return true;
+}
+
+// To the nearest, half up, and at most 2^32 - 1. By contract: multiply_wide.
 void prove_scaled(void)
 {
     const uint32_t divisor = nondet_uint32();
+    number rest;
+    number quotient;
+    number found;
 
     assume(inside(divisor, 1, (number)1 << 31));
-    (void)scaled(nondet_uint32(), nondet_uint32(), divisor);
+    found = scaled(nondet_uint32(), nondet_uint32(), divisor);
+    rest = (began.rest * 2) + began.next;
+    quotient = began.quotient * 2;
+    if (rest >= divisor) {
+        rest -= divisor;
+        quotient++;
+    }
+    if (rest * 2 >= divisor) {
+        quotient++;
+    }
+    claim((dividend.high >= divisor)
+              ? (found == UINT32_MAX)
+              : ((began.turns == 1) &&
+                 (found == clamp(quotient, 0, UINT32_MAX))));
+}
+
+static void claim_shifted(const struct wide *product, uint32_t x, unsigned bits)
+{
+    claim(product->low == (uint32_t)(x << bits));
+    claim(product->high == floor_by(x, 32u - bits));
+}
+
+// Of a power of two and any number, either way round.
+void prove_product(void)
+{
+    const uint32_t x = nondet_uint32();
+
+    for (unsigned bits = 0; bits < 32u; bits++) {
+        struct wide product = nondet_wide();
+
+        multiply_wide(&product, x, (uint32_t)1 << bits);
+        claim_shifted(&product, x, bits);
+        product = nondet_wide();
+        multiply_wide(&product, (uint32_t)1 << bits, x);
+        claim_shifted(&product, x, bits);
+    }
 }

@@ -62,7 +62,7 @@ static number trunc_by(number x, unsigned bits)
 // trying all its operands (primitives.c), which a solver is slow at.
 uint32_t __CPROVER_uninterpreted_product(uint16_t a, uint16_t b);
 
-static uint32_t product(uint16_t a, uint16_t b, uint32_t most)
+static uint32_t magnitudes(uint16_t a, uint16_t b, uint32_t most)
 {
     const uint32_t p = __CPROVER_uninterpreted_product(a, b);
 
@@ -74,11 +74,36 @@ static uint32_t product(uint16_t a, uint16_t b, uint32_t most)
 // gain * x in that way. pre: |x| <= 65535
 static number times(uint16_t gain, number x, uint32_t most)
 {
-    return (x < 0) ? -(number)product(gain, (uint16_t)-x, most)
-                   : (number)product(gain, (uint16_t)x, most);
+    return (x < 0) ? -(number)magnitudes(gain, (uint16_t)-x, most)
+                   : (number)magnitudes(gain, (uint16_t)x, most);
 }
 
 // The precondition of a primitive that a proof replaces by its contract.
 #define pre(condition) __CPROVER_assert(condition, "pre: " #condition)
+
+// The lowest bits.
+static number ones(number bits)
+{
+    return ((number)1 << bits) - 1;
+}
+
+// A loop of turns is proved as one of them, from any values. Where the harness
+// includes the code, it makes `for` begin each turn with its `at_turn`, which
+// claims what must hold there: at the loop's beginning (begins()), or where the
+// turn ends that was begun with any values. Then, once (any_turn()), any values
+// of which only that is known take the place of what the loop changes. So the
+// loop ends with any last turn.
+static unsigned turns_seen;
+
+static bool begins(void)
+{
+    return turns_seen == 0u;
+}
+
+static void any_turn(void)
+{
+    assume(turns_seen == 0u);
+    turns_seen++;
+}
 
 #endif

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
-// fixpid_table against its header, whatever its quotients are: those are for
-// its unit tests, because a solver is slow at products and quotients.
+// fixpid_table against its header, whatever its quotients are; and of chips
+// that divide by hand the quotient and the product, turn by turn. Where a
+// compiler divides, the code is the equation.
 #include "prove.h"
 
 #include "fixpid_table.h"
+
+// clang-format would make another macro of each.
+// clang-format off
+#ifdef _PIC14
+static bool product_turn(uint32_t *sum, uint8_t *turn);
+#define for(head) for (head) if (product_turn((uint32_t *)&sum, &turn))
+#else
+static bool rise_turn(uint16_t *rest, uint16_t *low, uint8_t *turn,
+                      uint16_t run);
+#define for(head) for (head) if (rise_turn(&rest, &low, &turn, run))
+#endif
+// clang-format on
+#include "table/fixpid_table_arith.h"
+#undef for
 
 #include "table/fixpid_table.c"
 
@@ -132,3 +147,150 @@ void prove_rise_at(void)
     assume((run >= 1) && (part <= run));
     (void)rise_at(nondet_uint16(), part, run);
 }
+
+#if defined(_PIC14) || defined(_PIC18)
+// Where the turn began that is proved.
+static struct {
+    number turns; // to go
+    number rest;
+    number quotient;
+    number next; // bit of the dividend
+    number sum;  // a times the bits of b that are done
+    number bit;  // of b
+} began;
+
+static number run_of;
+static number dividend;
+
+// rise * part, with a part of the run at most
+uint32_t product_contract(uint16_t a, uint16_t b)
+{
+    const uint32_t p = nondet_uint32();
+
+    (void)a;
+    (void)b;
+    assume(p <= (run_of << 16) - run_of);
+    dividend = p + floor_by(run_of, 1);
+    return p;
+}
+
+// Of the quotient there are 16 - turns bits, of the dividend's lower half the
+// others.
+static bool is_divided(number rest, number low, number turns)
+{
+    return inside(turns, 0, 16) && (rest < run_of) &&
+           (floor_by(low, (unsigned)(16 - turns)) == (dividend & ones(turns)));
+}
+
+// Long division: the rest and the next bit of the dividend are the next rest,
+// and the run if it goes into them.
+static bool is_next(number rest, number quotient, number turns)
+{
+    return (turns == began.turns - 1) &&
+           (floor_by(quotient, 1) == began.quotient) &&
+           (rest == (began.rest * 2) + began.next -
+                        (((quotient & 1) != 0) ? run_of : 0));
+}
+
+static bool rise_turn(uint16_t *rest, uint16_t *low, uint8_t *turn,
+                      uint16_t run)
+{
+    claim((run == run_of) && is_divided(*rest, *low, *turn) &&
+          (begins() ? ((*turn == 16u) && (*rest == floor_by(dividend, 16)))
+                    : is_next(*rest, *low & ones(16 - (number)*turn), *turn)));
+    any_turn();
+    *rest = nondet_uint16();
+    *low = nondet_uint16();
+    *turn = nondet_uint8();
+    assume((*turn != 0u) && is_divided(*rest, *low, *turn));
+    began.turns = *turn;
+    began.rest = *rest;
+    began.quotient = *low & ones(16 - (number)*turn);
+    began.next = floor_by(dividend, *turn - 1u) & 1;
+    return true;
+}
+
+// floor(rise * part / run + 1/2). By contract: product.
+void prove_rise(void)
+{
+    const uint16_t run = nondet_uint16();
+    const uint16_t part = nondet_uint16();
+    number found;
+
+    assume((run >= 1) && (part <= run));
+    run_of = run;
+    found = rise_at(nondet_uint16(), part, run);
+    claim((began.turns == 1) &&
+          (found ==
+           (began.quotient * 2) + ((began.rest * 2) + began.next >= run)));
+}
+
+// A product of bytes, of which is known that it is one function.
+uint16_t __CPROVER_uninterpreted_bytes(uint8_t a, uint8_t b);
+
+uint16_t fixpid_8x8_contract(uint8_t a, uint8_t b)
+{
+    const uint16_t p = __CPROVER_uninterpreted_bytes(a, b);
+
+    assume(p <= 255u * 255u);
+    return p;
+}
+
+static uint16_t a;
+static uint16_t b;
+
+// a * b by the bits of b: 16 - turns are done, the others are below the sum.
+static bool is_multiplied(number sum, number turns)
+{
+    return inside(turns, 0, 16) &&
+           ((sum & ones(turns)) == floor_by(b, (unsigned)(16 - turns)));
+}
+
+static bool product_turn(uint32_t *sum, uint8_t *turn)
+{
+    claim(is_multiplied(*sum, *turn) &&
+          (begins() ? ((*turn == 16u) && (floor_by(*sum, 16) == 0))
+                    : ((*turn == began.turns - 1) &&
+                       (floor_by(*sum, *turn) ==
+                        began.sum +
+                            (began.bit * ((number)a << (16 - began.turns)))))));
+    any_turn();
+    *sum = nondet_uint32();
+    *turn = nondet_uint8();
+    assume((*turn != 0u) && is_multiplied(*sum, *turn));
+    began.turns = *turn;
+    began.sum = floor_by(*sum, *turn);
+    began.bit = *sum & 1;
+    return true;
+}
+
+#ifdef _PIC14
+// By the bits of one.
+void prove_product_by_bits(void)
+{
+    number found;
+
+    a = nondet_uint16();
+    b = nondet_uint16();
+    found = product(a, b);
+    claim((began.turns == 1) &&
+          (found == began.sum + (began.bit * ((number)a << 15))));
+}
+#else
+// By the bytes of both. By contract: fixpid_8x8.
+void prove_product_by_bytes(void)
+{
+    const uint8_t low_a = nondet_uint8();
+    const uint8_t low_b = nondet_uint8();
+    const uint8_t high_a = nondet_uint8();
+    const uint8_t high_b = nondet_uint8();
+
+    claim(product((uint16_t)(((unsigned)high_a << 8) | low_a),
+                  (uint16_t)(((unsigned)high_b << 8) | low_b)) ==
+          ((number)fixpid_8x8_contract(high_a, high_b) << 16) +
+              ((number)fixpid_8x8_contract(high_a, low_b) << 8) +
+              ((number)fixpid_8x8_contract(low_a, high_b) << 8) +
+              fixpid_8x8_contract(low_a, low_b));
+}
+#endif
+#endif

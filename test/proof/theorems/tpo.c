@@ -61,7 +61,7 @@ static void assume_products(void)
 // fixpid_tpo has given, `full` in each step that is on, is what was asked for,
 // to within less than the shortest pulse or gap, which count as one step at
 // least. Assumed: that a window's first step asks for duty * window, from 0 to
-// full * window; tools/prove tpo owed proves it of windows up to 15 steps.
+// full * window; tools/prove primitives tpo tries all duties in all windows.
 void prove_tpo_exact(void)
 {
     number asked = 0;

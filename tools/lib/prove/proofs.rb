@@ -121,7 +121,7 @@ module Proofs
 
   # What a harness proves and nobody runs, and the other way round.
   def complaints(proofs)
-    named = proofs.reject(&:exhausted?).map { |proof| [proof.harness, proof.what] }.uniq
+    named = proofs.reject { |proof| proof.exhausted? && proof.what == 'all' }.map { |proof| [proof.harness, proof.what] }.uniq
     there = Dir["#{FOLDER}/{,#{THEOREMS}/}*.c"].sort.flat_map do |harness|
       text(harness).scan(/^void prove_(\w+)\(void\)$/).flatten.map { |what| [harness, what] }
     end

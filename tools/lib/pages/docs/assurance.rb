@@ -19,13 +19,12 @@ Claim = Struct.new(:how, :what, :amount, :command)
 module Assurance
   HOW = %w[proved exhausted tested measured argued].freeze
 
-  # What is proved of a module of whose header a part is only tested: test/proof/unproved.txt.
+  # What is proved of a module of whose header a part is only tested or tried.
   PARTLY = {
     'autotune' => 'in part: init, progress and a record, as its header says; a step as the definition says, by contracts of its parts, ' \
-                  'but for the quotients that find a new centre, and that it ends; not its result',
-    'gains' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
-    'table' => 'as its header says if its quotient is right, which is tested; the quotient ends and does nothing undefined',
-    'tpo' => 'as its header says, the length of a pulse only in windows of at most 15 steps'
+                  'the relay that comes next only for shares of one bit, and not that it ends; not its result, but its numbers',
+    'gains' => 'as its header says, but for a product of 64 bits in which neither number is a power of two, which is tested',
+    'tpo' => 'as its header says, what a window asks for only where its length is a power of two'
   }.freeze
 
   module_function
@@ -73,7 +72,8 @@ module Assurance
                "#{Claims::NOT_ASKED.join(', ')}, of which nobody has asked; but for #{Claims.pinned.size} claims that are listed with their reasons",
                '`tools/prove --claims`'),
      Claim.new('proved', 'breaks that are said to change nothing change nothing that is proved',
-               "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, and #{rows_of(Equivalents::ARGUED)} that are argued",
+               "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, #{rows_of(Equivalents::ARGUED)} that are argued, and " \
+               "#{Equivalents.not_asked} others in #{Equivalents::NOT_ASKED.join(' and ')}, of which nobody has asked",
                '`tools/prove --equivalents`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`'),
@@ -97,8 +97,9 @@ module Assurance
   end
 
   def exhausted
-    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[PRIMITIVES].size} forms",
-               "`tools/prove #{PRIMITIVES}`"),
+    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[PRIMITIVES].count { |proof| proof.what == 'all' }} forms",
+               "`tools/prove #{PRIMITIVES} all`"),
+     Claim.new('exhausted', 'what a window of `fixpid_tpo` asks for, duty * window', 'all duties in all windows', "`tools/prove #{PRIMITIVES} tpo`"),
      Claim.new('exhausted', 'a record with 1, 2 or 3 wrong bits is refused', 'all of them', '`tools/test unit`'),
      Claim.new('exhausted', "the AN964 forms' products and quotients, as the chips' assembly has them",
                'all gains; operands of 14 bits in strides', '`test/chips/target/run arith`')]

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// The numbers of fixpid_autotune's result: mantissa * 2^exponent, with a
+// mantissa of 32768..65535, or 0, whose exponent is below all others.
+#include "prove.h"
+
+#include "fixpid_autotune.h"
+
+#include "autotune/fixpid_autotune_arith.h"
+
+struct number16 nondet_number16(void);
+
+#define FAR 400 // more than any sum or difference of exponents
+
+static struct number16 result;
+
+static bool is_number(struct number16 x)
+{
+    return (x.mantissa == 0u)
+               ? inside(x.exponent, -1200, -800)
+               : ((x.mantissa >= 32768u) && inside(x.exponent, -FAR, FAR));
+}
+
+static struct number16 any_number(void)
+{
+    const struct number16 x = nondet_number16();
+
+    assume(is_number(x));
+    return x;
+}
+
+// Whether the result is value * 2^exponent without the lower bits. pre: 0 <=
+// value < 2^32
+static void claim_result(number value, number exponent)
+{
+    const number places = result.exponent - exponent;
+
+    if (value == 0) {
+        claim((result.mantissa == 0u) && (result.exponent < -2 * FAR));
+        return;
+    }
+    claim((result.mantissa >= 32768u) && inside(places, -15, 16));
+    claim(result.mantissa == ((places < 0)
+                                  ? (value << -places)
+                                  : floor_by(value, (unsigned)places)));
+}
+
+void prove_make(void)
+{
+    const uint32_t value = nondet_uint32();
+    const int16_t exponent = nondet_int16();
+
+    assume(inside(exponent, -2 * FAR, 2 * FAR));
+    make(&result, value, exponent);
+    claim_result(value, exponent);
+}
+
+// What is left of a, with 15 bits more, at an exponent.
+static number at_exponent(struct number16 a, number exponent)
+{
+    const number places = exponent - a.exponent;
+
+    return (places >= 48)
+               ? 0
+               : floor_by((number)a.mantissa << 15, (unsigned)places);
+}
+
+void prove_plus(void)
+{
+    const struct number16 a = any_number();
+    const struct number16 b = any_number();
+    const number exponent = (a.exponent < b.exponent) ? b.exponent : a.exponent;
+
+    add(&result, &a, &b);
+    claim_result(at_exponent(a, exponent) + at_exponent(b, exponent),
+                 exponent - 15);
+}
+
+// Or 0 if b is the larger one.
+void prove_minus(void)
+{
+    const struct number16 a = any_number();
+    const struct number16 b = any_number();
+    number rest = 0;
+
+    if (a.exponent >= b.exponent) {
+        rest = at_exponent(a, a.exponent) - at_exponent(b, a.exponent);
+    }
+    subtract(&result, &a, &b);
+    claim_result((rest < 0) ? 0 : rest, (number)a.exponent - 15);
+}
+
+// A product and a quotient, by a power of two: a solver is slow at others.
+void prove_scaling(void)
+{
+    const struct number16 a = any_number();
+    struct number16 b = any_number();
+
+    b.mantissa = 32768;
+    assume(inside(b.exponent, -FAR, FAR));
+    multiply(&result, &a, &b);
+    claim_result(a.mantissa, (number)a.exponent + b.exponent + 15);
+    multiply(&result, &b, &a);
+    claim_result(a.mantissa, (number)a.exponent + b.exponent + 15);
+    divide(&result, &a, &b);
+    claim_result(a.mantissa, (number)a.exponent - b.exponent - 15);
+    b.mantissa = 0;
+    divide(&result, &a, &b);
+    claim_result(0, 0);
+}
+
+// To the nearest, half up, of 31 bits.
+void prove_integer(void)
+{
+    const struct number16 a = any_number();
+    const int8_t fraction = nondet_int8();
+    const number places = (number)a.exponent + fraction;
+    const number found = integer(&a, fraction);
+
+    if (places > 15) {
+        claim(found == UINT32_MAX);
+    } else if (places >= 0) {
+        claim(found == (number)a.mantissa << places);
+    } else if (places < -40) {
+        claim(found == 0);
+    } else {
+        claim(found == floor_by(a.mantissa + ((number)1 << (-places - 1)),
+                                (unsigned)-places));
+    }
+}
