@@ -194,7 +194,7 @@ bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte);
 //             limits of the integral that fixpid_pid's setters refuse
 uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            const struct fixpid_link_board *board,
-                           FIXPID_DATA struct fixpid_pid *pid,
+                           FIXPID_DATA struct fixpid_pid *pid_self,
                            struct fixpid_pid_config *config);
 
 // The same for firmware that only streams: hello, record and stream are carried
@@ -213,8 +213,8 @@ int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self);
 // that have a frame, and while a command waits. Then, manual_steps steps after
 // the last output by hand, the controller is automatic again.
 uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
-                         FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint,
-                         int16_t measurement, int16_t output);
+                         FIXPID_DATA struct fixpid_pid *pid_self,
+                         int16_t setpoint, int16_t measurement, int16_t output);
 
 // The same after fixpid_pid_track(pid, applied, shift), for a program that
 // tracks after each step: with a slew rate behind the controller, or a cascade.
@@ -222,7 +222,7 @@ uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
 // end tracks likewise, so that no key frame is due; a key frame has the state
 // after the tracking.
 uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
-                                 FIXPID_DATA struct fixpid_pid *pid,
+                                 FIXPID_DATA struct fixpid_pid *pid_self,
                                  int16_t setpoint, int16_t measurement,
                                  int16_t output, int16_t applied,
                                  uint8_t shift);

@@ -5,7 +5,6 @@
 #undef BYTES_DATA
 #define BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_check.h"
-#include "../common/fixpid_get.h"
 #include "../common/fixpid_put.h"
 #include "fixpid_link_private.h"
 #include "fixpid_record.h"
@@ -131,23 +130,32 @@ static uint8_t bytes_of(uint8_t command)
     return (command < SET_STREAM) ? 2 : 4;
 }
 
-// True if the sum of all bytes is behind the CRC, and the sum of these sums
-// behind it. The CRC alone lets one of 65536 pass that have wrong bytes far
-// apart. The check of a record does not help: it is the same polynomial.
-static bool sums_fit(FIXPID_DATA const uint8_t bytes[], uint8_t count)
+// True if behind the bytes there are their CRC, the sum of all bytes, and the
+// sum of these sums. The CRC alone lets one of 65536 pass that have wrong bytes
+// far apart. The check of a record does not help: it is the same polynomial.
+static bool checks_fit(FIXPID_DATA const uint8_t bytes[], uint8_t count)
 {
+    const uint16_t check = check_of(bytes, count);
+    FIXPID_DATA const uint8_t *next = bytes;
     uint8_t sum = 0;
     uint8_t sums = 0;
-    uint8_t at;
+    uint8_t left;
 
-    for (at = 0; at < count; at++) {
-        sum = (uint8_t)(sum + bytes[at]);
+    for (left = count; left != 0u; left--) {
+        sum = (uint8_t)(sum + *next);
         sums = (uint8_t)(sums + sum);
+        next++;
     }
-    if (bytes[count + 2u] != sum) {
+    if (next[0] != (uint8_t)(check & 0xFFu)) {
         return false;
     }
-    return bytes[count + 3u] == sums;
+    if (next[1] != (uint8_t)(check >> 8)) {
+        return false;
+    }
+    if (next[2] != sum) {
+        return false;
+    }
+    return next[3] == sums;
 }
 
 // True if the `count` bytes are a command: the way from one 0 to the next comes
@@ -160,10 +168,11 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
     uint8_t at;
 
     for (at = 1; at < count; at++) {
-        left = (uint8_t)(left + ONE_LESS);
-        if (left == 0u) {
+        if (left == 1u) {
             left = SELF.bytes[at];
             SELF.bytes[at] = 0;
+        } else {
+            left = (uint8_t)(left + ONE_LESS);
         }
     }
     if (left != 1u) {
@@ -173,11 +182,7 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
     if (count != (uint8_t)(bytes + CHECKS_BYTES + COBS_BYTES)) {
         return false;
     }
-    if (get(&SELF.bytes[bytes + COMMAND_AT]) !=
-        check_of(&SELF.bytes[COMMAND_AT], bytes)) {
-        return false;
-    }
-    return sums_fit(&SELF.bytes[COMMAND_AT], bytes);
+    return checks_fit(&SELF.bytes[COMMAND_AT], bytes);
 }
 
 bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte)
@@ -316,9 +321,9 @@ static bool is_due(FIXPID_DATA struct fixpid_link *self)
 // state is as long as a frame is behind it: what of it is not sent, the checks
 // overwrite.
 static void begin_key(FIXPID_DATA struct fixpid_link *self,
-                      FIXPID_DATA const struct fixpid_pid *pid)
+                      FIXPID_DATA const struct fixpid_pid *pid_self)
 {
-    fixpid_pid_state(pid, &SELF.frame[KEY_OUTPUT_AT]);
+    fixpid_pid_state(pid_self, &SELF.frame[KEY_OUTPUT_AT]);
     SELF.frame[1] = KEY_FRAME;
     SELF.frame[2] = SELF.why;
     SELF.frame[3] = SELF.tag;
@@ -331,33 +336,34 @@ static void begin_key(FIXPID_DATA struct fixpid_link *self,
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 // Whoever has said nothing for too long lets go.
 static void watch_hand(FIXPID_DATA struct fixpid_link *self,
-                       FIXPID_DATA struct fixpid_pid *pid)
+                       FIXPID_DATA struct fixpid_pid *pid_self)
 {
     if (SELF.manual != 0u) {
         SELF.manual--;
         if (SELF.manual == 0u) {
-            fixpid_pid_set_auto(pid);
+            fixpid_pid_set_auto(pid_self);
             SELF.why |= CHANGED;
         }
     }
 }
 #else
-#define watch_hand(self, pid) ((void)0)
+#define watch_hand(self, pid_self) ((void)0)
 #endif
 
 uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
-                          FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint)
+                          FIXPID_DATA struct fixpid_pid *pid_self,
+                          int16_t setpoint)
 {
     uint8_t bytes = 0;
 
     FIXPID_ASSERT(VALID(self));
-    FIXPID_ASSERT(VALID_PID(pid));
+    FIXPID_ASSERT(VALID_PID(pid_self));
     if (is_due(self)) {
         bytes = KEY_BYTES;
         if (SELF.why != 0u) {
-            begin_key(self, pid);
+            begin_key(self, pid_self);
         } else {
-            SELF.frame[1] = fixpid_pid_flags(pid) | STEP_FRAME;
+            SELF.frame[1] = fixpid_pid_flags(pid_self) | STEP_FRAME;
             put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
             bytes = STEP_BYTES;
             if (setpoint != SELF.told) {
@@ -368,15 +374,15 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
         SELF.told = setpoint;
     }
     SELF.steps++; // and round
-    watch_hand(self, pid);
+    watch_hand(self, pid_self);
     return bytes;
 }
 
 uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
-                         FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint,
-                         int16_t measurement, int16_t output)
+                         FIXPID_DATA struct fixpid_pid *pid_self,
+                         int16_t setpoint, int16_t measurement, int16_t output)
 {
-    const uint8_t bytes = fixpid_link_begin(self, pid, setpoint);
+    const uint8_t bytes = fixpid_link_begin(self, pid_self, setpoint);
     const uint8_t at = (bytes == KEY_BYTES) ? KEY_OUTPUT_AT : STEP_OUTPUT_AT;
 
     if (bytes == 0u) {

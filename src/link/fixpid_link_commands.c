@@ -46,29 +46,30 @@ static bool is_within(const struct fixpid_pid_config *wanted,
 
 // Sets all gains and limits, or none.
 // pre: the output's limits are a range
-static bool set_all(FIXPID_DATA struct fixpid_pid *pid,
+static bool set_all(FIXPID_DATA struct fixpid_pid *pid_self,
                     const struct fixpid_pid_config *wanted,
                     const struct fixpid_pid_config *now)
 {
-    if (!fixpid_pid_set_gains(pid, &wanted->gains)) {
+    if (!fixpid_pid_set_gains(pid_self, &wanted->gains)) {
         return false;
     }
-    if (!fixpid_pid_set_integral_limits(pid, wanted->integral_min,
+    if (!fixpid_pid_set_integral_limits(pid_self, wanted->integral_min,
                                         wanted->integral_max)) {
-        (void)fixpid_pid_set_gains(pid, &now->gains);
+        (void)fixpid_pid_set_gains(pid_self, &now->gains);
         return false;
     }
-    (void)fixpid_pid_set_limits(pid, wanted->output_min, wanted->output_max);
+    (void)fixpid_pid_set_limits(pid_self, wanted->output_min,
+                                wanted->output_max);
     return true;
 }
 
 static uint8_t write_record(FIXPID_DATA struct fixpid_link *self,
                             const struct fixpid_link_board *board,
-                            FIXPID_DATA struct fixpid_pid *pid,
+                            FIXPID_DATA struct fixpid_pid *pid_self,
                             struct fixpid_pid_config *config)
 {
-    // Deviation 11.3: a record is its bytes.
     const struct fixpid_record *const record =
+        // Deviation 11.3: a record is its bytes.
         (const struct fixpid_record *)&SELF.bytes[VALUE_AT];
     struct fixpid_pid_config wanted;
 
@@ -88,7 +89,7 @@ static uint8_t write_record(FIXPID_DATA struct fixpid_link *self,
             return NOT_ALLOWED;
         }
     }
-    if (!set_all(pid, &wanted, config)) {
+    if (!set_all(pid_self, &wanted, config)) {
         return NOT_ACCEPTED;
     }
     (void)fixpid_record_unpack(record, config); // SDCC cannot assign it
@@ -113,28 +114,28 @@ static uint8_t set_setpoint(FIXPID_DATA struct fixpid_link *self,
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 static uint8_t set_hand(FIXPID_DATA struct fixpid_link *self,
                         const struct fixpid_link_board *board,
-                        FIXPID_DATA struct fixpid_pid *pid)
+                        FIXPID_DATA struct fixpid_pid *pid_self)
 {
     const int16_t value = (int16_t)get(&SELF.bytes[VALUE_AT]);
 
     if (SELF.command == SET_SEED) {
-        fixpid_pid_seed(pid, value);
+        fixpid_pid_seed(pid_self, value);
         return DONE;
     }
     if (SELF.command == SET_AUTO) {
         SELF.manual = 0;
-        fixpid_pid_set_auto(pid);
+        fixpid_pid_set_auto(pid_self);
         return DONE;
     }
     if (board->manual_steps == 0u) {
         return NOT_ACCEPTED;
     }
     SELF.manual = board->manual_steps;
-    fixpid_pid_set_manual(pid, value);
+    fixpid_pid_set_manual(pid_self, value);
     return DONE;
 }
 #else
-#define set_hand(self, board, pid) NOT_ACCEPTED
+#define set_hand(self, board, pid_self) NOT_ACCEPTED
 #endif
 
 // What a command needs.
@@ -149,7 +150,7 @@ static uint8_t permission_for(uint8_t command)
 
 static uint8_t carry_out(FIXPID_DATA struct fixpid_link *self,
                          const struct fixpid_link_board *board,
-                         FIXPID_DATA struct fixpid_pid *pid,
+                         FIXPID_DATA struct fixpid_pid *pid_self,
                          struct fixpid_pid_config *config)
 {
     const uint8_t command = SELF.command;
@@ -159,25 +160,25 @@ static uint8_t carry_out(FIXPID_DATA struct fixpid_link *self,
     }
     SELF.why |= COMMANDED;
     if (command == WRITE_RECORD) {
-        return write_record(self, board, pid, config);
+        return write_record(self, board, pid_self, config);
     }
     if (command == SET_SETPOINT) {
         return set_setpoint(self, board);
     }
-    return set_hand(self, board, pid);
+    return set_hand(self, board, pid_self);
 }
 
 uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            const struct fixpid_link_board *board,
-                           FIXPID_DATA struct fixpid_pid *pid,
+                           FIXPID_DATA struct fixpid_pid *pid_self,
                            struct fixpid_pid_config *config)
 {
     FIXPID_ASSERT(VALID(self));
-    FIXPID_ASSERT(VALID_PID(pid));
+    FIXPID_ASSERT(VALID_PID(pid_self));
     if (SELF.count == WAITS) {
         if (SELF.bytes[COMMAND_AT] > SET_STREAM) {
             if (fixpid_link_is_new(self)) {
-                SELF.result = carry_out(self, board, pid, config);
+                SELF.result = carry_out(self, board, pid_self, config);
             }
             return fixpid_link_reply(self);
         }

@@ -71,7 +71,8 @@ uint8_t fixpid_link_reply(FIXPID_DATA struct fixpid_link *self);
 // A step, with its payload from frame[1] on but for the measurement and the
 // output; returns the payload's bytes, 0 if the step has no frame.
 uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
-                          FIXPID_DATA struct fixpid_pid *pid, int16_t setpoint);
+                          FIXPID_DATA struct fixpid_pid *pid_self,
+                          int16_t setpoint);
 
 // Makes a frame of the `bytes` from frame[1] on; returns its bytes.
 // pre: bytes is within 1..FIXPID_LINK_FRAME - 4

@@ -11,11 +11,11 @@
 #define TRACKED_BYTES 3u // behind a step's payload
 
 uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
-                                 FIXPID_DATA struct fixpid_pid *pid,
+                                 FIXPID_DATA struct fixpid_pid *pid_self,
                                  int16_t setpoint, int16_t measurement,
                                  int16_t output, int16_t applied, uint8_t shift)
 {
-    uint8_t bytes = fixpid_link_begin(self, pid, setpoint);
+    uint8_t bytes = fixpid_link_begin(self, pid_self, setpoint);
     uint8_t at = KEY_OUTPUT_AT;
 
     if (bytes == 0u) {

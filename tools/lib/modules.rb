@@ -78,12 +78,16 @@ module Modules
     'link' => {
       title: 'Link', what: 'The steps of fixpid_pid over a serial wire, and commands back',
       fuzz: [20_000, 512], uses: %w[pid record],
-      # The turns of a check are those of its bytes, which no constant tells. What meters an ARM passes four arguments, and a
-      # PIC18F4520 has no room for these calls beside the controller.
-      calls: [[:avr, %w[step receive]], [:avr, %w[answer]], [:arm, %w[receive answer]]].map do |kind, names|
-        { object: 'wire', calls: 1000, kinds: [kind],
-          program: %w[test/support/numbers_control.c test/support/numbers_pid.c test/support/numbers_link.c],
-          functions: names.to_h { |name| ["fixpid_link_#{name}", name] }, unbounded: names.map { |name| "fixpid_link_#{name}" } }
+      # The turns of a check are those of its bytes, which no constant tells. What meters an ARM passes four arguments. A
+      # PIC18F4520 has room for the stream alone.
+      calls: [[:pic, { 'step' => 'stream only, step' }, { pic: %w[object], takes: %r{/fixpid_link\.c\z},
+                                                         flags: %w[-DCALLS_STREAM -DFIXPID_PID_OBJECT=pid -DFIXPID_PID_FEATURES=0x00] }],
+              [:avr, { 'step' => 'step', 'receive' => 'receive' }], [:avr, { 'answer' => 'answer' }],
+              [:avr, { 'step_tracked' => 'step_tracked' }, { takes: /_link/, flags: %w[-DCALLS_TRACKED] }, 'src/pid/fixpid_pid_track.c'],
+              [:arm, { 'receive' => 'receive', 'answer' => 'answer' }]].map do |kind, functions, more, *linked|
+        names = functions.transform_keys { |name| "fixpid_link_#{name}" }
+        { object: 'wire', calls: 1000, kinds: [kind], functions: names, unbounded: names.keys,
+          program: %w[control pid link].map { |name| "test/support/numbers_#{name}.c" } + linked, **(more || {}) }
       end
     },
     'pid' => {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A controller and its link: steps, and commands of which some are damaged. All
-// frames are answers, and what they must say is known here.
+// frames are answers, and what they must say is known here. With -DCALLS_STREAM
+// the firmware only streams, with -DCALLS_TRACKED it tracks after each step.
 #include "calls.h"
 #include "fixpid_link.h"
 #include "fixpid_record.h"
@@ -11,7 +12,8 @@
 
 FIXPID_DATA struct fixpid_link wire;
 
-static FIXPID_DATA struct fixpid_pid pid;
+FIXPID_DATA struct fixpid_pid pid;
+
 static struct fixpid_pid_config config;
 static struct fixpid_link_board board;
 static uint8_t payload[LINK_FRAMES_MAX];
@@ -19,6 +21,34 @@ static uint8_t framed[LINK_FRAMES_MAX];
 static uint32_t steps;
 static uint8_t every;
 static uint8_t tag;
+
+#ifdef CALLS_STREAM
+static uint8_t answer(void)
+{
+    return fixpid_link_answer_stream(&wire, &board, &config);
+}
+#else
+static uint8_t answer(void)
+{
+    return fixpid_link_answer(&wire, &board, &pid, &config);
+}
+#endif
+
+#ifdef CALLS_TRACKED
+static uint8_t sent(int16_t setpoint, int16_t measurement, int16_t output)
+{
+    const int16_t applied = (int16_t)(output / 2);
+
+    fixpid_pid_track(&pid, applied, 3);
+    return fixpid_link_step_tracked(&wire, &pid, setpoint, measurement, output,
+                                    applied, 3);
+}
+#else
+static uint8_t sent(int16_t setpoint, int16_t measurement, int16_t output)
+{
+    return fixpid_link_step(&wire, &pid, setpoint, measurement, output);
+}
+#endif
 
 static void init(void)
 {
@@ -99,9 +129,8 @@ static void answer_command(uint8_t command, uint8_t value)
                           : kind == LINK_RECORD ? 25
                                                 : 4;
     const bool new = wire.tag != tag || wire.command != command;
-    const uint8_t answer = fixpid_link_answer(&wire, &board, &pid, &config);
 
-    calls_answer(answer_frame(1, answer), bytes);
+    calls_answer(answer_frame(1, answer()), bytes);
     calls_answer(payload[0], kind);
     calls_answer(payload[1], tag);
     if (kind == LINK_ANSWER) {
@@ -189,8 +218,8 @@ static void step(void)
 
     numbers_pid_inputs(&setpoint, &measurement);
     output = fixpid_pid_step(&pid, setpoint, measurement);
-    answer_step(fixpid_link_step(&wire, &pid, setpoint, measurement, output),
-                setpoint, measurement, output);
+    answer_step(sent(setpoint, measurement, output), setpoint, measurement,
+                output);
     calls_answer(fixpid_pid_flags(&pid), fixpid_pid_flags(&pid));
     steps++;
 }

@@ -8,10 +8,11 @@ require_relative 'meters'
 # program of test/chips/modules makes all recorded and many random calls of them.
 # `turns` are those of loops that count no constant down, by function, as a
 # Controller's; of functions in `unbounded` no bound can be told.
-# Objects that match `without` are left out where their flash is counted.
+# Objects that match `without` are left out where their flash is counted. It takes those of the
+# module's sources that match `takes`, if that is told, else what most programs link.
 # A PIC16 has room for the first `rows` recorded rows; only what names it is measured there.
 # On a PIC it is measured in the modes of `pic`: through a pointer, if nothing else is told.
-CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :pic, :part, :without, :rows,
+CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :kinds, :turns, :unbounded, :pic, :part, :without, :rows, :takes,
                           keyword_init: true) do
   # The name of calls_x.c and of its recorded rows: the module's, or that of a part.
   def caller
@@ -21,6 +22,8 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
   # Of the library, without the check, the record, the state, the step by the error and tracked
   # steps of a link, which only a program that calls them links.
   def files
+    return Modules.sources(id, Host.root).grep(takes) if takes
+
     Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_(?:error|state)\.c\z|_link_tracked\.c\z/)
   end
 
