@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "fixpid_record.h"
-#include "numbers_link.h"
+#include "link_frames.h"
 
 TEST_SOURCE_FILE("src/link/fixpid_link.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")

@@ -37,8 +37,8 @@ LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1,
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
-  C = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Itest/support -I#{HERE}].freeze
-  CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Iinclude -Itest/support -I#{HERE}].freeze
+  C = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Isim/link -Itest/support -I#{HERE}].freeze
+  CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Isim/link -Iinclude -Itest/support -I#{HERE}].freeze
   ASKING = [*%w[cases arith arith_an937 arith_an964 arith_an964_8bit arith_pid].map { |name| "#{HERE}/#{name}.c" },
             *%w[numbers numbers_pid reference reference_pid].map { |name| "test/support/#{name}.c" }].freeze
   SIMULATORS = { 'gpsim' => %w[build/gpsim/libchip.a -lgpsim], 'simavr' => %w[build/gpsim/libchip_avr.a -lsimavr] }.freeze
@@ -49,7 +49,7 @@ module Programs
   # The other end of a link: the library and what makes each step again.
   TWIN = %w[src/link/fixpid_link.c src/link/fixpid_link_commands.c src/pid/fixpid_pid.c src/pid/fixpid_pid_more.c
             src/pid/fixpid_pid_state.c src/pid/fixpid_pid_track.c src/record/fixpid_record.c test/support/link_session.c
-            test/support/link_twin.c test/support/numbers.c test/support/numbers_link.c].freeze
+            sim/link/link_twin.c sim/link/link_frames.c test/support/numbers.c].freeze
 
   class << self
     def of(name, simulator = 'gpsim')

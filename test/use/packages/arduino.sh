@@ -138,10 +138,10 @@ arduino_live() {
     support=$root/test/support
     # shellcheck disable=SC2046 # a list of files
     gcc -std=c99 -O2 -Wall -Wextra -Ilibraries/fixpid/src -Ilibraries/fixpid/include \
-        "-I$support" "$here/arduino/live.c" \
+        "-I$support" "-I$root/sim/link" "$here/arduino/live.c" \
         $(find libraries/fixpid/src/link libraries/fixpid/src/pid libraries/fixpid/src/record -name '*.c') \
-        "$support/link_session.c" "$support/link_twin.c" "$support/numbers.c" \
-        "$support/numbers_link.c" -lsimavr -o live
+        "$support/link_session.c" "$support/numbers.c" \
+        "$root"/sim/link/link_twin.c "$root"/sim/link/link_frames.c -lsimavr -o live
     live_on_uno 100000 5000 1000
     for number in 1 2; do
         rm -rf libraries
@@ -177,12 +177,11 @@ arduino_boards() {
 # What the library manager demands, and a fault of each kind.
 arduino_lint() {
     user_files fixpid
-    lint() { ruby "$here/arduino_lint.rb" fixpid; }
-    quiet lint
+    quiet ruby "$here/arduino_lint.rb" fixpid
     while IFS='|' read -r change message; do
         cp -R fixpid kept
         (cd fixpid && eval "$change")
-        refused "^$message" lint
+        refused "^$message" ruby "$here/arduino_lint.rb" fixpid
         rm -rf fixpid
         mv kept fixpid
     done <<'FAULTS'

@@ -58,6 +58,7 @@ release() {
     grep -qx "commit: $(git rev-parse HEAD)" "fixpid-$version-commit.txt"
     (
         cd .. # what is judged stays as it is
+        # shellcheck disable=SC2317 # quiet and refused call it
         judge() { ruby "$here/release.rb" release release/users/fixpid release/small/fixpid; }
         quiet judge
         refused_once() { # PATTERN FILE TEXT: with this at its end
