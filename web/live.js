@@ -67,7 +67,7 @@ export function leftOf(counts, missing) {
     const found = reasons.filter(([count]) => count > 0).map(([count, why]) => `${whole(count)} ${why}`);
     return [...(found.length > 0 ? [`Not compared: ${found.join('; ')}.`] : []),
         ...(missing > 0 ? [`${whole(missing)} step${missing === 1 ? '' : 's'} did not come.`] : []),
-        ...(counts.SPOILT > 0 ? [`${whole(counts.SPOILT)} pieces between two frames were none: damaged bytes, or text.`] : [])];
+        ...(counts.SPOILT > 0 ? [`${whole(counts.SPOILT)} ${counts.SPOILT === 1 ? 'piece between two frames is' : 'pieces between two frames are'} no frame: damaged bytes, or text.`] : [])];
 }
 
 const GAINS = [['KP', 'kp_q8'], ['KI', 'ki_q24'], ['KD', 'kd_q8'], ['FILTER', 'derivative_filter']];
@@ -292,6 +292,7 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         // A frame ends with a 0: so does the last one of a log that was cut there.
         take(Uint8Array.of(0));
         draw(true);
+        showCommands();
         say(trace.count === 0 ? `${name}: no frame of fixpid_link is in these ${whole(bytes.length)} bytes.` : `${name}: ${whole(trace.count)} steps in ${whole(bytes.length)} bytes.`);
     }
 

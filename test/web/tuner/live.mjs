@@ -277,7 +277,7 @@ async function streamed(name, steps) {
     const sentence = await verdict(here);
     check(`a bad wire: nothing is said to be different: ${sentence}`, /^[\d\u202F]+ steps equal, bit for bit\.$/.test(sentence) && board.kp() === 256, sentence);
     const lost = await left(here);
-    check('a bad wire: what was not compared is counted', /behind [\d\u202F]+ gaps, up to the next key frame/.test(lost) && /[\d\u202F]+ steps did not come/.test(lost) && /pieces between two frames/.test(lost), lost);
+    check('a bad wire: what was not compared is counted', /behind [\d\u202F]+ gaps, up to the next key frame/.test(lost) && /[\d\u202F]+ steps did not come/.test(lost) && /pieces between two frames are no frame/.test(lost), lost);
     bad = false;
     const before = equalOf(sentence);
     for (let i = 0; i < 200 && equalOf(await verdict(here)) === before; i++) {
@@ -363,6 +363,7 @@ async function streamed(name, steps) {
     await here.fill('#live-log', [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join(' '));
     await here.click('#live-read');
     await said(here, /^The log: 3\u202F001 steps in [\d\u202F]+ bytes\.$/);
+    check('the board’s settings may be taken of it', !(await here.isDisabled('#live-use')) && !(await here.isVisible('#live-commands')));
     check('a pasted log is compared', (await verdict(here)) === '3\u202F000 steps equal, bit for bit.', await verdict(here));
     checkNone('axe-core, on a phone in the dark', await violations(here));
     check('it does not scroll sideways on a phone', await here.evaluate(() => document.documentElement.scrollWidth) <= 390);
