@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a port_uart.c with an interrupt has in common with the others: a ring of
-// bytes each way. For port_uart.c, which includes it once, after
-//   PORT_UART_SEND()       from now on the interrupt comes when a byte can be
-//   sent PORT_UART_QUIET()      and no more PORT_UART_WRITE(byte)  sends it
-// and calls send_next and keep_received in its interrupt.
+// bytes each way. port_uart.c includes it once, calls send_next and
+// keep_received in its interrupt, and defines before
+//
+// - PORT_UART_SEND(): from now on the interrupt comes when a byte can be sent;
+// - PORT_UART_QUIET(): from now on it does not;
+// - PORT_UART_WRITE(byte): sends it.
 //
 // Of each ring the interrupt writes one index and the loop the other, so
 // neither waits for the other or masks it. Indices are single bytes, which
