@@ -14,7 +14,7 @@
 
 // CRC-16 of the first bytes, the highest bit first. Its polynomial has a
 // Hamming distance of 4 up to 32751 bits; a record has 62 * 8 = 496 at most.
-static uint16_t check_of(BYTES_DATA const uint8_t bytes[], uint8_t count)
+static uint16_t check_of(BYTES_DATA const uint8_t *bytes, uint8_t count)
 {
     uint16_t check = CHECK_BEGIN;
     uint8_t at;

@@ -11,7 +11,7 @@
 #define BYTES_DATA
 #endif
 
-static uint16_t get(BYTES_DATA const uint8_t bytes[])
+static uint16_t get(BYTES_DATA const uint8_t *bytes)
 {
     return (uint16_t)(bytes[0] | ((uint16_t)bytes[1] << 8));
 }

@@ -8,7 +8,7 @@
 #define BYTES_DATA
 #endif
 
-static void put(BYTES_DATA uint8_t bytes[], uint16_t value)
+static void put(BYTES_DATA uint8_t *bytes, uint16_t value)
 {
     bytes[0] = (uint8_t)(value & 0xFFu);
     bytes[1] = (uint8_t)(value >> 8);

@@ -30,7 +30,7 @@
 // Adding it to a byte counts down, and from 0 to 255.
 #define ONE_LESS 0xFFu
 
-uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes)
+uint8_t fixpid_link_framed(FIXPID_DATA uint8_t *frame, uint8_t bytes)
 {
     uint8_t at = (uint8_t)(bytes + 3u);
     uint8_t way = 0;
@@ -133,7 +133,7 @@ static uint8_t bytes_of(uint8_t command)
 // True if behind the bytes there are their CRC, the sum of all bytes, and the
 // sum of these sums. The CRC alone lets one of 65536 pass that have wrong bytes
 // far apart. The check of a record does not help: it is the same polynomial.
-static bool checks_fit(FIXPID_DATA const uint8_t bytes[], uint8_t count)
+static bool checks_fit(FIXPID_DATA const uint8_t *bytes, uint8_t count)
 {
     const uint16_t check = check_of(bytes, count);
     FIXPID_DATA const uint8_t *next = bytes;

@@ -76,6 +76,6 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
 
 // Makes a frame of the `bytes` from frame[1] on; returns its bytes.
 // pre: bytes is within 1..FIXPID_LINK_FRAME - 4
-uint8_t fixpid_link_framed(FIXPID_DATA uint8_t frame[], uint8_t bytes);
+uint8_t fixpid_link_framed(FIXPID_DATA uint8_t *frame, uint8_t bytes);
 
 #endif

@@ -32,6 +32,7 @@ module Project
   # What a program's sources take in, and below what a package manager's users get: with what
   # README.md links to.
   SMALL_FILES = %w[CMakeLists.txt LICENSE fixpid.pc.in include meson.build src].freeze
+  NOT_SMALL = 'src/*.h'.freeze # of those: for Arduino only
   USER_FILES = [*SMALL_FILES, *%w[CHANGELOG.md CONTRIBUTING.md README.md SECURITY.md conanfile.py docs examples
                                   fixpid.fixpid.pdsc idf_component.yml keywords.txt library.json library.properties port
                                   python/README.md vcpkg zephyr]].sort.freeze

@@ -8,7 +8,6 @@
 #if defined(__SDCC_pic14)
 static __code uint16_t __at(0x2007) configuration_word = 0x33E4;
 #elif defined(__SDCC)
-__sfr __at(0xF9D) PIE1;
 __sfr __at(0xFCE) TMR1L;
 __sfr __at(0xFCF) TMR1H;
 #endif

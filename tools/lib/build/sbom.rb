@@ -60,6 +60,7 @@ class Sbom
   def listed(name)
     parts = name.end_with?('-source.tar.xz') ? nil : LISTED[LISTED.keys.find { |ending| name.end_with?(ending) }]
     parts && @files.select { |path, _| parts.any? { |part| part.empty? || path == part || path.start_with?("#{part}/") } }
+                   .reject { |path, _| parts == Project::SMALL_FILES && File.fnmatch?(Project::NOT_SMALL, path, File::FNM_PATHNAME) }
   end
 
   def package(name)
