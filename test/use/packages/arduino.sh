@@ -120,13 +120,18 @@ arduino_oven() {
     done
 }
 
-# live_on_uno STEPS...: as live.c is told. The sketch fifty times as fast, by its RATE, at
-# a baud rate of its UART, of which simavr makes half.
-live_on_uno() {
+# The sketch Live fifty times as fast, by its RATE, at a baud rate of its UART, of which
+# simavr makes half.
+fast_live() {
     ino=libraries/fixpid/examples/arduino/05.Live/05.Live.ino
     sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \
         -e 's/^\(const unsigned long BAUD = \)115200;/\1500000;/' "$ino"
     build_sketch 05.Live uno
+}
+
+# live_on_uno STEPS...: as live.c is told.
+live_on_uno() {
+    fast_live
     ./live built/05.Live.ino.elf "$@"
 }
 

@@ -4,6 +4,7 @@
 import { readFileSync } from 'node:fs';
 import { violations } from '../browser/browser.mjs';
 import { check, checkNone, finish, frame, moduleOf, open, random, text, WORK } from './harness.mjs';
+import { connect, equalOf, left, said, spoiled, verdict } from './serial.mjs';
 
 const ALL = 15; // SETPOINT, GAINS, LIMITS, MANUAL
 const ANSWERS = 4; // steps that the board makes when something was sent
@@ -25,75 +26,8 @@ async function loadBoard(name = 'board', allowed = ALL) {
     };
 }
 
-// One of a hundred bytes is lost, has a wrong bit or is doubled.
-function spoiled(bytes, draw) {
-    const found = [];
-    for (const byte of bytes) {
-        const kind = draw() < 0.01 ? Math.floor(3 * draw()) : -1;
-        found.push(...(kind === 0 ? [] : kind === 1 ? [byte ^ (1 << Math.floor(8 * draw()))] : kind === 2 ? [byte, byte] : [byte]));
-    }
-    return Uint8Array.from(found);
-}
-
-// In the page: a port as Web Serial has it, whose bytes go through the test.
-function fakeSerial() {
-    const takes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    let source = null;
-    window.port = {
-        give: (base64) => source.enqueue(takes(base64)),
-        end: (message) => source.error(new DOMException(message, 'NetworkError')),
-    };
-    const port = {
-        readable: null, writable: null,
-        async open({ baudRate }) {
-            if (window.refused) {
-                throw new DOMException('Failed to open serial port.', 'NetworkError');
-            }
-            window.baud = baudRate;
-            port.readable = new ReadableStream({ start(controller) { source = controller; }, cancel() { port.readable = null; } });
-            port.writable = new WritableStream({ write: (bytes) => window.toBoard([...bytes]) });
-        },
-        async close() { window.portClosed = true; },
-    };
-    Object.defineProperty(navigator, 'serial', { value: {
-        async requestPort() {
-            if (window.noPort) {
-                throw new DOMException('No port selected by the user.', 'NotFoundError');
-            }
-            return port;
-        },
-    } });
-}
-
-// A page with a board behind its port: { here, board, run(steps), say() }.
-async function connected({ name, allowed, spoil = (bytes) => bytes, options = {}, click = true } = {}) {
-    const board = await loadBoard(name, allowed);
-    const here = await open('', options, undefined, async (page) => {
-        await page.exposeFunction('toBoard', async (bytes) => {
-            board.sent.push(bytes);
-            board.receive(spoil(Uint8Array.from(bytes)));
-            await run(ANSWERS);
-        });
-        await page.addInitScript(fakeSerial);
-    });
-    async function run(steps) {
-        const bytes = Buffer.from(spoil(board.run(steps))).toString('base64');
-        await here.evaluate((base64) => window.port.give(base64), bytes);
-    }
-    if (click) {
-        await here.click('#live-connect');
-        await said(here, /^Connected\.$/);
-    }
-    return { here, board, run };
-}
-
-const said = (here, wanted) => here.waitForFunction(([source]) => new RegExp(source).test(document.querySelector('#live-said').textContent), [wanted.source]);
-const verdict = async (here) => {
-    await here.waitForTimeout(150); // it is drawn ten times a second
-    return text(here, '#live-verdict');
-};
-const equalOf = (sentence) => Number((sentence.match(/([\d\u202F]+) steps? equal/) ?? ['', '0'])[1].replaceAll('\u202F', ''));
-const left = (here) => text(here, '#live-left');
+// A page with a board behind its port, as serial.mjs has it.
+const connected = async ({ name, allowed, ...more } = {}) => connect(await loadBoard(name, allowed), { answers: ANSWERS, ...more });
 
 // --- Without a browser ------------------------------------------------------------
 const { startEngine } = await moduleOf('engine');

@@ -167,6 +167,17 @@ try_out() {
     fi
 }
 
+# --- what they take ---
+
+# user_files FOLDER: what users get.
+user_files() {
+    (cd "$root" && ruby -r./tools/lib/project -e 'puts Project::USER_FILES') |
+        while read -r path; do
+            mkdir -p "$1/$(dirname "$path")"
+            cp -R "$root/$path" "$1/$path"
+        done
+}
+
 # --- how they judge ---
 
 # quiet COMMAND...: succeeds and prints nothing.
