@@ -15,7 +15,6 @@ from ._units import Actuator, Sensor
 PERMISSIONS = {"setpoint": lib.FIXPID_LINK_SETPOINT, "gains": lib.FIXPID_LINK_GAINS,
                "limits": lib.FIXPID_LINK_LIMITS, "manual": lib.FIXPID_LINK_MANUAL}
 NUMBERS = 0x4000  # of steps, in their frames
-HELLO, RECORD = bytes([lib.LINK_HELLO]), bytes([lib.LINK_RECORD])  # first bytes of frames
 CHUNK = 4096
 PAUSE = 0.001  # seconds, where nothing has come
 PATIENCE = 0.1  # seconds until a command is sent again
@@ -176,8 +175,6 @@ class Link:
         if not framed:
             return
         payload = bytes(ffi.buffer(self._payload, lib.link_payload(framed, len(framed), self._payload)))
-        if payload[:1] in (HELLO, RECORD) and not self._is_news(payload):
-            return
         before = twin.frames, twin.different
         self._before[0] = twin.pid
         tracked = twin.tracked
@@ -190,18 +187,6 @@ class Link:
             self._take_step(payload, False if twin.different != before[1] else True if twin.compared else None, tracked)
         elif payload[0] == lib.LINK_HELLO:
             self._take_hello(payload)
-
-    def _is_news(self, payload: bytes) -> bool:
-        """False for what a command that was sent again made the board say again, when another one is
-        under way; and for a record that says what the twin has, which goes on over it."""
-        twin = self._twin
-        if not self._live or twin.command_bytes == 0:
-            return True
-        if payload[1] != twin.payload[1] or payload[0] + lib.LINK_ASK_HELLO - lib.LINK_HELLO != twin.payload[0]:
-            return False
-        if payload[:1] == RECORD and twin.running and payload[2:] == record_pack(**fields_of(twin.config)):
-            twin.command_bytes = 0
-        return twin.command_bytes != 0
 
     def _take_hello(self, payload: bytes) -> None:
         self.version = ".".join(map(str, payload[3:6]))
