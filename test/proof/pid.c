@@ -3,25 +3,14 @@
 // parts, each of its static functions against its lines of the header, for
 // every state that the parts before it leave; and then as a whole, in which
 // what was proved of a part stands for it (`composed`).
-#include "prove.h"
+#include "pid_config.h"
 
 #include "fixpid_pid.h"
 #include "pid/fixpid_pid_private.h"
 
 struct fixpid_pid c; // of any bytes, where a proof begins
 struct fixpid_pid nondet_pid(void);
-struct fixpid_pid_config nondet_pid_config(void);
 struct fixpid_pid_gains nondet_pid_gains(void);
-
-static struct fixpid_pid_config any_config(void)
-{
-    struct fixpid_pid_config config = nondet_pid_config();
-
-    config.reverse = any_bool;
-    config.derivative_on_error = any_bool;
-    config.proportional_on_measurement = any_bool;
-    return config;
-}
 
 #include "pid/fixpid_pid.c"
 #include "pid/fixpid_pid_check.c"

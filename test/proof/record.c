@@ -2,41 +2,13 @@
 // fixpid_record against its header: what is packed is unpacked, and nothing
 // else is. That a check notices every 1, 2 and 3 wrong bits is for its unit
 // test.
-#include "prove.h"
+#include "pid_config.h"
 
 #include "fixpid_record.h"
 
 struct fixpid_record nondet_record(void);
-struct fixpid_pid_config nondet_pid_config(void);
-
-static struct fixpid_pid_config any_config(void)
-{
-    struct fixpid_pid_config config = nondet_pid_config();
-
-    config.reverse = any_bool;
-    config.derivative_on_error = any_bool;
-    config.proportional_on_measurement = any_bool;
-    return config;
-}
 
 #include "record/fixpid_record.c"
-
-static bool same(const struct fixpid_pid_config *a,
-                 const struct fixpid_pid_config *b)
-{
-    return (a->gains.kp_q8 == b->gains.kp_q8) &&
-           (a->gains.ki_q24 == b->gains.ki_q24) &&
-           (a->gains.kd_q8 == b->gains.kd_q8) &&
-           (a->gains.derivative_filter == b->gains.derivative_filter) &&
-           (a->output_min == b->output_min) &&
-           (a->output_max == b->output_max) &&
-           (a->integral_min == b->integral_min) &&
-           (a->integral_max == b->integral_max) &&
-           (a->setpoint_weight_q8 == b->setpoint_weight_q8) &&
-           (a->reverse == b->reverse) &&
-           (a->derivative_on_error == b->derivative_on_error) &&
-           (a->proportional_on_measurement == b->proportional_on_measurement);
-}
 
 // CRC-16 with the polynomial 0x1021, from 0xFFFF, bit by bit.
 static uint16_t check_as_defined(const struct fixpid_record *record)
@@ -68,7 +40,7 @@ void prove_pack(void)
            (config.derivative_on_error ? 0x40u : 0u) |
            (config.proportional_on_measurement ? 0x20u : 0u)));
     claim(fixpid_record_unpack(&record, &back));
-    claim(same(&back, &config));
+    claim(same_config(&back, &config));
 }
 
 void prove_unpack(void)
@@ -84,6 +56,6 @@ void prove_unpack(void)
 
     claim(fixpid_record_unpack(&record, &config) == legal);
     if (!legal) {
-        claim(same(&config, &before));
+        claim(same_config(&config, &before));
     }
 }
