@@ -8,7 +8,7 @@ from conan.tools.files import copy
 
 class Fixpid(ConanFile):
     name = "fixpid"
-    version = "0.1.0"
+    version = "1.0.0"
     description = "Fixed-point PID controllers with an autotuner, without float, for small chips"
     license = "MIT"
     topics = ("pid", "control", "fixed-point", "autotune", "motor", "heater")

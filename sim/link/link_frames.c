@@ -9,11 +9,11 @@ static void copy(uint8_t to[], const uint8_t from[], unsigned count)
     }
 }
 
-// CRC-16 by its polynomial, a byte at a time.
-static uint16_t check_of(const uint8_t bytes[], unsigned count)
+uint16_t link_check(const uint8_t bytes[], unsigned count)
 {
     uint16_t check = 0xFFFF;
 
+    // By its polynomial, a byte at a time.
     for (unsigned at = 0; at < count; at++) {
         uint16_t x = (uint16_t)((check >> 8) ^ bytes[at]);
 
@@ -24,11 +24,11 @@ static uint16_t check_of(const uint8_t bytes[], unsigned count)
     return check;
 }
 
-// As a receiver walks, from 0 to 0.
-static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
+unsigned link_stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
 {
     unsigned last = 0;
 
+    // As a receiver walks, from 0 to 0.
     copy(framed + 1, bytes, count);
     for (unsigned at = 1; at <= count; at++) {
         if (framed[at] == 0) {
@@ -44,7 +44,7 @@ static unsigned stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[])
 unsigned link_command(const uint8_t payload[], unsigned bytes, uint8_t framed[])
 {
     uint8_t whole[LINK_FRAMES_MAX] = {0};
-    const uint16_t check = check_of(payload, bytes);
+    const uint16_t check = link_check(payload, bytes);
     uint8_t *const behind = whole + bytes;
 
     copy(whole, payload, bytes);
@@ -54,7 +54,7 @@ unsigned link_command(const uint8_t payload[], unsigned bytes, uint8_t framed[])
         behind[2] = (uint8_t)(behind[2] + payload[at]);
         behind[3] = (uint8_t)(behind[3] + behind[2]);
     }
-    return stuffed(whole, bytes + 4, framed);
+    return link_stuffed(whole, bytes + 4, framed);
 }
 
 unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
@@ -76,7 +76,7 @@ unsigned link_payload(const uint8_t framed[], unsigned bytes, uint8_t payload[])
         at = next;
     }
     bytes -= 3;
-    if (link_number(whole + 1 + bytes, 2) != check_of(whole + 1, bytes)) {
+    if (link_number(whole + 1 + bytes, 2) != link_check(whole + 1, bytes)) {
         return 0;
     }
     copy(payload, whole + 1, bytes);

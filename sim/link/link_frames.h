@@ -30,6 +30,13 @@ enum {
     LINK_LOST = 16
 };
 
+// The CRC-16 of a payload.
+uint16_t link_check(const uint8_t bytes[], unsigned count);
+
+// COBS: makes a frame of a payload with what stands behind it, as its CRC;
+// returns its bytes, with the 0 behind it.
+unsigned link_stuffed(const uint8_t bytes[], unsigned count, uint8_t framed[]);
+
 // Makes a command of a payload; returns its bytes, with the 0 behind it.
 unsigned link_command(const uint8_t payload[], unsigned bytes,
                       uint8_t framed[]);

