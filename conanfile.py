@@ -17,8 +17,6 @@ class Fixpid(ConanFile):
     languages = "C"
     settings = "os", "compiler", "build_type", "arch"
     generators = "CMakeToolchain"
-    exports_sources = ("CMakeLists.txt", "LICENSE", "fixpid.pc.in", "include/*",
-                       "meson.build", "src/*")
 
     def layout(self):
         cmake_layout(self)

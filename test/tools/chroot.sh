@@ -41,8 +41,8 @@ bootstrap() {
     }
 }
 
-# The last commit is in /fixpid there, with what reaches the mirror from here: names,
-# apt's settings and certificates.
+# The last commit is in /fixpid there, or of an archive without a history all of it, with
+# what reaches the mirror from here: names, apt's settings and certificates.
 furnish() {
     for file in resolv.conf hosts apt/auth.conf apt/auth.conf.d ssl/certs/ca-certificates.crt; do
         [ ! -e "/etc/$file" ] || {
@@ -52,8 +52,14 @@ furnish() {
     done
     apt-config dump Acquire >"$chroot/etc/apt/apt.conf.d/machine"
     printf '[safe]\n\tdirectory = *\n' >"$work/gitconfig" # in CI it may be another user's
-    GIT_CONFIG_GLOBAL=$work/gitconfig git clone -q --no-hardlinks "$root" "$chroot/fixpid" ||
-        die "cannot clone $root"
+    if [ -e "$root/.git" ]; then
+        GIT_CONFIG_GLOBAL=$work/gitconfig git clone -q --no-hardlinks "$root" "$chroot/fixpid" ||
+            die "cannot clone $root"
+    else
+        mkdir "$chroot/fixpid"
+        tar -C "$root" --exclude=./build -cf - . | tar -C "$chroot/fixpid" -xf - ||
+            die "cannot copy $root"
+    fi
 }
 
 # inside COMMAND...: there, with nothing of this machine's environment.

@@ -197,21 +197,23 @@ module Manifests
     TEXT
   end
 
-  # Of the modules that others need.
+  # The components without which one does not compile, or does not link.
+  def required(name)
+    (Modules.needs(name) | Modules::ALL.fetch(name).fetch(:uses, [])).map { |other| Modules::ALL.fetch(other)[:title] }
+  end
+
   def conditions
-    Modules::ALL.keys.flat_map { |name| Modules.needs(name) }.uniq.map do |name|
-      title = Modules::ALL.fetch(name)[:title]
+    Modules::ALL.keys.map { |name| required(name) }.reject(&:empty?).uniq.map do |titles|
       <<-TEXT
-    <condition id="#{title}">
-      <require Cclass="Control" Cgroup="fixpid" Csub="#{title}"/>
-    </condition>
+    <condition id="#{titles.join(' and ')}">
+#{titles.map { |title| "      <require Cclass=\"Control\" Cgroup=\"fixpid\" Csub=\"#{title}\"/>\n" }.join}    </condition>
       TEXT
     end.join
   end
 
   def component(name, entry)
-    needed = Modules.needs(name).map { |other| Modules::ALL.fetch(other)[:title] }
-    condition = needed.map { |title| " condition=\"#{title}\"" }.join
+    titles = required(name)
+    condition = " condition=\"#{titles.join(' and ')}\"" unless titles.empty?
     sources = Project::PORTABLE_SOURCES.grep(%r{\Asrc/#{name}/})
     <<-TEXT
     <component Cclass="Control" Cgroup="fixpid" Csub="#{entry[:title]}" Cversion="#{Project::VERSION}"#{condition}>

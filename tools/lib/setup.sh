@@ -20,9 +20,16 @@ die() {
     exit 1
 }
 
+# room FOLDER MEGABYTES: dies if fewer are free there, as far as df can tell.
+room() {
+    free_megabytes=$(df -Pm "$1" 2>/dev/null | awk 'NR == 2 { print $4 + 0 }')
+    [ "${free_megabytes:-$2}" -ge "$2" ] || die "less than $2 MB free for $1"
+}
+
 # Every tool makes temporary files, some only after minutes.
 [ -w "${TMPDIR:-/tmp}/" ] ||
     die "cannot write to ${TMPDIR:-/tmp}, the folder for temporary files (TMPDIR)"
+room "${TMPDIR:-/tmp}" 1
 
 # work_folder FOLDER MEGABYTES: makes it, or says why nothing can be written
 # there.
@@ -30,8 +37,7 @@ work_folder() {
     mkdir -p "$1" 2>/dev/null ||
         die "cannot create $1: is the disk full, or the folder read-only?"
     [ -w "$1" ] || die "cannot write to $1"
-    free_megabytes=$(df -Pm "$1" | awk 'NR == 2 { print $4 }')
-    [ "$free_megabytes" -ge "$2" ] || die "less than $2 MB free for $1"
+    room "$1" "$2"
 }
 
 # remember NAME [failed]: for --failed, in the file that `record` names.
@@ -138,7 +144,8 @@ need() {
             --no-install-recommends $missing; } >"$install_log" 2>&1 </dev/null; then
         tail -n 5 "$install_log" >&2
         rm -f "$install_log"
-        die "could not install$missing; is there a network? By hand: $how"
+        die "could not install$missing; is there a network, and room on the disk?" \
+            "By hand: $how"
     fi
     rm -f "$install_log"
     missing_of "$@"

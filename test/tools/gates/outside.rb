@@ -59,6 +59,9 @@ Dir.mktmpdir do |folder|
     Gate.refused('no folder for temporary files', Gate.run('env', "TMPDIR=#{folder}/none", 'dash', 'tools/demo'),
                  %r{\Ademo: cannot write to #{folder}/none, .*\(TMPDIR\)\n\z})
     Gate.expect('and nothing is built', File.exist?('build'), false)
+    Gate.write("#{folder}/full/df", "#!/bin/sh\nprintf 'name\\ntmpfs 2 2 0 100%% /tmp\\n'\n")
+    Gate.refused('no room for temporary files', Gate.run('env', "PATH=#{folder}/full:#{ENV.fetch('PATH')}", "TMPDIR=#{folder}", 'dash', 'tools/demo'),
+                 /\Ademo: less than 1 MB free for #{folder}\n\z/)
   end
 end
 Gate.finish

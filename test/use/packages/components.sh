@@ -3,7 +3,8 @@
 # shellcheck disable=SC2154 # root, here: of the runner, which sources this
 # PlatformIO, ESP-IDF, Zephyr, CMSIS packs, Conan and vcpkg, of which Debian has none.
 # What users get is built as they build it, where the tool is a package of CMake's by a
-# stand-in for that; of a pack and of Conan's recipe is known that they are well-formed.
+# stand-in for that, and of a pack what each component names; of Conan's recipe is known
+# that it is Python.
 
 # platformio COMPILER OPTION...: every source of the packed library becomes a part of
 # an archive, with the flags of library.json, and a program is linked with it.
@@ -97,6 +98,16 @@ cmsis_pack() {
     quiet xmllint --noout "$root/fixpid.fixpid.pdsc"
     sed 's,</files>,,' "$root/fixpid.fixpid.pdsc" >broken.pdsc
     refused 'tag mismatch' xmllint --noout broken.pdsc
+    user_files pack
+    quiet ruby "$here/cmsis_pack.rb" pack fixpid.fixpid.pdsc objects
+    quiet cc -Ipack/include "$root/examples/quick_start.c" objects/PID/*.o -o program
+    ./program >printed
+    quick_start_printed printed
+    # A component without a file that it needs, or without the one that it stands on.
+    sed '/src.link.fixpid_link.c/d' pack/fixpid.fixpid.pdsc >pack/lacking.pdsc
+    refused '^Link lacks .*fixpid_link_' ruby "$here/cmsis_pack.rb" pack lacking.pdsc objects
+    sed '/Csub="Link"/s/ condition="[^"]*"//' pack/fixpid.fixpid.pdsc >pack/alone.pdsc
+    refused '^Link lacks .*fixpid_record_' ruby "$here/cmsis_pack.rb" pack alone.pdsc objects
 }
 
 conan() {

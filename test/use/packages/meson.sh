@@ -61,21 +61,16 @@ meson_install() {
     done
 }
 
-# heater OPTION...: a project of the user's that has the archive as a subproject.
+# heater OPTION...: a project of the user's that has the archive as a subproject, by
+# the wrap of docs/installing.md.
 heater() {
     small_files fixpid
-    mkdir -p heater/subprojects
-    tar -cJf fixpid.tar.xz fixpid
-    hash=$(sha256sum fixpid.tar.xz | cut -d ' ' -f 1)
-    cat >heater/subprojects/fixpid.wrap <<END
-[wrap-file]
-directory = fixpid
-source_url = file://$PWD/fixpid.tar.xz
-source_filename = fixpid.tar.xz
-source_hash = $hash
-[provide]
-dependency_names = fixpid
-END
+    archive=heater/subprojects/packagefiles/fixpid-VERSION.tar.xz
+    mkdir -p "${archive%/*}"
+    tar -cJf "$archive" fixpid
+    hash=$(sha256sum "$archive" | cut -d ' ' -f 1)
+    sed -n '/^    \[wrap-file\]/,/^$/s/^    //p' "$root/docs/installing.md" |
+        sed "s/^source_hash = .*/source_hash = $hash/" >heater/subprojects/fixpid.wrap
     cp "$root/examples/quick_start.c" heater
     cat >heater/meson.build <<'END'
 project('heater', 'c')

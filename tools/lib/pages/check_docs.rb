@@ -102,7 +102,8 @@ def renewed(path, text)
   when HOME
     Numbers.renewed(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')))
   when 'docs/start/download.md'
-    part(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')), 'release files', Shown.released)
+    text = part(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')), 'release files', Shown.released)
+    part(text, 'folders', Shown.folders)
   else
     text
   end

@@ -34,7 +34,21 @@ module Shown
       "| file | what it is |\n|---|---|\n#{rows.map { |name, what| "| `#{name}` | #{what.split.join(' ')} |\n" }.join}"
     end
 
+    # Which archive has which folder: those of users, and those of CONTRIBUTING.md's house.
+    def folders
+      small = directories(Project::SMALL_FILES)
+      users = directories(Project::USER_FILES) - small
+      house = File.read('CONTRIBUTING.md')[/^## The house\n.*?^Nothing includes/m].scan(%r{^\| `(\w+)/`}).flatten
+      rows = { small => 'the .tar.xz, the .zip and the archive of the source', users => 'the .zip and the archive of the source',
+               house - small - users => 'the archive of the source' }
+      "| folders | are in |\n|---|---|\n#{rows.map { |names, where| "| #{names.sort.map { |name| "`#{name}/`" }.join(', ')} | #{where} |\n" }.join}"
+    end
+
     private
+
+    def directories(paths)
+      paths.select { |path| File.directory?(path) }
+    end
 
     # Without the line of the licence.
     def block(path)
