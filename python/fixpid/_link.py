@@ -97,6 +97,7 @@ class Link:
         self._twin = ffi.new("struct link_twin *")
         lib.link_twin_init(self._twin)
         self._twin.wants_record = True
+        self._twin.asks = self._live
         self._before = ffi.new("struct fixpid_pid *")
         self._payload = ffi.new("uint8_t[]", lib.LINK_FRAMES_MAX)
         self._bytes = bytearray()
@@ -229,8 +230,6 @@ class Link:
         step = Step(self._number, self._setpoint, measurement, output, flags, *terms, equal)
         self._steps.append(step)
         self._kept.append(step)
-        if key and payload[1] & lib.LINK_CHANGED and self._live:
-            self._doubt()  # gains may be others, too
 
     def _jump(self, number: int, key: bool) -> int:
         """By how many steps the board has gone on. One that began anew has made one."""

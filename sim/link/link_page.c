@@ -16,9 +16,10 @@ static int32_t counts[LINK_PAGE_COUNTS];
 static int32_t config[LINK_PAGE_CONFIG];
 static int step_count;
 
-void live_begin(void)
+void live_begin(int asks)
 {
     link_twin_init(&twin);
+    twin.asks = asks != 0;
 }
 
 uint8_t *live_bytes(void)

@@ -61,8 +61,8 @@ enum live_config {
     LINK_PAGE_CONFIG
 };
 
-// A twin that knows nothing.
-void live_begin(void);
+// A twin that knows nothing, of a board that may be asked, or of a log.
+void live_begin(int asks);
 
 uint8_t *live_bytes(void); // LIVE_BYTES, for all that goes in or out
 

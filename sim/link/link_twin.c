@@ -72,6 +72,7 @@ static void take_record(struct link_twin *self, const uint8_t payload[])
     struct fixpid_record record;
 
     memcpy(record.bytes, payload + 2, sizeof record.bytes);
+    self->unsure = false;
     if (is_own(self, &record)) {
         self->wants_record = false;
         return;
@@ -86,6 +87,7 @@ static void doubt(struct link_twin *self)
 {
     self->known = false;
     self->running = false;
+    self->unsure = false;
     self->wants_record = true;
     self->reason = LINK_TWIN_GAP;
 }
@@ -138,9 +140,23 @@ static void take_answer(struct link_twin *self, const uint8_t payload[])
     self->command_bytes = 0;
 }
 
+static void leave_out(struct link_twin *self)
+{
+    self->not_compared++;
+    self->by_reason[self->reason]++;
+    self->compared = false;
+}
+
+// With gains that the program may have changed it says nothing.
 static void differ(struct link_twin *self,
                    const struct link_twin_difference *found)
 {
+    if (self->unsure) {
+        doubt(self);
+        self->reason = LINK_TWIN_CHANGED;
+        leave_out(self);
+        return;
+    }
     if (self->different == 0) {
         self->first = *found;
     }
@@ -170,13 +186,6 @@ static void judge(struct link_twin *self, int16_t measurement, int16_t output,
     } else {
         differ(self, &found);
     }
-}
-
-static void leave_out(struct link_twin *self)
-{
-    self->not_compared++;
-    self->by_reason[self->reason]++;
-    self->compared = false;
 }
 
 static void take_over(struct link_twin *self, const uint8_t payload[])
@@ -223,6 +232,7 @@ static void compare_state(struct link_twin *self, const uint8_t payload[])
         self->equal--; // by its output and flags alone it was
         differ(self, &found);
     }
+    self->unsure = false; // with other gains it was different
     self->keys_compared++;
     if (self->tracked) {
         take_over(self, payload);
@@ -252,6 +262,18 @@ static void come(struct link_twin *self, uint32_t number, uint32_t mask)
     self->last = number;
 }
 
+// The gains may be others, too: who can ask does, and a log goes on with those
+// that it has while they fit.
+static void program_changed(struct link_twin *self)
+{
+    if (self->asks) {
+        doubt(self);
+    }
+    self->unsure = !self->asks;
+    self->running = false;
+    self->reason = LINK_TWIN_CHANGED;
+}
+
 static void take_key(struct link_twin *self, const uint8_t payload[])
 {
     const int16_t measurement = (int16_t)link_number(payload + 9, 2);
@@ -261,13 +283,12 @@ static void take_key(struct link_twin *self, const uint8_t payload[])
     }
     come(self, link_number(payload + 3, 4), UINT32_MAX);
     self->setpoint = (int16_t)link_number(payload + 7, 2);
+    if (self->known && (payload[1] & LINK_CHANGED) != 0) {
+        program_changed(self);
+    }
     if (!self->known) {
         leave_out(self);
         return;
-    }
-    if (self->running && (payload[1] & LINK_CHANGED) != 0) {
-        self->running = false;
-        self->reason = LINK_TWIN_CHANGED;
     }
     if (!self->running) {
         begin_from(self, payload, measurement);

@@ -39,6 +39,8 @@ struct link_twin {
     bool running; // pid is the board's
     bool tracked; // the last step was
     bool wants_record;
+    bool asks;   // the record may be asked for: no log
+    bool unsure; // the program changed something, which may be gains
     uint32_t next;
     int16_t setpoint;
     uint8_t last_tag; // of the last answer

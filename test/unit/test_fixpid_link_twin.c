@@ -310,6 +310,49 @@ void test_twin_takes_over_what_the_program_changed(void)
     TEST_ASSERT_GREATER_OR_EQUAL(20, twin.taken_over);
 }
 
+void test_twin_asks_for_what_the_program_changed_where_it_can(void)
+{
+    twin.asks = true;
+    run(100);
+    for (unsigned i = 0; i < 20; i++) {
+        config.gains.kp_q8 = (uint16_t)(100 + 40 * i);
+        TEST_ASSERT_TRUE(fixpid_pid_set_gains(&pid, &config.gains));
+        fixpid_link_changed(&link_of_board);
+        run(30);
+    }
+    TEST_ASSERT_EQUAL(0, twin.different + twin.gaps);
+    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    TEST_ASSERT_GREATER_OR_EQUAL(20, twin.by_reason[LINK_TWIN_CHANGED]);
+    TEST_ASSERT_GREATER_THAN(20 * 20, twin.equal);
+}
+
+void test_log_waits_for_a_record_where_the_program_changed_gains(void)
+{
+    unsigned equal;
+
+    run(300);
+    equal = twin.equal;
+    fixpid_pid_reset(&pid);
+    fixpid_link_changed(&link_of_board);
+    run(300);
+    TEST_ASSERT_GREATER_THAN(290, twin.equal - equal);
+    TEST_ASSERT_FALSE(twin.unsure);
+    config.gains.kp_q8 = 90;
+    TEST_ASSERT_TRUE(fixpid_pid_set_gains(&pid, &config.gains));
+    fixpid_link_changed(&link_of_board);
+    twin.command_bytes = 0; // nobody asks
+    for (unsigned i = 0; i < 300; i++) {
+        step_board(100);
+    }
+    TEST_ASSERT_EQUAL(0, twin.different);
+    TEST_ASSERT_GREATER_THAN(1, twin.by_reason[LINK_TWIN_CHANGED]);
+    TEST_ASSERT_TRUE(twin.wants_record);
+    equal = twin.equal;
+    run(300);
+    TEST_ASSERT_EQUAL(0, twin.different);
+    TEST_ASSERT_GREATER_THAN(250, twin.equal - equal);
+}
+
 // ---- What it says ----
 
 void test_first_difference_has_both_answers(void)

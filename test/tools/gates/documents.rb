@@ -32,6 +32,8 @@ FAULTS = [
   ['docs/scaling.md', 'With 1000 steps', 'With 1000 steps, or 77,', /docs.scaling.md:\d+: nothing checks 77 in "/],
   ['docs/ports.md', 'AN4 KI, AN5 KD', 'AN5 KI, AN4 KD', /docs.ports.md: 5 in ".*'KI'\) is 4$/, /docs.ports.md: 4 in ".*'KD'\) is 5$/],
   ['docs/ports.md', 'brown-out at 2.7 V', 'brown-out at 2.8 V', /nothing checks 2.8 in "/, /docs.ports.md # Reset, brown-out and watchdog. has no number 2.7/],
+  ['docs/faults.md', 'with six of the eight', 'with five of the eight', /docs.faults.md: five in ".* is 6.0/],
+  ['docs/cost.md', 'libraries with floats cost', 'three libraries with floats cost', /docs.cost.md:\d+: nothing checks three in "/],
   ['docs/behaviour.md', 'is 44 %', 'is 4 %', /docs.behaviour.md: 4 in ".* is 43.67/],
   ['docs/ports.md', '| `fixpid_an964` | 4 |', '| `fixpid_an964` | 3 |', /docs.ports.md is stale/],
   ['docs/migrating.md', '1000 / ms', 'ms / 1000', /docs.migrating.md does not say ".*SetSampleTime/],

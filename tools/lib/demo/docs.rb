@@ -5,7 +5,7 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others recipes guard chip
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others guard chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
   # Document, its parts between markers, and what makes each of them.
@@ -67,7 +67,7 @@ module Docs
 
     def copy_pictures(root)
       FileUtils.mkdir_p("#{root}/docs/images")
-      PICTURES.each do |name|
+      [*PICTURES, *RECIPE_PICTURES.map { |name| recipe_name(name) }].each do |name|
         FileUtils.cp("#{Host.folder}/#{name}.png", "#{root}/docs/images")
       end
     end

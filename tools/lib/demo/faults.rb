@@ -323,30 +323,48 @@ end
 # ---- The picture: a point for each run ----
 
 FAULT_ENDS = { 'back' => ['back in control', Plot::MEASUREMENT, :back_s],
-               'fallen' => ['fallen, drive off', Plot::OUTPUT, :off_s],
+               'fallen' => ['fallen, drive off', Plot::SECOND, :off_s],
                'off' => ['off', Plot::SECOND, :off_s],
                'out' => ['out of control until the next reset', Plot::WITHOUT, :back_s] }.freeze
 SHORTEST_S = 1e-3 # what is shorter is drawn here, as the axis is a logarithm's
 
 def draw_faults(all)
   name = "faults-#{all.name}"
-  plot = Plot.new(name, "#{all.name.capitalize}, #{all.runs.size} faults: how long until it was back " \
-                        'or off, a point for each run',
-                  width: 1000, height: 640, margins: { left: 0.30, bottom: 0.09 })
-  plot.panel(0, 0, fault_points(all), fault_axes(all))
+  plot = Plot.new(name, "#{all.name.capitalize}, #{all.runs.size} faults: when it was back or off",
+                  width: 640, height: 540, margins: { left: 0.45, top: 0.92, bottom: 0.13 })
+  plot.panel(0, 0, fault_points(all), [*fault_axes(all), *fault_texts(all)])
   plot.draw
 end
 
 def fault_points(all)
   places = fault_places(all)
-  FAULT_ENDS.select { |how,| all.ended(how).positive? }.map do |how, (title, color, time)|
+  fault_ends(all).map do |how, (_, color)|
     path = "#{Host.folder}/faults-#{all.name}-#{how}.dat"
-    lines = all.runs.select { |run| run.end == how }.map do |run|
-      format('%.6g,%.4f', [run.public_send(time), SHORTEST_S].max, places[run])
-    end
+    lines = all.runs.select { |run| run.end == how }.map { |run| format('%.6g,%.4f', fault_time(run), places[run]) }
     Report.replace(path, "#{lines.join("\n")}\n")
-    "'#{path}' using 1:2 with points pointtype 7 pointsize 0.45 linecolor '#{color}' " \
-      "title '#{title}: #{lines.size}'"
+    "'#{path}' using 1:2 with points pointtype 7 pointsize 0.4 linecolor '#{color}' notitle"
+  end
+end
+
+def fault_ends(all)
+  FAULT_ENDS.select { |how,| all.ended(how).positive? }
+end
+
+def fault_time(run)
+  [run.public_send(FAULT_ENDS[run.end].last), SHORTEST_S].max
+end
+
+# What the points of an end are, beside those of the kind that has most of them: behind
+# all of that kind, or where they come late before the first of that end.
+def fault_texts(all)
+  left = all.kinds
+  fault_ends(all).map do |how, (title, color)|
+    kind = how == 'back' ? 'none' : left.max_by { |one| all.of(one).ended(how) }
+    left -= [kind]
+    times, own = [all.of(kind).runs, all.of(kind).runs.select { |run| run.end == how }].map { |runs| runs.map { |run| fault_time(run) } }
+    late = times.max > 0.1 * all.rules.back
+    x = late ? own.min / 1.25 : times.max * 1.25
+    Plot.text("#{title}: #{all.ended(how)}", x, all.kinds.reverse.index(kind), color, late ? 'right' : 'left')
   end
 end
 
@@ -361,13 +379,12 @@ end
 def fault_axes(all)
   kinds = all.kinds.reverse
   tics = kinds.each_with_index.map { |kind, i| "\"#{FAULT_KINDS[kind]}\" #{i}" }
-  limits = [['back', all.rules.back, Plot::MEASUREMENT], ['off', all.rules.fallen, Plot::OUTPUT]]
+  limits = [['back', all.rules.back, Plot::MEASUREMENT], ['off', all.rules.fallen, Plot::SECOND]]
   lines = limits.select { |_, at, _| at }.flat_map do |what, at, color|
     ["set arrow from #{at}, graph 0 to #{at}, graph 1 nohead dashtype 2 linecolor '#{color}'",
      "set label '#{what}' at #{at}, graph 0.985 right offset -0.5,0 textcolor '#{color}'"]
   end
   ['set logscale x', "set xrange [#{SHORTEST_S * 0.7}:#{all.rules.back * 3}]",
    "set yrange [-0.8:#{kinds.size - 0.3}]", "set ytics (#{tics.join(', ')})",
-   "set xlabel 'seconds after the end of the fault, #{SHORTEST_S} or less at the left; dashed: what is allowed'",
-   'set key at screen 0.63,0.955 center top horizontal width 2', *lines]
+   "set xlabel \"seconds after the end of the fault; #{SHORTEST_S}: or less;\\ndashed: what is allowed\"", *lines]
 end

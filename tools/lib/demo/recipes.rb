@@ -351,30 +351,50 @@ def check_guard(run)
   Report.at_least('without a guard: hottest', run.values('without').max, 110.0, 'degrees')
 end
 
-# A panel: measurements on the left axis; with `output` what drives them on the right one,
-# which has the lowest quarter. `x` and `y` are ranges of what is drawn.
-def recipe_panel(plot, place, title, curves, x, y, labels, output = nil)
+# A picture: measurements on the left axis; with `output` what drives them on the right one,
+# which has the lowest third. `x` and `y` are ranges of what is drawn, `texts` the names
+# beside the curves. It is as wide as a phone can show without making its letters small.
+def recipe_picture(name, title, curves, x, y, labels, texts, output = nil)
   room = y[1] - y[0]
   low = output ? y[0] - 0.5 * room : y[0] - 0.05 * room
-  plot.panel(*place, curves + (output ? [output.curve] : []),
-             ["set title '#{title}' font ',11' offset 0,-0.6", 'set key top center vertical maxrows 2',
-              "set xrange [#{x.join(':')}]", "set yrange [#{low}:#{y[1] + 0.45 * room}]",
-              "set xlabel '#{labels[0]}' offset 0,0.4", "set ylabel '#{labels[1]}' offset 0.7,0",
-              *(output ? output.axis : [])])
+  plot = Plot.new(recipe_name(name), title, width: 540, height: 270,
+                  margins: { left: 0.135, right: output ? 0.885 : 0.965, top: 0.885, bottom: 0.17 })
+  plot.panel(0, 0, curves + (output ? [output.curve] : []),
+             ["set xrange [#{x.join(':')}]", "set ytics (#{recipe_ticks(*y).join(', ')})", "set yrange [#{low}:#{y[1] + 0.05 * room}]",
+              "set xlabel '#{labels[0]}' offset 0,0.4", "set ylabel '#{labels[1]}' offset 1.3,0",
+              *texts, *(output ? output.axis : [])])
+  plot.draw
 end
 
-OutputAxis = Struct.new(:run, :column, :title, :low, :high, :label) do
+# Of its picture.
+def recipe_name(recipe)
+  "recipes-#{recipe.tr('_', '-')}"
+end
+
+# Some even numbers from low to high, none of which is of the output's part.
+def recipe_ticks(low, high)
+  power = 10.0**Math.log10((high - low) / 4.0).floor
+  step = [1, 2, 5, 10].map { |one| one * power }.find { |one| one >= (high - low) / 5.0 }
+  ((low / step).ceil..(high / step).floor).map { |i| (i * step).then { |at| at == at.round ? at.round : at.round(3) } }
+end
+
+OutputAxis = Struct.new(:run, :column, :low, :high, :label, :text) do
   def curve
-    "#{Plot.curve(run, column, title, Plot::OUTPUT, width: 1.0)} axes x1y2"
+    "#{Plot.curve(run, column, nil, Plot::OUTPUT, width: 1.0)} axes x1y2"
   end
 
-  # Zero and the ends have a mark.
+  # Zero and the ends have a mark; its name stands at `text`, in its own numbers.
   def axis
     room = high - low
     ["set y2range [#{low - 0.1 * room}:#{low + 4.0 * room}]", 'set border 11',
-     "set y2tics (#{[low, 0, high].uniq.join(', ')}) out scale 0.6",
-     "set y2label '#{label}' offset -1,0"]
+     "set y2tics (#{[low, 0, high].uniq.join(', ')}) out scale 0.6", "set y2label '#{label}' offset -1.2,0",
+     Plot.text(label.sub(/,.*/, ''), text[0], "second #{text[1]}", Plot::OUTPUT)]
   end
+end
+
+# A stretch of time in which something is otherwise.
+def recipe_stretch(number, from, to)
+  "set object #{number} rectangle from #{from}, graph 0 to #{to}, graph 1 behind fillcolor '#{Plot::AREA}' fillstyle solid noborder"
 end
 
 STEPS_COUNTS = ['steps', 'counts'].freeze
@@ -382,118 +402,153 @@ SECONDS_COUNTS = ['time, s', 'counts'].freeze
 SECONDS_DEGREES = ['time, s', 'temperature, °C'].freeze
 
 def draw_recipes(runs)
-  rows = (RECIPE_PANELS.size + 1) / 2
-  plot = Plot.new('recipes', 'Recipes: what is built around a controller',
-                  width: 1100, height: 280 * rows, columns: [1.0, 1.0], rows: [1.0] * rows, gap_x: 0.135, gap_y: 0.3 / rows,
-                  margins: { left: 0.07, right: 0.925, top: 1.0 - 0.28 / rows, bottom: 0.19 / rows })
-  RECIPE_PANELS.each_with_index { |name, i| send("draw_#{name}", plot, [i / 2, i % 2], runs.fetch(name)) }
-  plot.draw
+  RECIPE_PICTURES.each { |name| send("draw_#{name}", runs.fetch(name)) }
 end
 
-# An even number of them.
-RECIPE_PANELS = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retune heat_cool least_output
-                   angle guard dead_band sensor_break scheduling interpolated].freeze
+RECIPE_PICTURES = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retune heat_cool least_output
+                     angle guard dead_band sensor_break scheduling interpolated].freeze
 
-def with_and_without(run, with = 'with', without = 'without', titles = %w[with without])
-  [Plot.curve(run, without, titles[1], Plot::WITHOUT), Plot.curve(run, with, titles[0], Plot::MEASUREMENT)]
+def with_and_without(run)
+  [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'with', nil, Plot::MEASUREMENT)]
 end
 
-def draw_cascade(plot, place, run)
-  recipe_panel(plot, place, 'cascade: weak supply from 2000 to 3500', [*with_and_without(run), Plot.setpoint(run)],
-               [1500, 6000], [250, 580], STEPS_COUNTS)
+def without_text(x, y, words = 'without')
+  Plot.text(words, x, y, Plot::WITHOUT)
 end
 
-def draw_two_rates(plot, place, run)
-  recipe_panel(plot, place, 'cascade at two rates: weak supply from 2 to 3.5 s', [*with_and_without(run), Plot.setpoint(run)],
-               [1.5, 4.5], [430, 600], ['time, s', 'speed, counts'])
+def with_text(words, x, y)
+  Plot.text(words, x, y, Plot::MEASUREMENT)
 end
 
-def draw_override(plot, place, run)
-  recipe_panel(plot, place, 'override: filter clogged from 1000 to 2500',
-               [Plot.curve(run, 'pressure_without', 'without', Plot::WITHOUT),
-                Plot.curve(run, 'pressure', 'pressure', Plot::MEASUREMENT), Plot.curve(run, 'flow', 'flow', Plot::SECOND),
-                Plot.setpoint(nil, '600', 'setpoint'),
-                "700 title 'limit' linecolor '#{Plot::LIMIT}' dashtype 3"],
-               [0, 4000], [0, 900], STEPS_COUNTS)
+def setpoint_text(x, y)
+  Plot.text('setpoint', x, y, Plot::SETPOINT)
 end
 
-def draw_ramp(plot, place, run)
-  recipe_panel(plot, place, 'ramp of the setpoint and a slow valve', [*with_and_without(run), Plot.setpoint(run)],
-               [0, 450], [0, 720], SECONDS_COUNTS)
+def draw_cascade(run)
+  recipe_picture('cascade', 'Cascade: the supply of the inner loop is weak', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+                 [1500, 6000], [250, 580], STEPS_COUNTS,
+                 [recipe_stretch(1, 2000, 3500), Plot.text('weak supply', 2750, 400, Plot::TEXT, 'center'), setpoint_text(1560, 520),
+                  without_text(4080, 565, 'without tracking'), with_text('with tracking', 3870, 455)])
 end
 
-def draw_ramp_soak(plot, place, run)
-  recipe_panel(plot, place, 'ramp and soak that waits for the oven',
-               [Plot.curve(run, 'value_without', 'without waiting', Plot::WITHOUT), Plot.curve(run, 'value', 'with', Plot::MEASUREMENT),
-                Plot.setpoint(run)], [0, 1199], [20, 225], SECONDS_DEGREES)
+def draw_two_rates(run)
+  recipe_picture('two_rates', 'Cascade at two rates: the supply is weak', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+                 [1.5, 4.5], [440, 600], ['time, s', 'speed, counts'],
+                 [recipe_stretch(1, 2, 3.5), Plot.text('weak supply', 2.75, 530, Plot::TEXT, 'center'), setpoint_text(1.54, 510),
+                  without_text(3.68, 580, 'without tracking'), with_text('with tracking', 3.6, 470)])
 end
 
-def draw_ssr(plot, place, run)
-  recipe_panel(plot, place, 'heater behind a solid-state relay', [Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [0, 300], [0, 1000], SECONDS_COUNTS, OutputAxis.new(run, 'on', 'relay', 0, 1, 'relay, on is 1'))
+def draw_override(run)
+  recipe_picture('override', 'Override: the pressure is limited while a filter is clogged',
+                 [Plot.curve(run, 'pressure_without', nil, Plot::WITHOUT), Plot.curve(run, 'pressure', nil, Plot::MEASUREMENT),
+                  Plot.curve(run, 'flow', nil, Plot::SECOND), Plot.setpoint(nil, '600', nil), "700 notitle linecolor '#{Plot::LIMIT}' dashtype 3"],
+                 [0, 4000], [0, 880], STEPS_COUNTS,
+                 [recipe_stretch(1, 1000, 2500), Plot.text('clogged', 1750, 90, Plot::TEXT, 'center'), without_text(1230, 830, 'pressure without tracking'),
+                  Plot.text('limit', 3940, 745, Plot::LIMIT_TEXT, 'right'), setpoint_text(3130, 555), with_text('pressure', 1530, 635),
+                  Plot.text('flow', 1530, 375, Plot::SECOND)])
 end
 
-def draw_tune_ssr(plot, place, run)
-  recipe_panel(plot, place, 'a heater tuned behind its solid-state relay',
-               [Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [0, 1499], [0, 1300], SECONDS_COUNTS, OutputAxis.new(run, "(10*column('on'))", 'relay', 0, 100, 'relay on, %'))
+def draw_ramp(run)
+  recipe_picture('ramp', 'A ramp of the setpoint, and a slow valve', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 450], [0, 720], SECONDS_COUNTS,
+                 [without_text(95, 690, 'without ramp and tracking'), with_text('with both', 190, 330), setpoint_text(330, 555)])
 end
 
-def draw_retune(plot, place, run)
-  recipe_panel(plot, place, 'retuned in operation from 1000, a load from 4000',
-               [Plot.curve(run, 'whole', 'with the whole range', Plot::SECOND), Plot.curve(run, 'narrow', 'within a fifth', Plot::MEASUREMENT),
-                Plot.curve(run, 'old', 'old gains', Plot::WITHOUT, width: 1.0), Plot.setpoint(nil, '500')],
-               [800, 5000], [405, 575], STEPS_COUNTS)
+def draw_ramp_soak(run)
+  recipe_picture('ramp_soak', 'Ramp and soak that waits for the oven',
+                 [Plot.curve(run, 'value_without', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 1199], [20, 225], SECONDS_DEGREES,
+                 [without_text(40, 200, 'without waiting'), with_text('temperature', 560, 185), setpoint_text(430, 118)])
 end
 
-def draw_heat_cool(plot, place, run)
-  recipe_panel(plot, place, 'heat and cool with a gap, in a calm room',
-               [Plot.curve(run, 'surroundings', 'surroundings', Plot::DISTURBANCE), Plot.curve(run, 'value_without', 'no gap', Plot::WITHOUT, width: 1.0),
-                Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [50_000, 60_000], [24, 26], SECONDS_DEGREES,
-               OutputAxis.new(run, "(10*(column('heat')-column('cool')))", 'power', -100, 100, 'cool and heat, %'))
+def draw_ssr(run)
+  recipe_picture('ssr', 'A heater behind a solid-state relay', [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 300], [0, 1000], SECONDS_COUNTS, [with_text('temperature', 40, 650), setpoint_text(10, 895)],
+                 OutputAxis.new(run, 'on', 0, 1, 'relay, on is 1', [10, 1.35]))
 end
 
-def draw_least_output(plot, place, run)
-  recipe_panel(plot, place, 'the least output that turns the fan: more heat from 10000 s',
-               [Plot.curve(run, 'tracked', 'with track', Plot::WITHOUT), Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [9000, 11_000], [40, 180], SECONDS_DEGREES, OutputAxis.new(run, "(column('output')/10)", 'fan', 0, 100, 'fan, %'))
+def draw_tune_ssr(run)
+  recipe_picture('tune_ssr', 'A heater tuned behind its solid-state relay',
+                 [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 1499], [0, 1350], SECONDS_COUNTS, [with_text('temperature', 300, 1260), setpoint_text(1150, 1110)],
+                 OutputAxis.new(run, "(10*column('on'))", 0, 100, 'relay on, %', [750, 65]))
 end
 
-def draw_angle(plot, place, run)
-  recipe_panel(plot, place, 'an angle across the end of its counts',
-               [Plot.curve(run, 'without', 'by fixpid_pid_step', Plot::WITHOUT), Plot.curve(run, 'value', 'angle', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [0, 2], [-600, 600], ['time, s', 'angle, counts'], OutputAxis.new(run, "(column('output')/10)", 'drive', -100, 100, 'drive, %'))
+def draw_retune(run)
+  recipe_picture('retune', 'Retuned in operation, then a load',
+                 [Plot.curve(run, 'whole', nil, Plot::SECOND), Plot.curve(run, 'narrow', nil, Plot::MEASUREMENT),
+                  Plot.curve(run, 'old', nil, Plot::WITHOUT, width: 1.2), Plot.setpoint(nil, '500', nil)],
+                 [800, 5000], [405, 575], STEPS_COUNTS,
+                 [Plot.text('swing of the whole range', 2350, 562, Plot::SECOND), with_text('of a fifth of it', 2350, 540),
+                  without_text(4200, 450, 'old gains'), setpoint_text(2600, 507), Plot.text('load', 4000, 525, Plot::TEXT, 'center')])
 end
 
-def draw_guard(plot, place, run)
-  recipe_panel(plot, place, 'guard: sensor off from 400 to 700 s, relay shut from 1200 s',
-               [Plot.curve(run, 'without', 'without', Plot::WITHOUT), Plot.curve(run, 'reading', 'reading', Plot::SECOND, width: 1.0),
-                Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [300, 1999], [20, 122], SECONDS_DEGREES, OutputAxis.new(run, "(column('output')/2.55)", 'output', 0, 100, 'output, %'))
+def draw_heat_cool(run)
+  recipe_picture('heat_cool', 'Heat and cool with a gap, in a calm room',
+                 [Plot.curve(run, 'surroundings', nil, Plot::DISTURBANCE), Plot.curve(run, 'value_without', nil, Plot::WITHOUT, width: 1.0),
+                  Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [50_000, 60_000], [24, 26.1], SECONDS_DEGREES,
+                 [Plot.text('surroundings', 52_900, 25.95, Plot::LIMIT_TEXT), without_text(50_950, 24.25), with_text('temperature', 53_000, 24.25),
+                  "#{setpoint_text(57_050, 25.2)} boxed", 'set style textbox opaque noborder margins 0.3,0.2'],
+                 OutputAxis.new(run, "(10*(column('heat')-column('cool')))", -100, 100, 'cool and heat, %', [50_100, 70]))
 end
 
-def draw_dead_band(plot, place, run)
-  recipe_panel(plot, place, 'dead band: the valve',
-               [Plot.curve(run, 'valve_without', 'without', Plot::WITHOUT, width: 0.8), Plot.curve(run, 'with', 'measurement', Plot::MEASUREMENT, width: 3.0),
-                Plot.curve(run, 'valve', 'valve', Plot::OUTPUT), Plot.setpoint(nil, '600')],
-               [1000, 1990], [590, 606], STEPS_COUNTS)
+def draw_least_output(run)
+  recipe_picture('least_output', 'The least output that turns the fan',
+                 [Plot.curve(run, 'tracked', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [9000, 11_000], [40, 185], SECONDS_DEGREES,
+                 [without_text(9050, 90, 'by fixpid\\_pid\\_track'), with_text('temperature', 10_480, 66), setpoint_text(9050, 62),
+                  Plot.text('more heat', 9980, 150, Plot::TEXT, 'right'), "set arrow from 10000, graph 0 to 10000, graph 1 nohead dashtype 3 linecolor '#{Plot::DISTURBANCE}'"],
+                 OutputAxis.new(run, "(column('output')/10)", 0, 100, 'fan, %', [9050, 50]))
 end
 
-def draw_sensor_break(plot, place, run)
-  recipe_panel(plot, place, 'broken sensor from 200 to 260 s',
-               [Plot.curve(run, 'reading', 'reading', Plot::SECOND), Plot.curve(run, 'value', 'temperature', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [0, 599], [100, 1023], SECONDS_COUNTS, OutputAxis.new(run, "(column('output')/2.55)", 'drive', 0, 100, 'drive, %'))
+def draw_angle(run)
+  recipe_picture('angle', 'An angle across the end of its counts',
+                 [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 2], [-600, 600], SECONDS_COUNTS,
+                 [without_text(0.06, -500, 'by fixpid\\_pid\\_step'), with_text('angle', 0.14, 250), setpoint_text(1.03, 440)],
+                 OutputAxis.new(run, "(column('output')/10)", -100, 100, 'drive, %', [0.4, 55]))
 end
 
-def draw_scheduling(plot, place, run)
-  recipe_panel(plot, place, 'gains that change at 500, without a bump',
-               [Plot.curve(run, 'value', 'measurement', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [0, 2999], [0, 950], STEPS_COUNTS, OutputAxis.new(run, "(column('output')/10)", 'output', 0, 100, 'output, %'))
+def draw_guard(run)
+  recipe_picture('guard', 'Guard: a sensor off its place, then a relay shut',
+                 [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'reading', nil, Plot::SECOND, width: 1.0),
+                  Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [300, 1999], [20, 125], SECONDS_DEGREES,
+                 [recipe_stretch(1, 400, 700), recipe_stretch(2, 1200, 1999), Plot.text('sensor off', 550, -23, Plot::TEXT, 'center'),
+                  Plot.text('relay shut', 1600, -23, Plot::TEXT, 'center'), without_text(790, 113), with_text('temperature', 1330, 70),
+                  Plot.text('reading', 470, 10, Plot::SECOND), setpoint_text(930, 67)],
+                 OutputAxis.new(run, "(column('output')/2.55)", 0, 100, 'output, %', [930, 60]))
 end
 
-def draw_interpolated(plot, place, run)
-  recipe_panel(plot, place, 'a cone-shaped tank, gains by a table',
-               [Plot.curve(run, 'low', 'gains of level 100', Plot::WITHOUT), Plot.curve(run, 'value', 'by the level', Plot::MEASUREMENT), Plot.setpoint(run)],
-               [8000, 19_999], [100, 980], ['time, s', 'level, counts'], OutputAxis.new(run, "(column('output')/10)", 'valve', 0, 100, 'valve, %'))
+def draw_dead_band(run)
+  recipe_picture('dead_band', 'Dead band: the valve stands still',
+                 [Plot.curve(run, 'valve_without', nil, Plot::WITHOUT, width: 0.8), Plot.curve(run, 'with', nil, Plot::MEASUREMENT, width: 3.0),
+                  Plot.curve(run, 'valve', nil, Plot::OUTPUT), Plot.setpoint(nil, '600', nil)],
+                 [1000, 1990], [592, 607], STEPS_COUNTS,
+                 [without_text(1020, 606, 'valve without the band'), with_text('measurement and', 1020, 595.5), Plot.text('valve with it', 1340, 595.5, Plot::OUTPUT),
+                  setpoint_text(1800, 606)])
+end
+
+def draw_sensor_break(run)
+  recipe_picture('sensor_break', 'A broken sensor, and the drive off until it reads again',
+                 [Plot.curve(run, 'reading', nil, Plot::SECOND), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 599], [100, 1040], SECONDS_COUNTS,
+                 [recipe_stretch(1, 200, 260), Plot.text('reading', 270, 960, Plot::SECOND), with_text('temperature', 325, 400), setpoint_text(10, 680)],
+                 OutputAxis.new(run, "(column('output')/2.55)", 0, 100, 'drive, %', [30, 80]))
+end
+
+def draw_scheduling(run)
+  recipe_picture('scheduling', 'Gains that change at 500, without a bump',
+                 [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [0, 2999], [0, 950], STEPS_COUNTS, [with_text('measurement', 1130, 890), setpoint_text(400, 460)],
+                 OutputAxis.new(run, "(column('output')/10)", 0, 100, 'output, %', [100, 70]))
+end
+
+def draw_interpolated(run)
+  recipe_picture('interpolated', 'A cone-shaped tank, its gains by a table',
+                 [Plot.curve(run, 'low', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 [8000, 19_999], [100, 1080], ['time, s', 'level, counts'],
+                 [without_text(12_700, 1035, 'gains of level 100'), with_text('by the level', 12_900, 600), setpoint_text(9400, 285)],
+                 OutputAxis.new(run, "(column('output')/10)", 0, 100, 'valve, %', [8900, 75]))
 end

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The numbers in the prose of the documents and in the comments of the public headers.
+# The numbers in the prose of the documents and in the comments of the public headers, and
+# those in words where a picture's text says what is seen in it.
 # Each one is generated (it stands between markers, or behind its name), part of a sum
 # that is written out, a name or a citation (NAMES), computed by a sentence of
 # prose_numbers.txt, or counted there among those that no program can know, with the
@@ -27,8 +28,12 @@ module ProseNumbers
     /^ *\d+\. /                                                 # an item of a list
   ].freeze
 
-  # A part that is said in words, and how far from it what is computed may be.
-  WORDS = { 'a quarter' => 1 / 4r, 'a third' => 1 / 3r, 'half' => 1 / 2r, 'two thirds' => 2 / 3r }.freeze
+  # What is said in words: counts, and parts, and how far from a part what is computed may be.
+  COUNTS = %w[two three four five six seven eight nine ten].each_with_index.to_h { |word, i| [word, (i + 2).to_r] }.freeze
+  PARTS = { 'a quarter' => 1 / 4r, 'a third' => 1 / 3r, 'half' => 1 / 2r, 'two thirds' => 2 / 3r, 'a fifth' => 1 / 5r }.freeze
+  WORDS = { **PARTS, **COUNTS }.freeze
+  ALT = /!\[[^\]\n]*/.freeze # of a picture
+  WORD = /\b(?:#{WORDS.keys.join('|')})\b/.freeze
   NEAR = 0.1
   IN_WORDS = /\A"(.*)" (.*)\z/.freeze
 
@@ -80,14 +85,22 @@ module ProseNumbers
     def of(file)
       prose = prose(file)
       covered = cover(file, prose)
-      found = []
-      prose.scan(NUMBER) do
-        at = Regexp.last_match.begin(0)
-        line = prose[0...at].count("\n") + 1
-        found << Found.new(file, section(file, prose, at), line, Regexp.last_match[0], around(prose, at), covered[at])
+      found = places(prose).map do |at, text|
+        Found.new(file, section(file, prose, at), prose[0...at].count("\n") + 1, text, around(prose, at), covered[at])
       end
       excuse(file, found)
       found
+    end
+
+    # Of each number, and of each word for one in a picture's text: where it is, and what.
+    def places(prose)
+      numbers = matches(prose, NUMBER)
+      words = matches(prose, ALT).flat_map { |at, alt| matches(alt, WORD).map { |within, word| [at + within, word] } }
+      (numbers + words).sort
+    end
+
+    def matches(text, pattern)
+      text.to_enum(:scan, pattern).map { [Regexp.last_match.begin(0), Regexp.last_match[0]] }
     end
 
     def around(prose, at)
@@ -170,7 +183,8 @@ module ProseNumbers
     def compare_words(file, around, expression, words)
       value = Values.of(expression[IN_WORDS, 2])
       said = WORDS.fetch(words.split.join(' '))
-      wrong << "#{file}: #{words} in \"#{around}\", but #{expression[IN_WORDS, 2]} is #{value.to_f.round(3)}" if ((value / said) - 1).abs > NEAR
+      near = PARTS.value?(said) ? NEAR : 0
+      wrong << "#{file}: #{words} in \"#{around}\", but #{expression[IN_WORDS, 2]} is #{value.to_f.round(3)}" if ((value / said) - 1).abs > near
     end
 
     def compare(file, around, expression, number)
@@ -308,6 +322,17 @@ module ProseNumbers
       def in_file(path, pattern)
         found = File.read(path)[/#{pattern}/m, 1] or abort "#{TABLE}: #{path} has nothing like #{pattern}"
         Integer(found, exception: false)&.to_r || found.to_r
+      end
+
+      # How many rows of a generated table have what the pattern says.
+      def rows(page, name, pattern)
+        text = File.read(page)[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1] or abort "#{TABLE}: #{page} has no #{name}"
+        text.lines.grep(/\A\|/).drop(2).grep(/#{pattern}/).size.to_r
+      end
+
+      # How often a file has what the pattern says.
+      def times(path, pattern)
+        File.read(path).scan(/#{pattern}/).size.to_r
       end
 
       # Of a generated table: the first number of a cell, chosen by the text that its row begins with
