@@ -38,9 +38,11 @@ class Questions
     end
   end
 
-  def initialize(folder, steps)
+  # `apart` is the distance of the rows that are asked.
+  def initialize(folder, steps, apart = 1)
     @folder = folder
     @steps = steps
+    @apart = apart
     @mutex = Mutex.new
     @written = {}
     Host.output('gcc', *FLAGS, *SOURCES, '-o', "#{folder}/questions")
@@ -56,7 +58,7 @@ class Questions
   def write(controller, order, mode)
     base = "#{@folder}/#{controller}.#{order}.#{mode}"
     seed = mode == 'object' ? 1 : 2
-    text = Host.output("#{@folder}/questions", controller, order, @steps.to_s, seed.to_s, "#{base}.asked", "#{base}.expected")
+    text = Host.output("#{@folder}/questions", controller, order, @apart.to_s, @steps.to_s, seed.to_s, "#{base}.asked", "#{base}.expected")
     numbers = text.scan(/(\w+) (\d+)/).to_h { |name, number| [name.to_sym, number.to_i] }
     Asked.new(questions: "#{base}.asked", answers: "#{base}.expected", **numbers)
   end

@@ -2,11 +2,11 @@
 // The questions of test/chips/target/cases.c and the answers to them, as files
 // of bytes in the order of a chip:
 //
-//   questions CONTROLLER little|big STEPS SEED QUESTIONS ANSWERS
+//   questions CONTROLLER little|big APART STEPS SEED QUESTIONS ANSWERS
 //
-// All recorded rows, then random steps. Prints
+// Every APARTth recorded row, then random steps. Prints
 //
-//   rows 2000 steps 5000 question 10 answer 10 object 20
+//   rows 2000 steps 1000 question 10 answer 10 object 20
 //
 // what was written, and bytes of one of each and of the controller's object.
 #include <stdio.h>
@@ -71,7 +71,7 @@ static void put_both(void)
     put(answers, &answer, layout->answer);
 }
 
-static unsigned put_rows(void)
+static unsigned put_rows(unsigned apart)
 {
     int32_t columns[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
@@ -83,14 +83,16 @@ static unsigned put_rows(void)
         cases_begin(1);
         vectors_open(from->name);
         while (vectors_next(columns)) {
-            from->row(columns, &question, &answer);
-            put_both();
+            if (here % apart == 0u) {
+                from->row(columns, &question, &answer);
+                put_both();
+                rows++;
+            }
             here++;
         }
         if (here != from->rows) {
             die("a recording has not its rows");
         }
-        rows += here;
     }
     return rows;
 }
@@ -110,7 +112,7 @@ int main(int argc, char *argv[])
     unsigned rows;
     unsigned steps;
 
-    if (argc != 7) {
+    if (argc != 8) {
         die("wrong use");
     }
     controller = controller_named(argv[1]);
@@ -124,14 +126,14 @@ int main(int argc, char *argv[])
         die("exchange.h has other members");
     }
     big_endian = strcmp(argv[2], "big") == 0;
-    steps = (unsigned)strtoul(argv[3], NULL, 10);
-    questions = fopen(argv[5], "wb");
-    answers = fopen(argv[6], "wb");
+    steps = (unsigned)strtoul(argv[4], NULL, 10);
+    questions = fopen(argv[6], "wb");
+    answers = fopen(argv[7], "wb");
     if (questions == NULL || answers == NULL) {
         die("cannot write");
     }
-    rows = put_rows();
-    put_steps(steps, (uint32_t)strtoul(argv[4], NULL, 10));
+    rows = put_rows((unsigned)strtoul(argv[3], NULL, 10));
+    put_steps(steps, (uint32_t)strtoul(argv[5], NULL, 10));
     if (fclose(questions) != 0 || fclose(answers) != 0) {
         die("cannot write");
     }

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Tables of docs/chips.md from what test/chips/target/run has measured:
 #
-#   figures.rb LOGS SIZES.json DOCUMENT [--update]
+#   figures.rb LOGS SIZES.json DOCUMENT [--update] [NAME]...
 #
 # Fails if the document says something else, which --update rewrites, or if a limit of the
-# firmware is exceeded.
+# firmware is exceeded. NAMEs are of runs that were not made this time: a row that one of
+# them belongs to is left as it stands.
 require 'json'
 require_relative '../../../tools/lib/bound'
 require_relative '../../../tools/lib/measure/subjects'
@@ -24,17 +25,24 @@ EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'ov
 
 # What one of the runs printed.
 class Logs
-  def initialize(folder)
+  class NotRun < StandardError; end
+
+  def initialize(folder, not_run)
     @folder = folder
+    @not_run = not_run
   end
 
   def read(name)
+    raise NotRun if @not_run.include?(name)
+
     File.read("#{@folder}/#{name}.log")
   rescue Errno::ENOENT
     abort "figures: #{name} was not run"
   end
 
   def names(pattern)
+    raise NotRun if @not_run.any? { |name| File.fnmatch(pattern, name, File::FNM_EXTGLOB) }
+
     Dir.glob("#{@folder}/#{pattern}.log").map { |path| File.basename(path, '.log') }
   end
 
@@ -45,7 +53,8 @@ class Logs
   end
 end
 
-LOGS = Logs.new(ARGV[0])
+UPDATE = ARGV.delete('--update')
+LOGS = Logs.new(ARGV[0], ARGV.drop(3))
 SIZES = JSON.parse(File.read(ARGV[1]))
 FIRMWARE = File.dirname(ARGV[1])
 
@@ -56,6 +65,14 @@ end
 def table(head, rows)
   lines = [head, head.map { '---' }] + rows
   lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join
+end
+
+# A row of a table of the document: its title and what the block gives.
+def row(name, title)
+  [title, *yield]
+rescue Logs::NotRun
+  rows = File.read(ARGV[2])[/<!-- #{name}:begin -->.*?<!-- #{name}:end -->/m]
+  rows[/^\| (#{Regexp.escape(title)} \| .*) \|$/, 1]&.split(' | ') or abort "figures: #{ARGV[2]} has no row #{title}"
 end
 
 # [rows, random steps, different] of all modes.
@@ -85,9 +102,9 @@ def on_machine(controller, machine)
 end
 
 def exact
-  rows = PROCESSORS.map { |chip, name| [name] + TITLES.keys.map { |controller| on_chip(controller, chip) } }
+  rows = PROCESSORS.map { |chip, name| row('exact', name) { TITLES.keys.map { |controller| on_chip(controller, chip) } } }
   rows += MACHINES.map do |machine, name|
-    [name] + TITLES.keys.map { |controller| on_machine(controller, machine) }
+    row('exact', name) { TITLES.keys.map { |controller| on_machine(controller, machine) } }
   end
   table(['', *TITLES.values], rows)
 end
@@ -108,16 +125,25 @@ end
 
 def interrupts
   rows = pairs.map do |chip, controller|
-    good = all_interrupts('tick', controller, chip)
-    racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
-    ["#{INTERRUPTED[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
+    row('interrupts', "#{INTERRUPTED[chip]} #{TITLES[controller]}") do
+      good = all_interrupts('tick', controller, chip)
+      racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
+      [good['interrupts'], good['lost'], good['changed'], racy['lost']]
+    end
   end
-  ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
-  rows << ["PIC18 #{TICKING}", ticking['interrupts'], '-', ticking['changed'], '-']
+  rows << row('interrupts', "PIC18 #{TICKING}") do
+    ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
+    [ticking['interrupts'], '-', ticking['changed'], '-']
+  end
   MACHINES.merge('atmega328p' => 'AVR').each do |machine, name|
-    calls = LOGS.names("interrupted-#{machine}-*").flat_map { |log| LOGS.read(log).scan(/interrupts (\d+) .* neither (\d+)/) }
-    rows << ["#{name} #{TICKING}", *[0, 1].map { |at| calls.sum { |call| call[at].to_i } }.insert(1, '-'), '-'] if calls.any?
+    rows << row('interrupts', "#{name} #{TICKING}") do
+      calls = LOGS.names("interrupted-#{machine}-*").flat_map { |log| LOGS.read(log).scan(/interrupts (\d+) .* neither (\d+)/) }
+      next [] if calls.empty?
+
+      [0, 1].map { |at| calls.sum { |call| call[at].to_i } }.insert(1, '-').push('-')
+    end
   end
+  rows.reject! { |cells| cells.size == 1 }
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
@@ -157,11 +183,13 @@ end
 def examples
   EXAMPLES.map do |name, tick|
     size = SIZES.fetch(name)
-    figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
-    idle = figures['idle'] > 100 ? figures['idle'] : '-'
-    ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
-     "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
-     idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
+    row('firmware', "#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}") do
+      figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
+      idle = figures['idle'] > 100 ? figures['idle'] : '-'
+      ["#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+       "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
+       idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
+    end
   end
 end
 
@@ -179,7 +207,7 @@ end
 exceeded = limits.reject(&:kept?)
 abort exceeded.map { |limit| "figures: #{limit.what}: #{limit.wrong}" }.join("\n") if exceeded.any?
 exit if new == old
-if ARGV[3] == '--update'
+if UPDATE
   File.write(document, new)
   puts "#{document} is rewritten"
 else

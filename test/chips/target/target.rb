@@ -482,7 +482,8 @@ class Table
     EXAMPLES.each_key { |name| test('figures', 'firmware', name) { Target.firmware(name) } }
     needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|interrupted|firmware)-/)
     test('figures', 'figures', needs: needs) do
-      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update)
+      Images.firmware
+      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update, *(needs - @tests.running))
     end
   end
 end

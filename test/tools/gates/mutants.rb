@@ -45,13 +45,13 @@ end
 PROJECT_FILE = ":project:\n  :build_root: build/ceedling\n  :use_mocks: FALSE\n:paths:\n  :test: [test/unit/**]\n" \
                "  :source: [src/**]\n  :include: [include/**]\n  :support: [test/support]\n"
 
-def mutants(low: LOW, high: HIGH, equivalents: SAME, faults: FAULT, programs: {}, more: {})
+def mutants(*words, low: LOW, high: HIGH, equivalents: SAME, faults: FAULT, programs: {}, more: {})
   files = { 'project.yml' => PROJECT_FILE, 'include/fixpid_toy.h' => HEADER, 'src/toy/fixpid_toy.c' => SOURCE,
             'test/unit/test_fixpid_toy.c' => test(low, high), 'test/support/nothing.h' => '',
             'test/tools/mutants/equivalent.txt' => equivalents.map { |line| "#{line}\n" }.join, 'test/faults.txt' => faults, **more }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
   lambda do
-    Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/faults/mutants.rb", programs: "#{folder}/bin") }
+    Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/faults/mutants.rb", *words, programs: "#{folder}/bin") }
   end
 end
 
@@ -66,6 +66,10 @@ Gate.refused('an equivalent for the same line of another function',
 Gate.refused('an equivalent for a line that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
              /No longer true .*value--/)
 Gate.refused('an equivalent for a file that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
+Gate.passed('every fourth break, and a line for one that is not made', mutants('--some'))
+Gate.refused('every fourth break, of which one is unnoticed', mutants('--some', equivalents: SAME.drop(1)), /Nobody notices: .*`<` -> `<=`/)
+Gate.refused('and a line for one that is gone', mutants('--some', equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
+             /No longer true .*value--/)
 Gate.refused('an equivalent twice', mutants(equivalents: SAME + SAME), /named twice/)
 Gate.refused('a line that is no equivalent', mutants(equivalents: SAME + ['And all others.']), /not an equivalent/)
 Gate.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)

@@ -88,9 +88,50 @@ end
   Gate.refused("#{how}: the command behind a FAILED line", said(runner, "sh -c \"./$(./runner | sed -n 's/^FAILED two.*again: //p')\""),
                /\AFAILED two words;/)
 end
+{ 'by a table' => BY_TABLE, 'in Ruby' => RUBY }.each do |how, runner|
+  Gate.passed("#{how}: daily", said(runner, 'mkdir test; echo "runner bad|two .*" >test/weekly.txt', '--daily'))
+  Gate.refused("#{how}: weekly", said(runner, 'mkdir test; printf "another good\nrunner bad\n" >test/weekly.txt', '--weekly'),
+               /\AFAILED bad;[^\n]*\n    [^\n]*\n\z/)
+  Gate.refused("#{how}: a name within a name is another", said(runner, 'mkdir test; echo "runner ba|wo words" >test/weekly.txt', '--daily'),
+               /^FAILED bad;/, /^FAILED two words;/)
+end
+WEEKLY = 'mkdir test; echo "runner good" >test/weekly.txt; rm fault'.freeze
+Gate.said('what needs another runs with the daily ones', said(NEEDS, WEEKLY, '--daily'), /\A(?!.*ok good)/m, /^ok bad$/, /^ok last: after$/)
+Gate.said('and with the weekly ones, after all that it needs', said(NEEDS, WEEKLY, '--weekly'), /\A(?!.*two words)/m,
+          /^ok good: seen$/, /^ok bad$/, /^ok last: after$/)
 Gate.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
 Gate.passed('what needs another', said(NEEDS, 'rm fault', "'last'"))
 Gate.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok last: after\n\z/)
+
+# By the lines of test/weekly.txt: those that name no test, and the names of a runner's tests
+# that they leave for each day.
+def names_of(runner)
+  (@names ||= {})[runner] ||= Dir.chdir(PROJECT) { Gate.run(runner, '--list').first.lines(chomp: true) }
+end
+
+def weekly(text)
+  text.lines.grep(/\Atest/).map { |line| line.chomp.split(' ', 2) }
+end
+
+def idle(text)
+  weekly(text).reject { |runner, pattern| names_of(runner).grep(/\A(?:#{pattern})\z/).any? }.map(&:last)
+end
+
+def daily(text, runner)
+  patterns = weekly(text).select { |name, _| name == runner }.map { |_, pattern| /\A(?:#{pattern})\z/ }
+  names_of(runner).reject { |name| patterns.any? { |pattern| pattern.match?(name) } }
+end
+
+# All recorded rows on this machine, and on chips of each kind.
+ROWS = %w[definition-object replay-an937-pic18f4520-object replay-an964-pic16f684-object replay-an964-pic18f4520-object
+          replay-an964_8bit-pic16f684-object replay-an964_8bit-pic18f4520-object replay-pid-pic18f4520-object
+          machine-avr-object machine-cortex-m0-object machine-cortex-m4-object].freeze
+TEXT_WEEKLY = File.read("#{PROJECT}/test/weekly.txt").freeze
+TARGET = 'test/chips/target/run'
+Gate.expect('each line of test/weekly.txt names tests', -> { idle(TEXT_WEEKLY) }, [])
+Gate.expect('one that names none', -> { idle("#{TEXT_WEEKLY}#{TARGET} nothing|replay\n") }, ['nothing|replay'])
+Gate.expect('rows are asked daily on each kind of chip', -> { ROWS - daily(TEXT_WEEKLY, TARGET) }, [])
+Gate.expect('rows that are not', -> { ROWS - daily("#{TEXT_WEEKLY}#{TARGET} machine-(avr|rv32ec)-.*\n", TARGET) }, %w[machine-avr-object])
 
 # Two programs of three sources and two headers, made by a compiler that is a script, as
 # often as it says in `made`.

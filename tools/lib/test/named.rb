@@ -12,12 +12,16 @@ require 'fileutils'
 #   exit tests.run(ARGV)
 #
 # A test fails by raising. A word picks the tests that have it as their name or among
-# their other words; an argument of several words, those that have all of them.
+# their other words; an argument of several words, those that have all of them. --daily are
+# all but those that test/weekly.txt names: what needs one of these judges what ran. --weekly
+# are these, and what needs one of them, with all that it needs.
 class NamedTests
   Test = Struct.new(:name, :words, :needs, :body)
   LINES_MOST = 40 # of what a failure says
+  WEEKLY = 'test/weekly.txt'
 
-  attr_reader :failed
+  # Names of what failed, and of what runs this time.
+  attr_reader :failed, :running
 
   # From the project's folder; `script` has the help in its first comment.
   def initialize(script, at_a_time = Etc.nprocessors)
@@ -43,6 +47,8 @@ class NamedTests
     case arguments.first
     when '-h', '--help' then puts help
     when '--list' then puts names
+    when '--daily' then return run_only(@tests - weekly)
+    when '--weekly' then return run_all(weekly | @tests.select { |test| (test.needs & weekly.map(&:name)).any? })
     else return run_all(asked_for(arguments))
     end
     true
@@ -70,6 +76,11 @@ class NamedTests
     exit 2
   end
 
+  def weekly
+    patterns = File.readlines(WEEKLY).filter_map { |line| /\A(?:#{line.split(' ', 2).last.strip})\z/ if line.start_with?("#{@script} ") }
+    @tests.select { |test| patterns.any? { |pattern| pattern.match?(test.name) } }
+  end
+
   def remembered
     File.readlines(@record, chomp: true)
   rescue Errno::ENOENT
@@ -85,7 +96,11 @@ class NamedTests
   # Those that need others come last, one after the other.
   def run_all(tests)
     needed = tests.flat_map(&:needs)
-    tests = @tests.select { |test| tests.include?(test) || needed.include?(test.name) }
+    run_only(@tests.select { |test| tests.include?(test) || needed.include?(test.name) })
+  end
+
+  def run_only(tests)
+    @running = tests.map(&:name)
     first, last = tests.partition { |test| test.needs.empty? }
     in_parallel(first)
     last.each { |test| attempt(test) }

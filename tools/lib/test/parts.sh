@@ -83,8 +83,8 @@ part_unit() {
 :gcov:
   :gcovr:
     :exclude_directories: \"build/(?!ceedling-coverage-$form(\$|/))\""
-        run_mode unit object "$form"
     done
+    run_mode unit object "$first_form"
 }
 
 # limits NAME SUM TERM OUTPUT SUM_8BIT TERM_8BIT: the tests of the limits, and of
@@ -110,8 +110,6 @@ part_limits() {
     need cc:gcc :libc6-dev
     need_ceedling
     limits least 1 1 1 1 1
-    limits seven-turns 29999 127 1022 8190 126
-    limits eight-turns 256 128 999 64 127
     limits most 30000 255 1023 8191 127
 }
 
@@ -120,12 +118,11 @@ part_autotune() {
 }
 
 part_fuzz() {
-    count 'test/fuzz/run' '^ok ' '^FAILED ' once whole test/fuzz/run
+    count 'test/fuzz/run' '^ok ' '^FAILED ' once whole test/fuzz/run --daily
 }
 
-part_avr() {
-    need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
-    need_ceedling
+# The recorded rows as C, for a machine without files.
+rows_of_avr() {
     mkdir -p build/avr/vectors
     # The last columns are the firmware's own cycles: no test reads them.
     for vectors in an937_firmware an964_firmware; do
@@ -135,18 +132,21 @@ part_avr() {
     ruby test/chips/avr/vectors_table.rb build/avr/*_firmware.csv \
         $(find test/support/vectors -name '*.csv' ! -name '*_firmware.csv' ! -name 'autotune*.csv') \
         >build/avr/vectors/vectors.c
-    # Its own form in both modes; the narrow one, in plain C, in one.
+}
+
+# Its own form, and the narrow one, in plain C.
+part_avr() {
+    need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
+    need_ceedling
+    rows_of_avr
     run_mode avr pointer wide test/chips/avr/avr.yml
-    run_mode avr object wide test/chips/avr/avr.yml
     run_mode avr pointer narrow test/chips/avr/avr.yml
 }
 
 part_sanitize() {
     need clang :libclang-rt-14-dev
     need_ceedling
-    for form in $forms; do
-        run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
-    done
+    run_mode sanitize pointer "$first_form" test/unit/sanitize/sanitize.yml
 }
 
 check_formats() {
@@ -174,12 +174,12 @@ part_lint() {
 
 part_consumers() {
     need cmake make ruby
-    count consumers '^ok ' '^FAILED ' once whole test/use/consumers/run
+    count consumers '^ok ' '^FAILED ' once whole test/use/consumers/run --daily
     count 'test/use/port_check/run' '^ok ' '^FAILED ' once whole test/use/port_check/run
 }
 
 part_packages() {
-    count packages '^ok ' '^FAILED ' once whole test/use/packages/run
+    count packages '^ok ' '^FAILED ' once whole test/use/packages/run --daily
 }
 
 part_firmware() {
@@ -195,8 +195,8 @@ part_target() {
     need qemu-system-arm simavr avr-gcc:gcc-avr
     need_sdcc
     build_gpsim
-    count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run
-    count 'test/model/autotune/chips' '^ok ' '^FAILED ' once whole test/model/autotune/chips
+    count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run --daily
+    count 'test/model/autotune/chips' '^ok ' '^FAILED ' once whole test/model/autotune/chips --daily
 }
 
 part_python() {
@@ -211,7 +211,7 @@ part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
     need_sdcc
     need_spdk
-    count 'test/chips/families/run' '^ok ' '^FAILED ' once families test/chips/families/run
+    count 'test/chips/families/run' '^ok ' '^FAILED ' once families test/chips/families/run --daily
 }
 
 part_cost() {
@@ -223,13 +223,13 @@ part_cost() {
     count 'bounds of random loops' '^ok ' '^FAILED ' once whole ruby test/tools/cost/random_loops.rb
     count 'the search for the worst step' '^ok ' '^FAILED ' once whole ruby test/tools/cost/search.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' once whole ruby test/tools/cost/changes.rb
-    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check --some
 }
 
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' once whole tools/demo --verbose chip faults_chip faults_places
+    count 'tools/demo chip' ' ok$' ' FAILED$' once whole tools/demo --verbose chip faults_chip
     count 'the co-simulation' '^ok ' '^FAILED ' once whole tools/lib/build/cosim_check
 }
 
@@ -276,10 +276,39 @@ part_assembly() {
     count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/faults/assembly.rb
 }
 
+part_breaks() {
+    need ruby cc:gcc tcc :libc6-dev
+    need_ceedling
+    count 'every fourth mutant' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb --some
+}
+
 part_mutants() {
     need ruby cc:gcc tcc :libc6-dev
     need_ceedling
     count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
+}
+
+# What is too long for each day, and a form of what runs daily: see test/weekly.txt.
+part_variants() {
+    need qemu-system-arm simavr avr-gcc:gcc-avr :avr-libc sdcc :sdcc-libraries sstm8:sdcc-ucsim \
+        clang :libclang-rt-14-dev ld.lld:lld mspdebug timeout:coreutils cmake make ruby \
+        gpasm:gputils gcc g++ :libc6-dev :libsimavr-dev
+    need_sdcc
+    need_spdk
+    need_ceedling
+    build_gpsim
+    rows_of_avr
+    limits seven-turns 29999 127 1022 8190 126
+    limits eight-turns 256 128 999 64 127
+    run_mode unit object narrow
+    run_mode avr object wide test/chips/avr/avr.yml
+    run_mode sanitize pointer narrow test/unit/sanitize/sanitize.yml
+    runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
+    count 'tools/demo faults_places' ' ok$' ' FAILED$' once whole tools/demo --verbose faults_places
+    for runner in $runners; do
+        count "$runner" '^ok ' '^FAILED ' once whole "$runner" --weekly
+    done
 }
 
 # The runner, and what it runs in a few minutes.

@@ -15,7 +15,8 @@ export LC_ALL=C
 # asked SCRIPT [ARGUMENT]...: answers --help with the script's first comment, and sets
 # `chosen`, a line for each test to run: those that are named, with --failed what failed
 # when it ran last, and with no argument all. The runner has a function `names`, which
-# prints all, and --list prints that; or it calls `wanted` before each test.
+# prints all, and --list prints that; or it calls `wanted` before each test. --daily are all
+# but those that test/weekly.txt names, and --weekly are these.
 asked() {
     script=$1
     record=$root/build/failed/$(echo "$script" | tr / _)
@@ -42,6 +43,13 @@ asked() {
             exit 0
         }
         chosen=$(cat "$record")
+        return
+        ;;
+    --daily | --weekly)
+        weekly=$(sed -n "s,^$script  *,,p" "$root/test/weekly.txt")
+        [ "$1" = --weekly ] && kept= || kept=-v
+        # shellcheck disable=SC2086 # an option or none
+        chosen=$(printf '%s\n' "$all" | grep -xE $kept -e "$weekly") || chosen=
         return
         ;;
     esac
