@@ -5,9 +5,9 @@
 browser=${root:?}/build/browser # node_modules in it
 export browser
 
-# Debian's Chromium and Node, and the packages of test/web/browser.
+# Debian's Chromium without windows, Node, and the packages of test/web/browser.
 need_browser() {
-    need node:nodejs npm chromium
+    need node:nodejs npm chromium-headless-shell
     [ ! -d "$browser/node_modules" ] ||
         ! cmp -s "$root/test/web/browser/package-lock.json" "$browser/installed" ||
         return 0
