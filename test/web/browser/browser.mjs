@@ -26,7 +26,7 @@ export function checkNone(name, found) {
 // In a container the user is root, whom Chromium's sandbox does not serve.
 const root = process.getuid() === 0;
 export const launch = (...more) => chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium-headless-shell',
     args: ['--disable-gpu', ...(root ? ['--no-sandbox'] : []), ...more],
 });
 export const browser = await launch();

@@ -5,9 +5,9 @@
 browser=${root:?}/build/browser # node_modules in it
 export browser
 
-# Debian's Chromium, and what drives it.
+# Debian's Chromium without windows, and what drives it.
 need_browser() {
-    need node:nodejs npm chromium
+    need node:nodejs npm chromium-headless-shell
     need_node_modules
 }
 
