@@ -145,6 +145,17 @@ export function thinned(times, values, most = POINTS_KEPT) {
     return every <= 1 ? { times, values } : { times: means(times), values: means(values) };
 }
 
+// Where no column is a time, one is added with a line for each step, if the rate is known.
+// Its place, or -1.
+function withLineTimes(table, rate) {
+    if (!(rate > 0) || timeColumn(table) >= 0) {
+        return -1;
+    }
+    table.names.push('lines');
+    table.kinds.push('number');
+    return table.columns.push(table.lines.map((_, i) => i / rate)) - 1;
+}
+
 function rolesOf(table, choices) {
     const own = (asked, found) => (Number.isInteger(asked) && asked < table.columns.length ? asked : found());
     const time = own(choices.time, () => timeColumn(table));
@@ -205,6 +216,7 @@ export function* understood(text, choices = {}) {
     if (table.refused !== undefined) {
         return { refused: table.refused };
     }
+    const timed = withLineTimes(table, choices.rate);
     const refused = (sentence) => ({ refused: sentence, names: table.names, roles, notes: table.skipped.slice(0, 3).map(({ line, why }) => `Line ${line}: ${why}.`) });
     const roles = rolesOf(table, choices);
     const bad = table.skipped.filter(({ why }) => !why.endsWith('is read'));
@@ -221,7 +233,9 @@ export function* understood(text, choices = {}) {
         return refused('No column is left for the measurement: choose another.');
     }
     yield;
-    const found = choices.unit in UNITS ? { unit: choices.unit } : unitOfTime(table.names[roles.time], table.kinds[roles.time], knownOf(table.columns[roles.time]));
+    const found = choices.unit in UNITS ? { unit: choices.unit }
+        : roles.time === timed ? { unit: 's', why: 'no column rises: each line is a step of this page’s rate, which is set first' }
+            : unitOfTime(table.names[roles.time], table.kinds[roles.time], knownOf(table.columns[roles.time]));
     const all = rowsOf(table, roles, UNITS[found.unit]);
     if (all.times.length < LEAST_ROWS || all.times.at(-1) <= 0) {
         return refused(all.times.length < LEAST_ROWS ? `${all.times.length} lines have a time and a measurement; at least ${LEAST_ROWS} are needed.`

@@ -6,11 +6,12 @@ import { createAsker, int16Bytes, commandRefusal } from './ask.js';
 import { make, setText, table } from './dom.js';
 import { readNumber } from './fields.js';
 import { digits, percent, short, time, whole } from './format.js';
-import { helpFor } from './help.js';
-import { bytesOfFile, bytesOfText, csvOfTrace, jsonOfSession } from './log.js';
+import { documentOf, helpFor } from './help.js';
+import { bytesOfFile, bytesOfText, columnsOfText, csvOfTrace, jsonOfSession } from './log.js';
 import { fitLoop, simulated } from './loopfit.js';
 import { createPlots } from './plot.js';
 import { hasSerial, openPort } from './port.js';
+import { createComparison, stepFigures } from './predicted.js';
 import { createTrace, MISSED } from './trace.js';
 import { ASK, FRAME, beginTwin, boardConfig, recordBytes, takeBytes, twinCounts } from './twin.js';
 
@@ -22,6 +23,7 @@ const SILENT = 5000; // milliseconds and three steps without a frame, and the bo
 const BYTES_KEPT = 4 * 1024 * 1024;
 const LOG_SLICE = 1 << 17; // bytes of a log at once
 const TEXT_SHOWN = 120; // characters of what is no frame
+const TEXT_OFFERED = 1 << 16; // characters of a port's text that may be a recording
 const SETS_KEPT = 10; // gains that can be gone back to
 const HOLD = 5; // the part of a recording for which the output stands still before it is stepped by hand
 const OUTPUT_LIMITED = 3; // flags
@@ -82,27 +84,31 @@ export function stateOfConfig(config, seconds) {
 
 // --- The card ---------------------------------------------------------------------
 
-// Fills the card. `gains()` gives the page's integers and its rate, or null; onPlant(hardware,
-// plant) takes both; onStep(text) takes a recording as lines; `download(name, text, type)`.
-export function createLive(section, { gains, onPlant, onStep, download }) {
+// Fills the card. `gains()` gives the page's integers and its rate, or null, and `scene()`
+// its state; onPlant(hardware, plant) takes both; onStep(hardware, text, name) takes a
+// recording as lines, onText(text, name) one of any program; `download(name, text, type)`.
+export function createLive(section, { gains, scene, onPlant, onStep, onText, download }) {
     const own = (id) => section.querySelector(`#live-${id}`);
     const plots = createPlots(own('plots'), () => {}, make('canvas'));
     const fitPlots = createPlots(own('fit-plots'), () => {}, make('canvas'));
+    const toldPlots = createPlots(own('told-plots'), () => {}, make('canvas'));
     let trace = null;
     let [port, asker, board, kept, keptBytes] = [null, null, null, [], 0];
     let [drawn, lastFrame, tail, restarting, log] = [0, 0, '', false, 0];
-    let [sets, recording, fit] = [[], null, null];
+    let [sets, recording, fit, comparison, other] = [[], null, null, null, null];
 
     const say = (text) => setText(own('said'), text);
     const seconds = () => board?.seconds || 1;
 
-    function begin() {
-        beginTwin();
+    function begin(asks) {
+        beginTwin(asks);
         trace = createTrace(HELD);
-        [board, kept, keptBytes, drawn, tail, sets, fit, recording] = [null, [], 0, 0, '', [], null, null];
+        [board, kept, keptBytes, drawn, tail, sets, fit, recording, comparison] = [null, [], 0, 0, '', [], null, null, null];
         setText(own('board'), '');
-        own('data').hidden = true;
-        own('fit').hidden = true;
+        for (const id of ['data', 'fit', 'told']) {
+            own(id).hidden = true;
+        }
+        offer(null);
         showCommands();
     }
 
@@ -161,6 +167,26 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         }
     }
 
+    // What came of a step with the gains that were sent, beside what the page foretold.
+    function showComparison() {
+        const told = comparison?.now() ?? null;
+        if (told === null) {
+            return;
+        }
+        const { from, to, band, came, predicted, rested, missing, over } = told;
+        const one = seconds();
+        const cells = ({ overshoot, settled, iae }) => [`${digits(overshoot)} (${percent(overshoot / Math.abs(to - from))})`,
+            settled === null ? 'not yet' : time(settled * one), digits(iae * one)];
+        const [before, behind] = [predicted, came].map((y) => cells(stepFigures(y, told)));
+        const rows = ['Overshoot, counts', `Settled (±${digits(band, 2)})`, 'IAE, counts × s'].map((name, i) => ({ cells: [name, before[i], behind[i]] }));
+        own('told').hidden = false;
+        own('told-figures').replaceChildren(table(`The setpoint from ${from} to ${to}, ${over ? '' : 'so far '}${time(came.length * one)}`, ['Figure', 'Predicted', 'Came'], rows));
+        setText(own('told-said'), [...(rested ? [] : ['The board was not at rest before this step, and the prediction is of one that is.']),
+            ...(missing > 0 ? [`${whole(missing)} steps did not come, and are as the one before.`] : [])].join(' '));
+        toldPlots.show({ seconds: one, events: [], duration: came.length * one, panes: [
+            { title: 'Measurement', unit: 'counts', leastSpan: 8, series: [{ name: 'predicted', color: 'setpoint', dash: [5, 3], data: predicted }, { name: 'came', color: 'measured', data: came }] }] });
+    }
+
     // Only where something came, and a person may see it.
     function draw(anyway = false) {
         if ((trace.count === drawn && !anyway) || trace.count === 0 || document.hidden) {
@@ -171,6 +197,7 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         const view = trace.view(Math.min(SHOWN_MOST, Math.max(100, Math.round(SHOWN / seconds()))));
         plots.show({ panes: panesOf(view), seconds: seconds(), events: [], duration: Math.max(10, view.n - 1) * seconds() });
         showVerdict();
+        showComparison();
     }
 
     // --- A port ---
@@ -200,6 +227,7 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
             showCommands();
         } catch (error) {
             const printable = tail.replace(/[^\x20-\x7E]+/g, ' ').trim();
+            offer(columnsOfText(String.fromCharCode(...allBytes().subarray(0, TEXT_OFFERED))), 'what came from the port');
             fail(new Error(printable.length > 8 ? `Bytes come, but no board that speaks fixpid_link at this baud rate. They read: ${printable}`
                 : `${error.message} Does its program call fixpid_link, and is this its baud rate?`));
         }
@@ -241,7 +269,7 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         log += 1; // one that is still read is left
         try {
             const opened = await openPort(baud, { onBytes: take, onGone: gone });
-            begin();
+            begin(true);
             port = opened;
         } catch (error) {
             say(error.message);
@@ -268,15 +296,16 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
 
     // --- A log ---
 
-    async function readLog({ bytes, refused }, name) {
+    async function readLog({ bytes, refused, columns = null }, name) {
         if (refused !== undefined) {
             say(refused);
+            offer(columns, name);
             return;
         }
         if (port !== null) {
             await disconnect();
         }
-        begin();
+        begin(false);
         log += 1;
         const mine = log;
         for (let at = 0; at < bytes.length && mine === log; at += LOG_SLICE) {
@@ -293,7 +322,14 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         take(Uint8Array.of(0));
         draw(true);
         showCommands();
+        offer(trace.count === 0 ? columns : null, name);
         say(trace.count === 0 ? `${name}: no frame of fixpid_link is in these ${whole(bytes.length)} bytes.` : `${name}: ${whole(trace.count)} steps in ${whole(bytes.length)} bytes.`);
+    }
+
+    // Lines of numbers are for the card of recordings; null: there are none.
+    function offer(text, name) {
+        other = text === null ? null : { text, name };
+        own('other').hidden = other === null;
     }
 
     // --- Commands ---
@@ -308,9 +344,9 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         own('send').disabled = !may(ALLOWED.GAINS);
         own('revert').disabled = !may(ALLOWED.GAINS) || sets.length === 0;
         setText(own('revert'), sets.length > 1 ? `Revert (${sets.length} sets are kept)` : 'Revert');
-        own('confirm').hidden = true;
+        own('confirm').hidden ||= !may(ALLOWED.GAINS); // it waits for a person, whatever the board does
         own('stop').hidden = recording === null;
-        own('use').disabled = board === null || boardConfig() === null;
+        own('use').disabled = board === null;
     }
 
     // Says what came of it; true if it is done.
@@ -337,9 +373,11 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
     function confirm() {
         const page = gains();
         const old = boardConfig();
+        if (!hasConfig()) {
+            return;
+        }
         const wrong = page === null ? 'The page’s controller refuses its gains, or is not a fixpid_pid.'
-            : old === null ? 'The board’s record has not come yet.'
-                : Math.abs(page.RATE * seconds() - 1) > 1e-3 ? `The page’s loop makes ${short(page.RATE)} steps per second and the board ${short(1 / seconds())}: take the board’s settings first.` : null;
+            : Math.abs(page.RATE * seconds() - 1) > 1e-3 ? `The page’s loop makes ${short(page.RATE)} steps per second and the board ${short(1 / seconds())}: take the board’s settings first.` : null;
         if (wrong !== null) {
             say(wrong);
             return;
@@ -372,12 +410,31 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
     async function send() {
         const page = gains();
         own('confirm').hidden = true;
+        if (!hasConfig()) {
+            return;
+        }
         const before = recordBytes(boardNumbers());
         const record = recordBytes(page);
         if (await write(record, 'Sent: the board runs with them, and its record is equal in all bytes. It forgets them at power-off, unless its program keeps the record.')) {
             sets = [...sets, before].slice(-SETS_KEPT);
+            compareFromNow();
         }
         showCommands();
+    }
+
+    // While the record is asked for again, the twin has none.
+    function hasConfig() {
+        const has = boardConfig() !== null;
+        if (!has) {
+            say('The board’s record has not come yet.');
+        }
+        return has;
+    }
+
+    function compareFromNow() {
+        own('told').hidden = true;
+        const config = boardConfig();
+        comparison = config === null ? null : createComparison(trace, { ...scene(), ...stateOfConfig(config, seconds()) });
     }
 
     function boardNumbers() {
@@ -388,6 +445,7 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
     async function revert() {
         if (await write(sets.at(-1), 'The board has its former gains again.')) {
             sets = sets.slice(0, -1);
+            compareFromNow();
         }
         showCommands();
     }
@@ -443,7 +501,13 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         const missing = view.marks.reduce((sum, mark) => sum + Number(mark === MISSED), 0);
         if (byHand) {
             await tell(ASK.AUTO, [], 'The controller is automatic again; the recording is in “Your plant, from a step that you recorded”.');
-            onStep(hardware(), ['time_s;output;measurement', ...Array.from(u, (one, i) => `${short(i * seconds())};${one};${y[i]}`)].join('\n'));
+            const text = ['time_s;output;measurement', ...Array.from(u, (one, i) => `${short(i * seconds())};${one};${y[i]}`)].join('\n');
+            const name = 'the board’s step';
+            if (hasConfig()) {
+                onStep(hardware(), text, name);
+            } else {
+                onText(text, name);
+            }
         } else {
             await tell(ASK.SETPOINT, int16Bytes(from), `The setpoint is ${from} again.`);
             fit = { ...fitLoop(u, y), u, y };
@@ -477,6 +541,9 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
     }
 
     function useFit() {
+        if (!hasConfig()) {
+            return;
+        }
         const { OUTPUT_MIN, OUTPUT_MAX } = boardConfig();
         const full = Math.max(OUTPUT_MAX, -OUTPUT_MIN);
         const round = (x) => Number(x.toPrecision(4));
@@ -531,7 +598,11 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         on('record', () => record(false));
         on('hand', () => record(true));
         on('stop', () => stepRecording(true));
-        on('use', () => onPlant(hardware(), null));
+        on('use', () => hasConfig() && onPlant(hardware(), null));
+        on('hand-over', () => {
+            onText(other.text, other.name);
+            offer(null);
+        });
         on('fit-use', useFit);
         on('csv', saveCsv);
         on('json', saveJson);
@@ -557,11 +628,12 @@ export function createLive(section, { gains, onPlant, onStep, download }) {
         const name = label.firstChild.textContent.trim();
         label.after(helpFor(name, name));
     }
+    own('docs').href = documentOf('link#a-live-link', location);
     own('connect').disabled = !hasSerial();
     own('none').hidden = hasSerial();
     listen();
     showConnection();
-    begin();
+    begin(false);
     setInterval(watch, REDRAW);
     return { draw: () => draw(true) };
 }

@@ -2,6 +2,7 @@
 // A log of what a board sent: its bytes as they came, as hexadecimal text, or as the JSON
 // that this page saves; and what is saved of a session.
 import { CONFIG, VERSION } from './built.js';
+import { LEAST_ROWS } from './columns.js';
 import { MISSED } from './trace.js';
 
 const LOG_FORMAT = 'fixpid live';
@@ -21,8 +22,19 @@ function bytesOfHex(text) {
     return { bytes };
 }
 
-// { bytes } or { refused: a sentence } of a text.
+// A text whose lines have numbers, as a serial plotter takes them, or null.
+export function columnsOfText(text) {
+    const lines = text.split(/[\r\n]+/).filter((line) => line.trim() !== '');
+    const numbers = lines.filter((line) => /(^|[^\w.])[-+]?\.?\d/.test(line)).length;
+    return lines.length >= LEAST_ROWS && numbers >= 0.75 * lines.length ? text : null;
+}
+
+// { bytes } or { refused: a sentence } of a text, with its `columns` if it may have some.
 export function bytesOfText(text) {
+    return { ...bytesOfLog(text), columns: columnsOfText(text) };
+}
+
+function bytesOfLog(text) {
     if (text.trimStart().startsWith('{')) {
         try {
             const found = JSON.parse(text);

@@ -471,11 +471,15 @@ function useBoard(hardware, plant) {
     say(plant === null ? 'Rate, limits and gains are the board’s; the plant is this page’s.' : 'Plant, rate, limits and gains are the board’s: what is shown is a prediction.');
 }
 
-function useHandStep(hardware, text) {
+function useLines(text, name) {
+    recorder.take(text, name);
+    find('#recorder').scrollIntoView();
+}
+
+function useHandStep(hardware, text, name) {
     useBoard(hardware, null);
     find('#record-unit').value = 'counts';
-    recorder.take(text, 'the board’s step');
-    find('#recorder').scrollIntoView();
+    useLines(text, name);
 }
 
 // --- A sensor -----------------------------------------------------------------------
@@ -581,7 +585,7 @@ async function startPage() {
     await startEngine();
     buildHead();
     plots = createPlots(find('#plots'), setCursor, find('#mini canvas'));
-    followPlots(find('#plots'), find('#mini'));
+    followPlots(find('#plots'), find('#live'), find('#mini'));
     pendulum = createPendulum(find('#picture'), (seconds) => plots.cursorAt(seconds));
     flags = createFlags(find('#flags'), plots, currentState, (next) => change({ events: next }));
     events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
@@ -591,8 +595,8 @@ async function startPage() {
             find('#undo').disabled = !undo;
             find('#redo').disabled = !redo;
         } });
-    recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX });
-    live = createLive(find('#live'), { gains: gainsOfPage, onPlant: useBoard, onStep: useHandStep, download });
+    recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX, rate: () => currentState().RATE });
+    live = createLive(find('#live'), { gains: gainsOfPage, scene: currentState, onPlant: useBoard, onStep: useHandStep, onText: useLines, download });
     listen();
     showTour(find('#tour'));
     onChange(show);

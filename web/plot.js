@@ -154,11 +154,14 @@ function placeMark(mark, box, cursor, view) {
 }
 
 // Shows `small` while the first pane is out of sight, and keeps what has the focus from
-// under it.
-export function followPlots(element, small) {
+// under it. Where `other` shows plots of its own, it is not laid over them.
+export function followPlots(element, other, small) {
     const follow = () => {
         const box = element.querySelector('canvas')?.getBoundingClientRect();
-        small.hidden = box === undefined || box.bottom > 0.3 * window.innerHeight;
+        const there = other.getBoundingClientRect();
+        const height = 0.3 * window.innerHeight;
+        const lies = there.top < height && there.bottom > 0 && other.querySelector('canvas')?.clientWidth > 0;
+        small.hidden = box === undefined || box.bottom > height || lies;
         document.documentElement.classList.toggle('followed', !small.hidden);
     };
     document.addEventListener('scroll', follow, { passive: true });

@@ -177,8 +177,8 @@ export function plantOfModel(model, { step, rest }) {
 }
 
 // Fills the card `section`. onUse(plant, unit, { low, high }) takes a plant; outputMost()
-// is the highest output that the page has.
-export function createRecorder(section, { onUse, outputMost }) {
+// is the highest output that the page has, rate() its steps per second.
+export function createRecorder(section, { onUse, outputMost, rate }) {
     const own = (id) => section.querySelector(id);
     const field = own('#recording');
     const canvas = own('#fit-plot');
@@ -191,7 +191,7 @@ export function createRecorder(section, { onUse, outputMost }) {
     function choices() {
         const column = (id) => (own(id).value === '' ? null : Number(own(id).value));
         return { time: column('#record-time'), drive: column('#record-drive'), value: column('#record-value'),
-            unit: own('#record-seconds').value, stepAt: numberOf(own('#record-at')) };
+            unit: own('#record-seconds').value, stepAt: numberOf(own('#record-at')), rate: rate() };
     }
 
     // Whether a plant can be taken is not known until it is fitted.

@@ -13,8 +13,9 @@ const memory = (Type, at, n) => new Type(exported().memory.buffer, at, n);
 const bytesOf = (n) => memory(Uint8Array, exported().live_bytes(), n);
 const named = (names, numbers) => Object.fromEntries(Object.entries(names).map(([name, at]) => [name, numbers[at]]));
 
-export function beginTwin() {
-    exported().live_begin();
+// Of a board that may be asked, or of a log.
+export function beginTwin(asks) {
+    exported().live_begin(Number(asks));
 }
 
 // What a frame that is no step's says; others are a step's.

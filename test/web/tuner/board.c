@@ -103,6 +103,14 @@ void board_meddle(int kp)
     own_kp = (uint16_t)kp;
 }
 
+// The program changes its own gains, and says so.
+void board_retune(int kp)
+{
+    config.gains.kp_q8 = (uint16_t)kp;
+    (void)fixpid_pid_set_gains(&pid, &config.gains);
+    fixpid_link_changed(&wire);
+}
+
 // The kp that the board runs with, and its setpoint.
 int board_kp(void)
 {

@@ -7,7 +7,7 @@ require 'fileutils'
 require_relative '../../../tools/lib/pages/tuner/sources'
 
 SUM = 'rounded_counts(SIGNALS.p_d_ff, SIGNALS.integral)'
-EXPORTS = %w[in out begin run meddle kp setpoint].map { |name| "-Wl,--export=board_#{name}" }.freeze
+EXPORTS = %w[in out begin run meddle retune kp setpoint].map { |name| "-Wl,--export=board_#{name}" }.freeze
 
 def build(folder, source, output)
   system('clang', '--target=wasm32', '-O2', *Sources::EXACT, '-ffreestanding', '-nostdlib', '-mbulk-memory', "-I#{folder}/include", *Sources::PATHS,

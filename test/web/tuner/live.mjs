@@ -15,7 +15,7 @@ async function loadBoard(name = 'board', allowed = ALL) {
     const memory = (at, n) => new Uint8Array(c.memory.buffer, at, n);
     let waiting = [];
     return {
-        kp: () => c.board_kp(), meddle: (kp) => c.board_meddle(kp), setpoint: () => c.board_setpoint(), begin: () => c.board_begin(allowed), sent: [],
+        kp: () => c.board_kp(), meddle: (kp) => c.board_meddle(kp), retune: (kp) => c.board_retune(kp), setpoint: () => c.board_setpoint(), begin: () => c.board_begin(allowed), sent: [],
         receive: (bytes) => waiting.push(...bytes),
         run(steps) {
             memory(c.board_in(), waiting.length).set(waiting);
@@ -32,6 +32,11 @@ const connected = async ({ name, allowed, ...more } = {}) => connect(await loadB
 // --- Without a browser ------------------------------------------------------------
 const { startEngine } = await moduleOf('engine');
 const { fitLoop } = await moduleOf('loopfit');
+const { createComparison, stepFigures } = await moduleOf('predicted');
+const { createTrace } = await moduleOf('trace');
+const { presetState } = await moduleOf('state');
+const { run: runScene } = await moduleOf('engine');
+const { STEP } = await moduleOf('built');
 const { bytesOfFile, bytesOfText } = await moduleOf('log');
 const { takeBytes, twinCounts, beginTwin, commandBytes } = await moduleOf('twin');
 await startEngine();
@@ -44,7 +49,7 @@ await startEngine();
 }
 async function streamed(name, steps) {
     const board = await loadBoard(name);
-    beginTwin();
+    beginTwin(true);
     const rows = [];
     const give = (bytes) => takeBytes(bytes, (numbers, n) => rows.push(numbers.slice(0, 10 * n)), () => {});
     for (const [command, value] of [[0x40, []], [0x41, []], [0x42, [1]]]) {
@@ -77,6 +82,36 @@ async function streamed(name, steps) {
     check('a closed loop’s plant is found', fit.refused === null && Math.abs(fit.lag - 64) < 2 && Math.abs(fit.gain - 4) < 0.1 && Math.abs(fit.dead - 8) < 1.5 && Math.abs(fit.rest - 20) < 6, JSON.stringify(fit));
     check('an output that stands still shows nothing', fitLoop(u.map(() => 60), y).refused.includes('stood still'));
     check('what does not follow is refused', fitLoop(u, u.map(() => 100 * draw())).refused !== null);
+}
+
+{
+    const figures = stepFigures([0, 60, 130, 96, 104, 101, 100], { from: 0, to: 100, band: 5 });
+    check('figures of a step', figures.overshoot === 30 && figures.settled === 3 && figures.iae === 100 + 40 + 30 + 4 + 4 + 1, JSON.stringify(figures));
+    const down = stepFigures([100, 40, -20, 0, 9], { from: 100, to: 0, band: 5 });
+    check('and of one downward that is not settled', down.overshoot === 20 && down.settled === null && down.iae === 169, JSON.stringify(down));
+}
+{
+    // A "board" that is the page's own plant, with a step from 300 to 400 counts at 2000 and back at 4000.
+    const s = { ...presetState('own'), SENSOR_LOW: 0, SENSOR_RANGE: 1023, SETPOINT: 300, NOISE: 0, START: 0, GAIN: 1000, DURATION: 600, events: [{ at: 200, what: 'SETPOINT', a: 400 }, { at: 400, what: 'SETPOINT', a: 300 }] };
+    const { n, series } = runScene(s);
+    const trace = createTrace(10000);
+    const comparison = createComparison(trace, s);
+    const size = Object.keys(STEP).length;
+    const give = (to) => {
+        for (let i = trace.places; i < to; i++) {
+            const one = new Int32Array(size);
+            [one[STEP.NUMBER], one[STEP.SETPOINT], one[STEP.MEASUREMENT]] = [i, series.SETPOINT[i], series.MEASUREMENT[i]];
+            trace.take(one, 1);
+        }
+        return comparison.now();
+    };
+    check('before a step nothing is told', give(2000) === null && give(2010) === null && n === 6000);
+    const first = give(3999);
+    check('what comes is what was predicted', first !== null && first.rested && first.from === 300 && first.to === 400 && first.came.every((one, i) => Math.abs(one - first.predicted[i]) <= 2), JSON.stringify(first && [first.from, first.to, first.came.length]));
+    const [a, b] = [first.came, first.predicted].map((y) => stepFigures(y, first));
+    check('and so are its figures', a.settled !== null && Math.abs(a.settled / b.settled - 1) < 0.1 && Math.abs(a.iae / b.iae - 1) < 0.05, JSON.stringify([a, b]));
+    const kept = give(4005);
+    check('a new step does not replace it before it has settled', kept.to === 400 && kept.over && give(6000).to === 300);
 }
 
 // --- A good wire --------------------------------------------------------------------
@@ -131,6 +166,7 @@ async function streamed(name, steps) {
     await here.click('#live-sure');
     await said(here, /^Sent: .* equal in all bytes/);
     check('the board has the page’s gains', board.kp() === 640, `${board.kp()}`);
+    check('without a step there is nothing to compare', !(await here.isVisible('#live-told')));
     await run(2000);
     await here.click('#live-revert');
     await said(here, /^The board has its former gains again\.$/);
@@ -158,6 +194,50 @@ async function streamed(name, steps) {
     });
     check('it becomes the page’s plant, with the board’s gains', Math.abs(plant.GAIN - 4 * 255) < 50 && Math.abs(plant.T1 - 0.64) < 0.04 && plant.KP === 1, JSON.stringify(plant));
     check('and is said to be a prediction', (await text(here, '#said')).includes('prediction'));
+
+    // Other gains for it, and whether they do what was predicted.
+    await here.fill('#c-kp', '1.2');
+    await frame(here);
+    await here.click('#live-send');
+    await here.click('#live-sure');
+    await said(here, /^Sent: .* equal in all bytes/);
+    await run(1000);
+    await here.fill('#live-setpoint', '600');
+    await here.click('#live-set');
+    await said(here, /^The setpoint is 600\.$/);
+    await run(1500);
+    await here.waitForSelector('#live-told', { state: 'visible' });
+    const told = await here.locator('#live-told-figures tr').evaluateAll((rows) => rows.map((row) => [...row.querySelectorAll('th, td')].map((cell) => cell.textContent)));
+    const numbers = (row) => told[row].slice(1).map((cell) => Number(cell.match(/^[\d.]+/)?.[0]) * (/ ms$/.test(cell) ? 0.001 : 1));
+    const [[over, overCame], [settled, settledCame], [iae, iaeCame]] = [1, 2, 3].map(numbers);
+    check(`predicted beside what came: ${told.slice(1).map((row) => row.join(' ')).join('; ')}`,
+        Math.abs(over - overCame) < 6 && Math.abs(settled - settledCame) < 1.5 && Math.abs(iae / iaeCame - 1) < 0.15 && iae > 20, JSON.stringify(told));
+    check('and for which step', /^The setpoint from 450 to 600, (so far )?[\d.]+ s$/.test(await text(here, '#live-told caption')) && (await text(here, '#live-told-said')) === '', await text(here, '#live-told'));
+    checkNone('axe-core, with the comparison', await violations(here));
+    await here.click('#live-revert');
+    await said(here, /^The board has its former gains again\.$/);
+    check('which ends with a revert', !(await here.isVisible('#live-told')));
+    await here.fill('#live-setpoint', '450');
+    await here.click('#live-set');
+    await said(here, /^The setpoint is 450\.$/);
+
+    // The program changes its gains itself: nobody has to ask.
+    const asked = board.sent.length;
+    board.retune(300);
+    await run(20);
+    for (let i = 0; i < 50 && board.sent.length < asked + 2; i++) {
+        await here.waitForTimeout(50);
+    }
+    await run(500);
+    const retuned = await verdict(here);
+    check('a program that changed its gains is asked for its record', board.sent.length === asked + 2 && /^[\d\u202F]+ steps equal, bit for bit\.$/.test(retuned) && (await left(here)).includes('where the program itself changed the controller'), `${board.sent.length - asked} ${retuned} ${await left(here)}`);
+    await here.click('#live-send');
+    check('and its gains are the ones beside the page’s', (await here.locator('#live-compare tbody td').first().textContent()) === '300');
+    await here.click('#live-not');
+    board.retune(256);
+    await run(20);
+    await here.waitForTimeout(300);
+    await run(500);
 
     // By hand: for the card of recordings.
     await run(1000);
@@ -300,6 +380,11 @@ async function streamed(name, steps) {
     check('the board’s settings may be taken of it', !(await here.isDisabled('#live-use')) && !(await here.isVisible('#live-commands')));
     check('a pasted log is compared', (await verdict(here)) === '3\u202F000 steps equal, bit for bit.', await verdict(here));
     checkNone('axe-core, on a phone in the dark', await violations(here));
+    await here.evaluate(() => document.querySelector('#live-plots').scrollIntoView());
+    await here.waitForTimeout(100);
+    check('the small plot of the page does not lie on the board’s', !(await here.isVisible('#mini')));
+    await here.evaluate(() => document.querySelector('#bode').scrollIntoView());
+    await here.waitForSelector('#mini', { state: 'visible' });
     check('it does not scroll sideways on a phone', await here.evaluate(() => document.documentElement.scrollWidth) <= 390);
     await here.setInputFiles('#live-file', { name: 'raw.bin', mimeType: 'application/octet-stream', buffer: Buffer.from(bytes.slice(0, 20000)) });
     await said(here, /^raw\.bin: /);
@@ -310,6 +395,15 @@ async function streamed(name, steps) {
     await here.fill('#live-log', '01 02 03 04');
     await here.click('#live-read');
     await said(here, /no frame of fixpid_link is in these 4 bytes/);
+    check('bytes are no lines of numbers', !(await here.isVisible('#live-other')));
+    const lines = Array.from({ length: 400 }, (_, i) => `setpoint:600,measurement:${Math.round(100 + (i < 60 ? 0 : 300 * (1 - Math.exp((60 - i) / 50))) + (i % 3))},output:${i < 60 ? 20 : 90}`).join('\n');
+    await here.setInputFiles('#live-file', { name: 'plotter.log', mimeType: 'text/plain', buffer: Buffer.from(lines) });
+    await here.waitForSelector('#live-other', { state: 'visible' });
+    await here.click('#live-hand-over');
+    await here.waitForSelector('#recorder[data-done]:not([data-busy])');
+    const read = await text(here, '#fit');
+    check(`a serial plotter’s lines go to the card of recordings: ${read}`, /lag [45]\.\d+ s/.test(read) && !(await here.isVisible('#live-other')) && !(await here.isDisabled('#use-fit')), `${read} ${await text(here, '#record-notes')}`);
+    check('whose lines are steps of the page’s rate', (await text(here, '#record-notes')).includes('each line is a step of this page’s rate'), await text(here, '#record-notes'));
     checkNone('a log: no error', here.noted.errors);
     await here.close();
 }
