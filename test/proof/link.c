@@ -625,25 +625,6 @@ void prove_command(void)
     claim((call != MANUAL_CALL && call != SEED_CALL) || (last_output == value));
 }
 
-// Whether the limits of two are the same, and what only an init sets.
-static bool same_limits(const struct fixpid_pid_config *a,
-                        const struct fixpid_pid_config *b)
-{
-    return (a->output_min == b->output_min) &&
-           (a->output_max == b->output_max) &&
-           (a->integral_min == b->integral_min) &&
-           (a->integral_max == b->integral_max);
-}
-
-static bool same_kind(const struct fixpid_pid_config *a,
-                      const struct fixpid_pid_config *b)
-{
-    return (a->setpoint_weight_q8 == b->setpoint_weight_q8) &&
-           (a->reverse == b->reverse) &&
-           (a->derivative_on_error == b->derivative_on_error) &&
-           (a->proportional_on_measurement == b->proportional_on_measurement);
-}
-
 // The result of a record that may be written.
 static uint8_t result_of(const struct fixpid_pid_config *wants, bool limits_too)
 {
