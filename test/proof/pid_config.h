@@ -18,6 +18,25 @@ static struct fixpid_pid_config any_config(void)
     return config;
 }
 
+static bool same_limits(const struct fixpid_pid_config *a,
+                        const struct fixpid_pid_config *b)
+{
+    return (a->output_min == b->output_min) &&
+           (a->output_max == b->output_max) &&
+           (a->integral_min == b->integral_min) &&
+           (a->integral_max == b->integral_max);
+}
+
+// What only an init sets.
+static bool same_kind(const struct fixpid_pid_config *a,
+                      const struct fixpid_pid_config *b)
+{
+    return (a->setpoint_weight_q8 == b->setpoint_weight_q8) &&
+           (a->reverse == b->reverse) &&
+           (a->derivative_on_error == b->derivative_on_error) &&
+           (a->proportional_on_measurement == b->proportional_on_measurement);
+}
+
 static bool same_config(const struct fixpid_pid_config *a,
                         const struct fixpid_pid_config *b)
 {
@@ -25,14 +44,7 @@ static bool same_config(const struct fixpid_pid_config *a,
            (a->gains.ki_q24 == b->gains.ki_q24) &&
            (a->gains.kd_q8 == b->gains.kd_q8) &&
            (a->gains.derivative_filter == b->gains.derivative_filter) &&
-           (a->output_min == b->output_min) &&
-           (a->output_max == b->output_max) &&
-           (a->integral_min == b->integral_min) &&
-           (a->integral_max == b->integral_max) &&
-           (a->setpoint_weight_q8 == b->setpoint_weight_q8) &&
-           (a->reverse == b->reverse) &&
-           (a->derivative_on_error == b->derivative_on_error) &&
-           (a->proportional_on_measurement == b->proportional_on_measurement);
+           same_limits(a, b) && same_kind(a, b);
 }
 
 #endif

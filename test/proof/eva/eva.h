@@ -18,4 +18,17 @@
 #define GOES_ON Frama_C_interval(0, 1)
 #define ANY_OF(count) Frama_C_interval(1, (count))
 
+// Initialisers of a fixpid_pid's gains, and of its configuration.
+#define ANY_GAINS                                                              \
+    {                                                                          \
+        ANY_UINT16, ANY_UINT32, ANY_UINT16, ANY_UINT8                          \
+    }
+#define ANY_CONFIG                                                             \
+    {                                                                          \
+        .gains = ANY_GAINS, .output_min = ANY_INT16, .output_max = ANY_INT16,  \
+        .integral_min = ANY_INT16, .integral_max = ANY_INT16,                  \
+        .setpoint_weight_q8 = ANY_UINT16, .reverse = GOES_ON,                  \
+        .derivative_on_error = GOES_ON, .proportional_on_measurement = GOES_ON \
+    }
+
 #endif

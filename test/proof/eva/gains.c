@@ -7,8 +7,7 @@ void eva(void)
 {
     const struct fixpid_gains_milli milli = {ANY_UINT32, ANY_UINT32,
                                              ANY_UINT32};
-    const struct fixpid_pid_gains gains = {ANY_UINT16, ANY_UINT32, ANY_UINT16,
-                                           ANY_UINT8};
+    const struct fixpid_pid_gains gains = ANY_GAINS;
     struct fixpid_pid_gains gains_now;
     struct fixpid_gains_milli milli_now;
 

@@ -19,17 +19,7 @@ void eva(void)
         .output_min = ANY_INT16,
         .output_max = ANY_INT16,
     };
-    struct fixpid_pid_config config = {
-        .gains = {ANY_UINT16, ANY_UINT32, ANY_UINT16, ANY_UINT8},
-        .output_min = ANY_INT16,
-        .output_max = ANY_INT16,
-        .integral_min = ANY_INT16,
-        .integral_max = ANY_INT16,
-        .setpoint_weight_q8 = ANY_UINT16,
-        .reverse = GOES_ON,
-        .derivative_on_error = GOES_ON,
-        .proportional_on_measurement = GOES_ON,
-    };
+    struct fixpid_pid_config config = ANY_CONFIG;
     struct fixpid_pid pid;
     struct fixpid_link c;
 
