@@ -133,6 +133,8 @@ release_refuses() {
     git tag -d "$tag"
     git reset -q --hard HEAD^
     refused "no release: there is no tag $tag$" tools/release "$tag"
+    rm -rf .git
+    refused 'in a clone' tools/release --snapshot
 }
 
 # Of a commit that is no release, and says so in one line.
