@@ -44,6 +44,10 @@ function replaced(events, at, more) {
     return events.map((event, i) => (i === at ? { ...event, ...more } : event));
 }
 
+function withoutEvent(events, at) {
+    return events.filter((_, i) => i !== at);
+}
+
 // Within what is shown, and round: finer than a hundredth of it.
 function tidyTime(s, seconds) {
     const step = 10 ** Math.floor(Math.log10(s.DURATION) - 2);
@@ -91,7 +95,7 @@ export function createFlags(place, plots, state, onEvents) {
                 held = -1;
             });
             flag.addEventListener('pointermove', (event) => drag(event, i));
-            flag.addEventListener('keydown', (event) => nudge(event, i));
+            flag.addEventListener('keydown', (event) => press(event, i));
             return flag;
         });
         place.replaceChildren(...flags);
@@ -106,13 +110,19 @@ export function createFlags(place, plots, state, onEvents) {
         onEvents(replaced(state().events, i, { at: tidyTime(state(), part * state().DURATION) }));
     }
 
-    function nudge(event, i) {
-        const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-        if (way !== undefined) {
-            event.preventDefault();
-            const s = state();
-            const at = s.events[i].at + way * s.DURATION / 100;
-            onEvents(replaced(s.events, i, { at: tidyTime(s, at) }));
+    // The focus goes to the flag that stands in the place of one that was removed.
+    function press(event, i) {
+        const way = { ArrowLeft: -1, ArrowRight: 1, Delete: 0 }[event.key];
+        if (way === undefined) {
+            return;
+        }
+        event.preventDefault();
+        const s = state();
+        if (way === 0) {
+            onEvents(withoutEvent(s.events, i));
+            requestAnimationFrame(() => flags[Math.min(i, flags.length - 1)]?.focus()); // when it is drawn
+        } else {
+            onEvents(replaced(s.events, i, { at: tidyTime(s, s.events[i].at + way * s.DURATION / 100) }));
         }
     }
 
@@ -132,7 +142,7 @@ export function createFlags(place, plots, state, onEvents) {
             flags[i].hidden = part > 1;
             flags[i].classList.toggle('late', places[i].late);
             flags[i].style.setProperty('--at', part);
-            flags[i].setAttribute('aria-label', `${text} at ${short(event.at)} s; the arrow keys move it`);
+            flags[i].setAttribute('aria-label', `${text} at ${short(event.at)} s; the arrow keys move it, Delete removes it`);
         });
     };
     new ResizeObserver(() => last && update(last)).observe(place);
@@ -162,7 +172,7 @@ export function createEventList(place, state, onEvents) {
         const kind = kinds[event.what] ?? {};
         const values = ['a', 'b'].filter((key) => kind[key]).map((key) => number(key, `${kind.name}, ${kind[key]}`));
         const remove = make('button', { type: 'button', className: 'quiet', textContent: '×', 'aria-label': `Remove ${textOf(s, event)}` });
-        remove.addEventListener('click', () => onEvents(state().events.filter((_, k) => k !== i)));
+        remove.addEventListener('click', () => onEvents(withoutEvent(state().events, i)));
         fields.push(at, ...values);
         return make('div', { className: 'event' }, what, make('span', { className: 'at' }, at.field, ' s'),
             make('span', { className: 'values' }, ...values.map((value) => value.field)), remove, ...[at, ...values].map((one) => one.why));

@@ -50,6 +50,11 @@ async function tabTo(here, selector) {
     const at = await here.getAttribute('#flags button', 'aria-label');
     await press(here, 'ArrowRight');
     check('keyboard: the event moves', (await here.getAttribute('#flags button', 'aria-label')) !== at);
+    await press(here, 'Delete');
+    check('keyboard: the event is removed', (await here.locator('#flags button').count()) === 1);
+    check('keyboard: the next one has the focus', await here.evaluate(() => document.activeElement.matches('#flags button')));
+    await press(here, 'Control+z');
+    check('keyboard: it is back', (await here.locator('#flags button').count()) === 2);
     check('keyboard: the cursor', await tabTo(here, '#plots'));
     const end = await text(here, 'figcaption');
     await press(here, 'Home');
