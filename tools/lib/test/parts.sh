@@ -134,13 +134,12 @@ rows_of_avr() {
         >build/avr/vectors/vectors.c
 }
 
-# Its own form, and the narrow one, in plain C.
+# Its own form, the wide one.
 part_avr() {
     need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
     need_ceedling
     rows_of_avr
     run_mode avr pointer wide test/chips/avr/avr.yml
-    run_mode avr pointer narrow test/chips/avr/avr.yml
 }
 
 part_sanitize() {
@@ -302,6 +301,7 @@ part_variants() {
     limits eight-turns 256 128 999 64 127
     run_mode unit object narrow
     run_mode avr object wide test/chips/avr/avr.yml
+    run_mode avr pointer narrow test/chips/avr/avr.yml
     run_mode sanitize pointer narrow test/unit/sanitize/sanitize.yml
     runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
