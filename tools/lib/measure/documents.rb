@@ -8,15 +8,14 @@ class Document
     @text = @old = File.read(path)
   end
 
-  # Puts a table between its markers and says what differs from the old one, but for
-  # columns that are not compared.
-  def replace(name, rows, except: [])
+  # Puts a table between its markers and says what differs from the old one.
+  def replace(name, rows)
     marks = ["<!-- #{name}:begin -->\n", "<!-- #{name}:end -->"]
     head, rest = @text.split(marks[0], 2)
     old, tail = rest&.split(marks[1], 2)
     tail or raise Host::Failure, "#{@path} has lost its markers of #{name}"
     @text = [head, marks[0], Tables.markdown(rows), marks[1], tail].join
-    old == Tables.markdown(rows) ? [] : Changes.new(old, rows, except).to_a
+    old == Tables.markdown(rows) ? [] : Changes.new(old, rows).to_a
   end
 
   # Whole or not at all.
@@ -33,8 +32,7 @@ class Changes
   # Columns that say what a row is about; the first one always does.
   KEYS = %w[chip built].freeze
 
-  def initialize(old, rows, except)
-    @except = except
+  def initialize(old, rows)
     @old = old.lines.map { |line| line.strip.split('|').drop(1).map(&:strip) }
     @new = rows.map { |row| row.map(&:to_s) }
     @head = @new.first
@@ -46,8 +44,6 @@ class Changes
 
     gone = @old.drop(2).map { |row| key(row) } - @new.map { |row| key(row) }
     found = @new.drop(1).flat_map { |row| changes(row) } + gone.map { |words| "#{words}: gone" }
-    return [] if found.empty? && (@head & @except).any? && @old.drop(2).map { |row| key(row) } == @new.drop(1).map { |row| key(row) }
-
     found.empty? ? ['rows have changed their places'] : found
   end
 
@@ -59,7 +55,7 @@ class Changes
 
   def changes(row)
     old = @old.find { |one| key(one) == key(row) } or return ["#{key(row)}: new"]
-    row.zip(old, @head).reject { |cell, before, column| cell == before || @except.include?(column) }.map do |cell, before, column|
+    row.zip(old, @head).reject { |cell, before, _| cell == before }.map do |cell, before, column|
       "#{key(row)}, #{column}: #{before} is documented, #{cell} measured#{judgement(before, cell)}"
     end
   end

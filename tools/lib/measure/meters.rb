@@ -5,11 +5,8 @@ require_relative 'cores'
 require_relative 'kept'
 require_relative '../bound'
 
-# By which both are divided. A compiler makes instructions as long of 2500 as of 20 000, on which
-# the places of what is behind them depend, and so a RISC-V's cycles.
-SOME = ENV['FIXPID_COST_SOME'] ? 8 : 1
-RANDOM_STEPS = 20_000 / SOME
-SEARCH = [30_000 / SOME, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
+RANDOM_STEPS = 20_000
+SEARCH = [30_000, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
 LONG_SEARCH = [200_000, 3].freeze
 QUESTIONS = [nil, 'REDUCED'].freeze # of enum search_questions
 
