@@ -95,7 +95,7 @@ export function createLive(section, { gains, scene, onPlant, onStep, onText, dow
     let trace = null;
     let [port, asker, board, kept, keptBytes] = [null, null, null, [], 0];
     let [drawn, lastFrame, tail, restarting, log] = [0, 0, '', false, 0];
-    let [sets, recording, fit, comparison, other] = [[], null, null, null, null];
+    let [sets, recording, fit, comparison, shown, other] = [[], null, null, null, null, null];
 
     const say = (text) => setText(own('said'), text);
     const seconds = () => board?.seconds || 1;
@@ -103,7 +103,7 @@ export function createLive(section, { gains, scene, onPlant, onStep, onText, dow
     function begin(asks) {
         beginTwin(asks);
         trace = createTrace(HELD);
-        [board, kept, keptBytes, drawn, tail, sets, fit, recording, comparison] = [null, [], 0, 0, '', [], null, null, null];
+        [board, kept, keptBytes, drawn, tail, sets, fit, recording, comparison, shown] = [null, [], 0, 0, '', [], null, null, null, null];
         setText(own('board'), '');
         for (const id of ['data', 'fit', 'told']) {
             own(id).hidden = true;
@@ -168,11 +168,12 @@ export function createLive(section, { gains, scene, onPlant, onStep, onText, dow
     }
 
     // What came of a step with the gains that were sent, beside what the page foretold.
-    function showComparison() {
+    function showComparison(anyway) {
         const told = comparison?.now() ?? null;
-        if (told === null) {
+        if (told === null || (told === shown && !anyway)) {
             return;
         }
+        shown = told;
         const { from, to, band, came, predicted, rested, missing, over } = told;
         const one = seconds();
         const cells = ({ overshoot, settled, iae }) => [`${digits(overshoot)} (${percent(overshoot / Math.abs(to - from))})`,
@@ -197,7 +198,7 @@ export function createLive(section, { gains, scene, onPlant, onStep, onText, dow
         const view = trace.view(Math.min(SHOWN_MOST, Math.max(100, Math.round(SHOWN / seconds()))));
         plots.show({ panes: panesOf(view), seconds: seconds(), events: [], duration: Math.max(10, view.n - 1) * seconds() });
         showVerdict();
-        showComparison();
+        showComparison(anyway);
     }
 
     // --- A port ---

@@ -20,6 +20,21 @@ function pieces(s, n) {
     return all.map((piece, i) => ({ ...piece, to: all[i + 1]?.from ?? n }));
 }
 
+// Of y from one place to another: how far it passes its goal on its way there (1 or -1), and
+// the place from which on it stays within the band, or null.
+export function settling(y, { goal, way, band }, from = 0, to = y.length) {
+    let [over, settled] = [0, null];
+    for (let i = from; i < to; i++) {
+        over = Math.max(over, way * (y[i] - goal));
+        if (Math.abs(y[i] - goal) > band) {
+            settled = null;
+        } else if (settled === null) {
+            settled = i;
+        }
+    }
+    return { over, settled };
+}
+
 // { overshoot (part of the step), rise, settled (seconds or null) }.
 function stepResponse(s, { series }, piece) {
     const y = series.VALUE_TRUE;
@@ -28,16 +43,11 @@ function stepResponse(s, { series }, piece) {
     const span = Math.abs(goal - from) || 1;
     const way = Math.sign(goal - from) || 1;
     const band = Math.max(0.02 * span, (1 + s.NOISE) * unitsPerCount(s));
-    let [over, rise, settled] = [0, null, null];
-    for (let i = piece.from; i < piece.to; i++) {
-        over = Math.max(over, way * (y[i] - goal));
-        if (rise === null && Math.abs(y[i] - from) >= 0.9 * span && way * (y[i] - from) > 0) {
+    const { over, settled } = settling(y, { goal, way, band }, piece.from, piece.to);
+    let rise = null;
+    for (let i = piece.from; i < piece.to && rise === null; i++) {
+        if (Math.abs(y[i] - from) >= 0.9 * span && way * (y[i] - from) > 0) {
             rise = i;
-        }
-        if (Math.abs(y[i] - goal) > band) {
-            settled = null;
-        } else if (settled === null) {
-            settled = i;
         }
     }
     return { overshoot: over / span, rise: rise === null ? null : rise / s.RATE,

@@ -3,7 +3,7 @@
 // beside what the board then measured.
 import { LIMIT } from './built.js';
 import { run } from './engine.js';
-import { unitsOf } from './metrics.js';
+import { settling, unitsOf } from './metrics.js';
 import { MISSED } from './trace.js';
 
 const LEAST_COUNTS = 8; // of a step that is worth figures
@@ -13,18 +13,8 @@ const TIMES_SETTLED = 4; // so long is a step watched, of the time that was pred
 
 // { overshoot: counts, settled: steps or null, iae: counts and steps } of a step to `to`.
 export function stepFigures(y, { from, to, band }) {
-    const way = Math.sign(to - from);
-    let [overshoot, settled, iae] = [0, null, 0];
-    y.forEach((one, i) => {
-        overshoot = Math.max(overshoot, way * (one - to));
-        iae += Math.abs(to - one);
-        if (Math.abs(one - to) > band) {
-            settled = null;
-        } else if (settled === null) {
-            settled = i;
-        }
-    });
-    return { overshoot, settled, iae };
+    const { over, settled } = settling(y, { goal: to, way: Math.sign(to - from), band });
+    return { overshoot: over, settled, iae: y.reduce((sum, one) => sum + Math.abs(to - one), 0) };
 }
 
 // The measurement that this state's loop has from the step on, which it meets at rest.
@@ -59,9 +49,12 @@ export function createComparison(trace, s) {
         const n = Math.min(trace.places, step.end) - step.place;
         const view = trace.view(trace.places - step.place);
         const came = view.MEASUREMENT.slice(0, n);
-        const isTold = n >= LEAST_STEPS && (over || n === step.end - step.place || stepFigures(came, step).settled !== null);
-        return isTold ? { ...step, over: over || n === step.end - step.place, came, predicted: step.all.slice(0, n),
-            missing: view.marks.subarray(0, n).reduce((sum, mark) => sum + Number(mark === MISSED), 0) } : null;
+        const ended = over || n === step.end - step.place;
+        if (n < LEAST_STEPS || !(ended || stepFigures(came, step).settled !== null)) {
+            return null;
+        }
+        return { ...step, over: ended, came, predicted: step.all.slice(0, n),
+            missing: view.marks.subarray(0, n).reduce((sum, mark) => sum + Number(mark === MISSED), 0) };
     }
 
     function now() {

@@ -158,9 +158,9 @@ end
 
 def autotune_temperature(plot, runs)
   over = taken_over_s(runs['PI'])
-  curves = [Plot.setpoint(runs['PI'], 'setpoint_c', nil)]
+  curves = [Plot.setpoint(runs['PI'], 'setpoint_c')]
   curves += runs.map do |rule, run|
-    Plot.curve(run, 'temperature_c', nil, TUNE_COLORS[rule])
+    Plot.curve(run, 'temperature_c', TUNE_COLORS[rule])
   end
   above = runs['PI'].values('temperature_c', 0.0, over).max - OVEN_SET_C
   plot.panel(0, 0, curves,
@@ -175,7 +175,7 @@ end
 def autotune_drive(plot, runs)
   over = taken_over_s(runs['PI'])
   curves = runs.map do |rule, run|
-    Plot.curve(run, "(column('drive_counts')/10.23)", nil, TUNE_COLORS[rule],
+    Plot.curve(run, "(column('drive_counts')/10.23)", TUNE_COLORS[rule],
                width: 1.2)
   end
   plot.panel(1, 0, curves,

@@ -123,8 +123,8 @@ def boiler_panel(plot, boiler, fault, place)
   peaks = %w[without with].map { |way| format('%.1f °C', boiler.peak("#{fault}_#{way}", BOILER_BROKEN_S)) }
   alarm = boiler_alarm(boiler, fault)
   plot.panel(row, column,
-             ["60 linecolor '#{Plot::SETPOINT}' dashtype 2 notitle", Plot.curve(boiler, "#{fault}_without", nil, Plot::WITHOUT),
-              Plot.curve(boiler, "#{fault}_with", nil, Plot::MEASUREMENT)],
+             ["60 linecolor '#{Plot::SETPOINT}' dashtype 2 notitle", Plot.curve(boiler, "#{fault}_without", Plot::WITHOUT),
+              Plot.curve(boiler, "#{fault}_with", Plot::MEASUREMENT)],
              ["set title '#{BOILER_FAULTS[fault]}' font ',11' offset 0,-0.6", 'set xrange [0:400]',
               'set yrange [0:140]', 'set ytics 40', "set ylabel 'boiler, °C'", "set xlabel 'time, s' offset 0,0.6",
               "set label 'without the guard: #{peaks[0]}' at 395, 131 right textcolor '#{Plot::WITHOUT}'",

@@ -102,9 +102,9 @@ def motor_panels(plot, column, run, without, from, to, title)
 end
 
 def speed_panel(plot, column, run, without, settings)
-  curves = [Plot.curve(run, 'speed_rad_s', nil, Plot::MEASUREMENT),
-            Plot.setpoint(run, 'setpoint_rad_s', nil)]
-  curves << Plot.curve(without, 'speed_rad_s', nil, Plot::WITHOUT) if column.zero?
+  curves = [Plot.curve(run, 'speed_rad_s', Plot::MEASUREMENT),
+            Plot.setpoint(run, 'setpoint_rad_s')]
+  curves << Plot.curve(without, 'speed_rad_s', Plot::WITHOUT) if column.zero?
   texts = [[Plot.text('without the limit', 0.105, 450, Plot::WITHOUT), Plot.text('speed, with the limit', 0.054, 315, Plot::MEASUREMENT),
             Plot.text('setpoint', 0.002, 385, Plot::SETPOINT)],
            [Plot.text('speed', 0.45, 362.5, Plot::MEASUREMENT)]][column]
@@ -122,11 +122,9 @@ def motor_terms_panel(plot, column, run, span, x_range)
 end
 
 def motor_drive_panel(plot, column, run, without, x_range)
-  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
-                       Plot::OUTPUT, width: 1.2)]
+  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", Plot::OUTPUT, width: 1.2)]
   if column.zero?
-    curves << Plot.curve(without, "(column('drive_counts')/10.23)",
-                         nil, Plot::WITHOUT, width: 1.2)
+    curves << Plot.curve(without, "(column('drive_counts')/10.23)", Plot::WITHOUT, width: 1.2)
   end
   texts = [[Plot.text('drive', 0.067, 60, Plot::OUTPUT), Plot.text('without the limit', 0.107, -85, Plot::WITHOUT)],
            [Plot.text('drive', 0.45, 97, Plot::OUTPUT)]][column]

@@ -97,11 +97,11 @@ def draw_oven(p_only, pi, pid, wire)
     2 => ['PID 136/6/205: sooner (Figure 7)', pid] }
     .each do |column, (title, run)|
       settled = format('within 2 %% after %.1f s', oven_settling(run))
-      temperature_panel(plot, column, title, [Plot.curve(run, 'temperature_c', nil, Plot::MEASUREMENT)],
+      temperature_panel(plot, column, title, [Plot.curve(run, 'temperature_c', Plot::MEASUREMENT)],
                         [Plot.text(settled, 5.5, 68, Plot::MEASUREMENT), Plot.text('setpoint', 9, 86, Plot::SETPOINT)])
     end
   temperature_panel(plot, 3, "PID: the wire breaks, acknowledged at #{OVEN_UP_S.round} s",
-                    [Plot.curve(wire, 'temperature_c', nil, Plot::MEASUREMENT)],
+                    [Plot.curve(wire, 'temperature_c', Plot::MEASUREMENT)],
                     [Plot.text('temperature', 32, 60, Plot::MEASUREMENT)])
   [p_only[64], pi, pid, wire].each_with_index do |run, column|
     oven_terms_panel(plot, column, run)
@@ -125,7 +125,7 @@ end
 
 def p_only_curves(p_only)
   p_only.values.zip(Plot::FAMILY).map do |run, color|
-    Plot.curve(run, 'temperature_c', nil, color)
+    Plot.curve(run, 'temperature_c', color)
   end
 end
 
@@ -137,7 +137,7 @@ def p_only_texts(p_only)
 end
 
 def temperature_panel(plot, column, title, curves, texts)
-  plot.panel(0, column, [*curves, Plot.setpoint(nil, OVEN_SET_C, nil)],
+  plot.panel(0, column, [*curves, Plot.setpoint(nil, OVEN_SET_C)],
              [*oven_time(column), *texts, "set title '#{title}'", "set format x ''",
               'set yrange [0:100]',
               *shared_y(column, 'temperature, °C')])
@@ -155,8 +155,7 @@ def oven_terms_panel(plot, column, run)
 end
 
 def oven_drive_panel(plot, column, run)
-  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
-                       Plot::OUTPUT, width: 1.2)]
+  curves = [Plot.curve(run, "(column('drive_counts')/10.23)", Plot::OUTPUT, width: 1.2)]
   plot.panel(2, column, curves,
              [*oven_time(column), Plot.text('drive', [9, 9, 9, 38][column], 24, Plot::OUTPUT), "set xlabel 'time, s'", 'set yrange [0:110]',
               'set ytics 25', *shared_y(column, 'drive, %')])

@@ -80,9 +80,9 @@ def y_label(column, text)
 end
 
 def angle_panel(plot, column, run, every, x_range)
-  curves = [Plot.curve(run, 'angle_degrees', nil, Plot::MEASUREMENT,
+  curves = [Plot.curve(run, 'angle_degrees', Plot::MEASUREMENT,
                        every: every),
-            Plot.setpoint(nil, '0', nil),
+            Plot.setpoint(nil, '0'),
             "1 notitle linecolor '#{Plot::LIMIT}' dashtype 3",
             "-1 notitle linecolor '#{Plot::LIMIT}' dashtype 3"]
   labels = [["set title 'release at 8 degrees, shove at 5 s'"],
@@ -104,11 +104,10 @@ def terms_panel(plot, row, column, run, every, ranges)
 end
 
 def drive_panel(plot, row, column, run, every, x_range, full)
-  curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", nil,
-                       Plot::OUTPUT, every: every, width: 1.2)]
+  curves = [Plot.curve(run, "(column('drive_counts')*100.0/#{full})", Plot::OUTPUT, every: every, width: 1.2)]
   texts = [Plot.text('drive', [3.2, 19][column], 32, Plot::OUTPUT)]
   if run.values('time_s').last > 30.0 && column == 1
-    curves << Plot.curve(run, 'supply_percent', nil, Plot::DISTURBANCE,
+    curves << Plot.curve(run, 'supply_percent', Plot::DISTURBANCE,
                          every: every)
     texts << Plot.text('supply', 19, 105, Plot::LIMIT_TEXT)
   end
@@ -121,8 +120,8 @@ BASE_AXIS = [["set ytics 0.5", "set yrange [-1.6:0.6]"],
              ["set ytics 25", "set yrange [-120:40]"]].freeze
 
 def base_panel(plot, column, run, without, every, x_range)
-  curves = [Plot.curve(without, 'base_m', nil, Plot::WITHOUT, every: every),
-            Plot.curve(run, 'base_m', nil, Plot::MEASUREMENT, every: every)]
+  curves = [Plot.curve(without, 'base_m', Plot::WITHOUT, every: every),
+            Plot.curve(run, 'base_m', Plot::MEASUREMENT, every: every)]
   texts = [[Plot.text('base', 3.2, 0.12, Plot::MEASUREMENT), Plot.text('without the drift offset', 0.5, -1.1, Plot::WITHOUT)],
            [Plot.text('base', 50, 13, Plot::MEASUREMENT), Plot.text('without the drift offset', 18, -75, Plot::WITHOUT)]][column]
   plot.panel(3, column, curves,

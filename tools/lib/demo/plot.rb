@@ -62,8 +62,7 @@ class Plot
     TERMS.to_a.reverse.flat_map do |name, (_, color)|
       next band(trace, name, color, scale, span) if span && name == 'derivative'
 
-      curve(trace, "(column('#{name}')*#{scale})", nil, color, width: 1.2,
-                                                               **options)
+      curve(trace, "(column('#{name}')*#{scale})", color, width: 1.2, **options)
     end
   end
 
@@ -89,17 +88,16 @@ class Plot
   end
 
   # A column that is the setpoint, or a number.
-  def self.setpoint(trace, column = 'setpoint', title = 'setpoint')
-    return curve(trace, column, title, SETPOINT, style: 'dashtype 2', width: 1.2) if trace
+  def self.setpoint(trace, column = 'setpoint')
+    return curve(trace, column, SETPOINT, style: 'dashtype 2', width: 1.2) if trace
 
-    "#{column} #{title ? "title '#{title}'" : 'notitle'} linecolor '#{SETPOINT}' linewidth 1.2 dashtype 2"
+    "#{column} notitle linecolor '#{SETPOINT}' linewidth 1.2 dashtype 2"
   end
 
   # A column of a trace over time.
-  def self.curve(trace, column, title, color, every: 1, width: 1.6, style: '')
+  def self.curve(trace, column, color, every: 1, width: 1.6, style: '')
     "'#{trace.path}' using 'time_s':#{expression(column)} every #{every} " \
-      "with lines linewidth #{width} linecolor '#{color}' #{style} " +
-      (title ? "title '#{title}'" : 'notitle')
+      "with lines linewidth #{width} linecolor '#{color}' #{style} notitle"
   end
 
   def self.expression(column)

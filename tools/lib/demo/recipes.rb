@@ -380,7 +380,7 @@ end
 
 OutputAxis = Struct.new(:run, :column, :low, :high, :label, :text) do
   def curve
-    "#{Plot.curve(run, column, nil, Plot::OUTPUT, width: 1.0)} axes x1y2"
+    "#{Plot.curve(run, column, Plot::OUTPUT, width: 1.0)} axes x1y2"
   end
 
   # Zero and the ends have a mark; its name stands at `text`, in its own numbers.
@@ -409,7 +409,12 @@ RECIPE_PICTURES = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retu
                      angle guard dead_band sensor_break scheduling interpolated].freeze
 
 def with_and_without(run)
-  [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'with', nil, Plot::MEASUREMENT)]
+  [Plot.curve(run, 'without', Plot::WITHOUT), Plot.curve(run, 'with', Plot::MEASUREMENT), Plot.setpoint(run)]
+end
+
+# And what is drawn below them.
+def value_and_setpoint(run, *below)
+  [*below, Plot.curve(run, 'value', Plot::MEASUREMENT), Plot.setpoint(run)]
 end
 
 def without_text(x, y, words = 'without')
@@ -425,14 +430,14 @@ def setpoint_text(x, y)
 end
 
 def draw_cascade(run)
-  recipe_picture('cascade', 'Cascade: the supply of the inner loop is weak', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+  recipe_picture('cascade', 'Cascade: the supply of the inner loop is weak', with_and_without(run),
                  [1500, 6000], [250, 580], STEPS_COUNTS,
                  [recipe_stretch(1, 2000, 3500), Plot.text('weak supply', 2750, 400, Plot::TEXT, 'center'), setpoint_text(1560, 520),
                   without_text(4080, 565, 'without tracking'), with_text('with tracking', 3870, 455)])
 end
 
 def draw_two_rates(run)
-  recipe_picture('two_rates', 'Cascade at two rates: the supply is weak', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+  recipe_picture('two_rates', 'Cascade at two rates: the supply is weak', with_and_without(run),
                  [1.5, 4.5], [440, 600], ['time, s', 'speed, counts'],
                  [recipe_stretch(1, 2, 3.5), Plot.text('weak supply', 2.75, 530, Plot::TEXT, 'center'), setpoint_text(1.54, 510),
                   without_text(3.68, 580, 'without tracking'), with_text('with tracking', 3.6, 470)])
@@ -440,8 +445,8 @@ end
 
 def draw_override(run)
   recipe_picture('override', 'Override: the pressure is limited while a filter is clogged',
-                 [Plot.curve(run, 'pressure_without', nil, Plot::WITHOUT), Plot.curve(run, 'pressure', nil, Plot::MEASUREMENT),
-                  Plot.curve(run, 'flow', nil, Plot::SECOND), Plot.setpoint(nil, '600', nil), "700 notitle linecolor '#{Plot::LIMIT}' dashtype 3"],
+                 [Plot.curve(run, 'pressure_without', Plot::WITHOUT), Plot.curve(run, 'pressure', Plot::MEASUREMENT),
+                  Plot.curve(run, 'flow', Plot::SECOND), Plot.setpoint(nil, '600'), "700 notitle linecolor '#{Plot::LIMIT}' dashtype 3"],
                  [0, 4000], [0, 880], STEPS_COUNTS,
                  [recipe_stretch(1, 1000, 2500), Plot.text('clogged', 1750, 90, Plot::TEXT, 'center'), without_text(1230, 830, 'pressure without tracking'),
                   Plot.text('limit', 3940, 745, Plot::LIMIT_TEXT, 'right'), setpoint_text(3130, 555), with_text('pressure', 1530, 635),
@@ -449,35 +454,35 @@ def draw_override(run)
 end
 
 def draw_ramp(run)
-  recipe_picture('ramp', 'A ramp of the setpoint, and a slow valve', [*with_and_without(run), Plot.setpoint(run, 'setpoint', nil)],
+  recipe_picture('ramp', 'A ramp of the setpoint, and a slow valve', with_and_without(run),
                  [0, 450], [0, 720], SECONDS_COUNTS,
                  [without_text(95, 690, 'without ramp and tracking'), with_text('with both', 190, 330), setpoint_text(330, 555)])
 end
 
 def draw_ramp_soak(run)
   recipe_picture('ramp_soak', 'Ramp and soak that waits for the oven',
-                 [Plot.curve(run, 'value_without', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'value_without', Plot::WITHOUT)),
                  [0, 1199], [20, 225], SECONDS_DEGREES,
                  [without_text(40, 200, 'without waiting'), with_text('temperature', 560, 185), setpoint_text(430, 118)])
 end
 
 def draw_ssr(run)
-  recipe_picture('ssr', 'A heater behind a solid-state relay', [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+  recipe_picture('ssr', 'A heater behind a solid-state relay', value_and_setpoint(run),
                  [0, 300], [0, 1000], SECONDS_COUNTS, [with_text('temperature', 40, 650), setpoint_text(10, 895)],
                  OutputAxis.new(run, 'on', 0, 1, 'relay, on is 1', [10, 1.35]))
 end
 
 def draw_tune_ssr(run)
   recipe_picture('tune_ssr', 'A heater tuned behind its solid-state relay',
-                 [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run),
                  [0, 1499], [0, 1350], SECONDS_COUNTS, [with_text('temperature', 300, 1260), setpoint_text(1150, 1110)],
                  OutputAxis.new(run, "(10*column('on'))", 0, 100, 'relay on, %', [750, 65]))
 end
 
 def draw_retune(run)
   recipe_picture('retune', 'Retuned in operation, then a load',
-                 [Plot.curve(run, 'whole', nil, Plot::SECOND), Plot.curve(run, 'narrow', nil, Plot::MEASUREMENT),
-                  Plot.curve(run, 'old', nil, Plot::WITHOUT, width: 1.2), Plot.setpoint(nil, '500', nil)],
+                 [Plot.curve(run, 'whole', Plot::SECOND), Plot.curve(run, 'narrow', Plot::MEASUREMENT),
+                  Plot.curve(run, 'old', Plot::WITHOUT, width: 1.2), Plot.setpoint(nil, '500')],
                  [800, 5000], [405, 575], STEPS_COUNTS,
                  [Plot.text('swing of the whole range', 2350, 562, Plot::SECOND), with_text('of a fifth of it', 2350, 540),
                   without_text(4200, 450, 'old gains'), setpoint_text(2600, 507), Plot.text('load', 4000, 525, Plot::TEXT, 'center')])
@@ -485,8 +490,7 @@ end
 
 def draw_heat_cool(run)
   recipe_picture('heat_cool', 'Heat and cool with a gap, in a calm room',
-                 [Plot.curve(run, 'surroundings', nil, Plot::DISTURBANCE), Plot.curve(run, 'value_without', nil, Plot::WITHOUT, width: 1.0),
-                  Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'surroundings', Plot::DISTURBANCE), Plot.curve(run, 'value_without', Plot::WITHOUT, width: 1.0)),
                  [50_000, 60_000], [24, 26.1], SECONDS_DEGREES,
                  [Plot.text('surroundings', 52_900, 25.95, Plot::LIMIT_TEXT), without_text(50_950, 24.25), with_text('temperature', 53_000, 24.25),
                   "#{setpoint_text(57_050, 25.2)} boxed", 'set style textbox opaque noborder margins 0.3,0.2'],
@@ -495,7 +499,7 @@ end
 
 def draw_least_output(run)
   recipe_picture('least_output', 'The least output that turns the fan',
-                 [Plot.curve(run, 'tracked', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'tracked', Plot::WITHOUT)),
                  [9000, 11_000], [40, 185], SECONDS_DEGREES,
                  [without_text(9050, 90, 'by fixpid\\_pid\\_track'), with_text('temperature', 10_480, 66), setpoint_text(9050, 62),
                   Plot.text('more heat', 9980, 150, Plot::TEXT, 'right'), "set arrow from 10000, graph 0 to 10000, graph 1 nohead dashtype 3 linecolor '#{Plot::DISTURBANCE}'"],
@@ -504,7 +508,7 @@ end
 
 def draw_angle(run)
   recipe_picture('angle', 'An angle across the end of its counts',
-                 [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'without', Plot::WITHOUT)),
                  [0, 2], [-600, 600], SECONDS_COUNTS,
                  [without_text(0.06, -500, 'by fixpid\\_pid\\_step'), with_text('angle', 0.14, 250), setpoint_text(1.03, 440)],
                  OutputAxis.new(run, "(column('output')/10)", -100, 100, 'drive, %', [0.4, 55]))
@@ -512,8 +516,7 @@ end
 
 def draw_guard(run)
   recipe_picture('guard', 'Guard: a sensor off its place, then a relay shut',
-                 [Plot.curve(run, 'without', nil, Plot::WITHOUT), Plot.curve(run, 'reading', nil, Plot::SECOND, width: 1.0),
-                  Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'without', Plot::WITHOUT), Plot.curve(run, 'reading', Plot::SECOND, width: 1.0)),
                  [300, 1999], [20, 125], SECONDS_DEGREES,
                  [recipe_stretch(1, 400, 700), recipe_stretch(2, 1200, 1999), Plot.text('sensor off', 550, -23, Plot::TEXT, 'center'),
                   Plot.text('relay shut', 1600, -23, Plot::TEXT, 'center'), without_text(790, 113), with_text('temperature', 1330, 70),
@@ -523,8 +526,8 @@ end
 
 def draw_dead_band(run)
   recipe_picture('dead_band', 'Dead band: the valve stands still',
-                 [Plot.curve(run, 'valve_without', nil, Plot::WITHOUT, width: 0.8), Plot.curve(run, 'with', nil, Plot::MEASUREMENT, width: 3.0),
-                  Plot.curve(run, 'valve', nil, Plot::OUTPUT), Plot.setpoint(nil, '600', nil)],
+                 [Plot.curve(run, 'valve_without', Plot::WITHOUT, width: 0.8), Plot.curve(run, 'with', Plot::MEASUREMENT, width: 3.0),
+                  Plot.curve(run, 'valve', Plot::OUTPUT), Plot.setpoint(nil, '600')],
                  [1000, 1990], [592, 607], STEPS_COUNTS,
                  [without_text(1020, 606, 'valve without the band'), with_text('measurement and', 1020, 595.5), Plot.text('valve with it', 1340, 595.5, Plot::OUTPUT),
                   setpoint_text(1800, 606)])
@@ -532,7 +535,7 @@ end
 
 def draw_sensor_break(run)
   recipe_picture('sensor_break', 'A broken sensor, and the drive off until it reads again',
-                 [Plot.curve(run, 'reading', nil, Plot::SECOND), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'reading', Plot::SECOND)),
                  [0, 599], [100, 1040], SECONDS_COUNTS,
                  [recipe_stretch(1, 200, 260), Plot.text('reading', 270, 960, Plot::SECOND), with_text('temperature', 325, 400), setpoint_text(10, 680)],
                  OutputAxis.new(run, "(column('output')/2.55)", 0, 100, 'drive, %', [30, 80]))
@@ -540,14 +543,14 @@ end
 
 def draw_scheduling(run)
   recipe_picture('scheduling', 'Gains that change at 500, without a bump',
-                 [Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run),
                  [0, 2999], [0, 950], STEPS_COUNTS, [with_text('measurement', 1130, 890), setpoint_text(400, 460)],
                  OutputAxis.new(run, "(column('output')/10)", 0, 100, 'output, %', [100, 70]))
 end
 
 def draw_interpolated(run)
   recipe_picture('interpolated', 'A cone-shaped tank, its gains by a table',
-                 [Plot.curve(run, 'low', nil, Plot::WITHOUT), Plot.curve(run, 'value', nil, Plot::MEASUREMENT), Plot.setpoint(run, 'setpoint', nil)],
+                 value_and_setpoint(run, Plot.curve(run, 'low', Plot::WITHOUT)),
                  [8000, 19_999], [100, 1080], ['time, s', 'level, counts'],
                  [without_text(12_700, 1035, 'gains of level 100'), with_text('by the level', 12_900, 600), setpoint_text(9400, 285)],
                  OutputAxis.new(run, "(column('output')/10)", 0, 100, 'valve, %', [8900, 75]))

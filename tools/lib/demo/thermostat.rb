@@ -180,9 +180,9 @@ end
 
 def thermostat_temperature(plot, run)
   plot.panel(0, 0,
-             [Plot.curve(run, 'temperature_c', nil, Plot::MEASUREMENT,
+             [Plot.curve(run, 'temperature_c', Plot::MEASUREMENT,
                          width: 2.2),
-              Plot.setpoint(run, 'setpoint_c', nil)],
+              Plot.setpoint(run, 'setpoint_c')],
              [*stretches(1), *story, Plot.text('temperature', 3.2, 60, Plot::MEASUREMENT),
               Plot.text('setpoint', 3.2, 87, Plot::SETPOINT), "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",
               'set yrange [0:110]', 'set ytics 20', *y_label(0, 'temperature, °C')])
@@ -191,9 +191,8 @@ end
 def thermostat_drive(plot, run)
   limit = "(column('selector') == 3 ? 12.5 : 100)"
   plot.panel(1, 0,
-             [Plot.curve(run, "(column('drive_counts')/10.23)", nil,
-                         Plot::OUTPUT),
-              Plot.curve(run, limit, nil, Plot::LIMIT, style: 'dashtype 3',
+             [Plot.curve(run, "(column('drive_counts')/10.23)", Plot::OUTPUT),
+              Plot.curve(run, limit, Plot::LIMIT, style: 'dashtype 3',
                                                        width: 1.2)],
              [*stretches(1), Plot.text('drive', 6, 30, Plot::OUTPUT), Plot.text('limit', 6, 111, Plot::LIMIT_TEXT),
               "set xrange [0:#{THERMOSTAT_END_S}]", "set format x ''",

@@ -102,8 +102,8 @@ NAMES_AT = { 'zero' => [[0.9, 15], [5, 2.5]], 'kp_low' => [[2.2, 15], [5, 10]], 
 # Angle on the left and base on the right, each in its color and with one scale
 # for all panels.
 def stage_panel(plot, row, column, stage, run)
-  curves = [Plot.curve(run, 'angle_degrees', nil, Plot::MEASUREMENT, every: 4),
-            "#{Plot.curve(run, 'base_m', nil, Plot::SECOND, every: 4)} " \
+  curves = [Plot.curve(run, 'angle_degrees', Plot::MEASUREMENT, every: 4),
+            "#{Plot.curve(run, 'base_m', Plot::SECOND, every: 4)} " \
             'axes x1y2']
   angle, base = NAMES_AT.fetch(stage.name)
   plot.panel(row, column, curves,

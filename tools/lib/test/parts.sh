@@ -7,6 +7,7 @@
 # without assembly, too, which an AVR has.
 forms='wide narrow'
 first_form=${forms%% *}
+other_forms=${forms#* }
 
 # The mixin text for a mode (pointer or object) and a form, in Ceedling's context
 # test or gcov.
@@ -134,12 +135,11 @@ rows_of_avr() {
         >build/avr/vectors/vectors.c
 }
 
-# Its own form, the wide one.
 part_avr() {
     need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
     need_ceedling
     rows_of_avr
-    run_mode avr pointer wide test/chips/avr/avr.yml
+    run_mode avr pointer "$first_form" test/chips/avr/avr.yml
 }
 
 part_sanitize() {
@@ -299,10 +299,12 @@ part_variants() {
     rows_of_avr
     limits seven-turns 29999 127 1022 8190 126
     limits eight-turns 256 128 999 64 127
-    run_mode unit object narrow
-    run_mode avr object wide test/chips/avr/avr.yml
-    run_mode avr pointer narrow test/chips/avr/avr.yml
-    run_mode sanitize pointer narrow test/unit/sanitize/sanitize.yml
+    run_mode avr object "$first_form" test/chips/avr/avr.yml
+    for form in $other_forms; do
+        run_mode unit object "$form"
+        run_mode avr pointer "$form" test/chips/avr/avr.yml
+        run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
+    done
     runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)
     count 'tools/demo faults_places' ' ok$' ' FAILED$' once whole tools/demo --verbose faults_places
     for runner in $runners; do
