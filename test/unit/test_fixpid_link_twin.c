@@ -74,6 +74,18 @@ void tearDown(void)
 {
 }
 
+// As records, which have each number and no byte between them.
+static void twin_has_config(void)
+{
+    struct fixpid_record of_board;
+    struct fixpid_record of_twin;
+
+    fixpid_record_pack(&of_board, &config);
+    fixpid_record_pack(&of_twin, &twin.config);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(of_board.bytes, of_twin.bytes,
+                                 FIXPID_RECORD_SIZE);
+}
+
 // ---- The wire ----
 
 // Sends a byte, or what becomes of it: nothing, a wrong bit, twice, another.
@@ -264,7 +276,7 @@ void test_twin_is_equal_in_each_step_on_a_good_wire(void)
     TEST_ASSERT_LESS_THAN(STEPS / 100, twin.not_compared);
     TEST_ASSERT_GREATER_THAN(STEPS / 256, twin.keys_compared);
     TEST_ASSERT_GREATER_THAN(STEPS / 100, carried_out);
-    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    twin_has_config();
 }
 
 // One in 1/256 of a count is seen in the next key frame, though no output has
@@ -321,7 +333,7 @@ void test_twin_asks_for_what_the_program_changed_where_it_can(void)
         run(30);
     }
     TEST_ASSERT_EQUAL(0, twin.different + twin.gaps);
-    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    twin_has_config();
     TEST_ASSERT_GREATER_OR_EQUAL(20, twin.by_reason[LINK_TWIN_CHANGED]);
     TEST_ASSERT_GREATER_THAN(20 * 20, twin.equal);
 }
@@ -619,7 +631,7 @@ void test_damage_nothing_is_taken_that_was_not_sent(void)
     damage = 0;
     run(600);
     TEST_ASSERT_EQUAL(0, twin.different);
-    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    twin_has_config();
 }
 
 void test_damage_that_is_seldom_leaves_most_steps_compared(void)
@@ -683,7 +695,7 @@ void test_twin_does_not_go_on_with_old_gains_after_a_gap(void)
     run(FEWER_STEPS);
     TEST_ASSERT_EQUAL(0, twin.different);
     TEST_ASSERT_GREATER_THAN(FEWER_STEPS / 10 * 9, twin.equal);
-    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    twin_has_config();
 }
 
 // The same, and the next key frame comes before the repeated command.
@@ -694,7 +706,7 @@ void test_twin_does_not_take_a_key_frame_of_a_command_it_knows_not(void)
     run(FEWER_STEPS);
     TEST_ASSERT_EQUAL(0, twin.different);
     TEST_ASSERT_GREATER_THAN(FEWER_STEPS / 10 * 9, twin.equal);
-    TEST_ASSERT_EQUAL_MEMORY(&config, &twin.config, sizeof config);
+    twin_has_config();
 }
 
 // ---- One wrong byte at each place ----
