@@ -22,13 +22,13 @@ module Modules
       title: 'Slew', what: 'A value that follows a target at limited speed',
       fuzz: [20_000, 256],
       rows: %w[event:uint8_t rise_q16:uint32_t fall_q16:uint32_t seed:int16_t target:int16_t],
-      calls: [{ object: 'slew', calls: 20_000, functions: { 'fixpid_slew_step' => 'step' } }]
+      calls: [{ object: 'slew', calls: 5000, functions: { 'fixpid_slew_step' => 'step' } }]
     },
     'tpo' => {
       title: 'Time-proportioned output', what: 'Time-proportioned output for relays and valves',
       fuzz: [20_000, 256],
       rows: %w[event:uint8_t full:int16_t window:uint16_t minimum_on:uint16_t minimum_off:uint16_t duty:int16_t],
-      calls: [{ object: 'tpo', calls: 20_000, functions: { 'fixpid_tpo_step' => 'step' } }]
+      calls: [{ object: 'tpo', calls: 5000, functions: { 'fixpid_tpo_step' => 'step' } }]
     },
     'guard' => {
       title: 'Guard', what: 'An alarm when a loop no longer does what it should',
@@ -36,7 +36,7 @@ module Modules
       rows: %w[event:uint8_t setpoint:int16_t measurement:int16_t output:int16_t repeat:uint16_t],
       shared: %w[output_min:int16_t output_max:int16_t measurement_min:int16_t measurement_max:int16_t
                  reach_min:int16_t reach_max:int16_t band:uint16_t patience:uint16_t options:uint8_t],
-      calls: [{ object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] },
+      calls: [{ object: 'guard', calls: 5000, functions: { 'fixpid_guard_step' => 'step' }, pic: %w[pointer object] },
               # A PIC16 has no room for its pointers, and no bound where its code lies in pages.
               { object: 'guard', calls: 20_000, functions: { 'fixpid_guard_step' => 'step' }, kinds: %i[pic16], pic: %w[object],
                 rows: 100, unbounded: %w[fixpid_guard_step] }]
@@ -57,13 +57,13 @@ module Modules
       # The search turns 8 times and the division by hand 16 times, in the order of the code;
       # each is left or tested once more. A Cortex-M0 divides by a routine that jumps into
       # its own loop, so that no bound can be told.
-      calls: [{ calls: 5000, functions: { 'fixpid_table_at' => 'at' }, without: /_avr\.o\z/, kinds: %i[avr pic],
+      calls: [{ calls: 2000, functions: { 'fixpid_table_at' => 'at' }, without: /_avr\.o\z/, kinds: %i[avr pic],
                 turns: { 'fixpid_table_at' => [9, 17], 'rise_at' => 17 } },
-              { calls: 5000, functions: { 'fixpid_table_at_P' => 'at, in flash' }, without: /_fixpid_table\.o\z/, kinds: %i[avr],
+              { calls: 2000, functions: { 'fixpid_table_at_P' => 'at, in flash' }, without: /_fixpid_table\.o\z/, kinds: %i[avr],
                 turns: { 'fixpid_table_at_P' => [9, 17] } },
-              { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] },
+              { calls: 2000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[arm], unbounded: %w[fixpid_table_at] },
               # A bank of a PIC16 holds fewer points, and it jumps to an address that it calculates.
-              { calls: 5000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[pic16], rows: 100, flags: %w[-DPOINTS=16],
+              { calls: 2000, functions: { 'fixpid_table_at' => 'at' }, kinds: %i[pic16], rows: 100, flags: %w[-DPOINTS=16],
                 unbounded: %w[fixpid_table_at] }]
     },
     'record' => {
@@ -93,9 +93,9 @@ module Modules
     'pid' => {
       title: 'PID', what: 'The general-purpose controller',
       fuzz: [20_000, 1024], narrow: true,
-      calls: [{ object: 'pid', calls: 5000, functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
+      calls: [{ object: 'pid', calls: 2000, functions: { 'pid_change' => 'set_gains and seed', 'fixpid_pid_track' => 'track' },
                 program: %w[test/chips/modules/steps_pid.c] },
-              { object: 'pid', calls: 5000,
+              { object: 'pid', calls: 2000,
                 functions: { 'fixpid_pid_set_limits' => 'set_limits', 'fixpid_pid_set_integral_limits' => 'set_integral_limits' },
                 program: %w[test/chips/modules/steps_pid.c] },
               # A turn for each place of the derivative filter, and the test that ends it.
@@ -113,10 +113,10 @@ module Modules
       # by eight turns; both test once more than they turn. A result is what a table of
       # operations calculates, some of them until a number is 0: it has no bound. It fills a
       # PIC18, in object mode, and so does not tell the kinds of its steps apart there.
-      calls: [{ object: 'tuner', calls: 60_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
+      calls: [{ object: 'tuner', calls: 20_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
                 flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_end_cycle' => 17, 'amplitude_for' => 17, 'share' => 9 } },
-              { object: 'tuner', calls: 20_000, kinds: %i[pic], program: [], pic: %w[object],
+              { object: 'tuner', calls: 10_000, kinds: %i[pic], program: [], pic: %w[object],
                 functions: { 'fixpid_autotune_step_tuner' => 'any step', 'fixpid_autotune_result_tuner' => 'result' },
                 turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result_tuner] }]
     },

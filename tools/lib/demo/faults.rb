@@ -205,7 +205,7 @@ CHIP_FAULTS = {
   'motor_atmega328p' => ChipFaults.new(example: 'motor', runs: 36, long_runs: 1400, watchdog_s: 32e-3),
   'oven' => ChipFaults.new(example: 'oven', runs: 0, long_runs: 36, watchdog_s: 4.5 * 32e-3),
   'thermostat' => ChipFaults.new(example: 'thermostat', runs: 0, long_runs: 72, watchdog_s: 4.5 * 32e-3),
-  'thermostat_atmega328p' => ChipFaults.new(example: 'thermostat', runs: 2, long_runs: 72, watchdog_s: 32e-3)
+  'thermostat_atmega328p' => ChipFaults.new(example: 'thermostat', runs: 0, long_runs: 72, watchdog_s: 32e-3)
 }.freeze
 RESET_PLACES = 200 # of one pass, as in sim/faults/faults.c
 

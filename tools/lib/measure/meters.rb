@@ -5,7 +5,7 @@ require_relative 'cores'
 require_relative 'kept'
 require_relative '../bound'
 
-RANDOM_STEPS = 20_000
+RANDOM_STEPS = 5000
 SEARCH = [30_000, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
 LONG_SEARCH = [200_000, 3].freeze
 QUESTIONS = [nil, 'REDUCED'].freeze # of enum search_questions
