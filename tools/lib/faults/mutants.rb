@@ -16,6 +16,8 @@ require_relative 'equivalents'
 require_relative 'faults'
 require_relative '../remembered'
 
+Encoding.default_external = 'UTF-8' # of what Ceedling prints
+
 ROOT = 'build/mutants'.freeze
 REPORT = 'build/test/mutants.txt'.freeze
 EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
