@@ -63,7 +63,6 @@ FAULTS = [
   ['tools/lib/pages/docs/assurance.rb', '`tools/demo random_plants`', '`tools/demo sky`', /no tools.demo sky/]
 ].freeze
 
-Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
   Gate.copy(folder)
   Dir.chdir(folder) do

@@ -15,6 +15,7 @@ require "#{PROJECT}/tools/lib/test/named"
 # As on a machine that no locale was chosen for.
 Encoding.default_external = 'UTF-8'
 ENV['LC_ALL'] = 'C'
+
 # What they judge is not remembered.
 %w[FIXPID_TALLY FIXPID_FRESH].each { |name| ENV.delete(name) }
 

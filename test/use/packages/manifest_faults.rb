@@ -99,7 +99,6 @@ def readable
   Gate.expect('and how to mend it', said.last.strip, 'ruby tools/lib/manifests.rb --update')
 end
 
-Encoding.default_external = 'UTF-8'
 Dir.mktmpdir do |folder|
   copy(folder)
   Dir.chdir(folder) do
