@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __CPROVER__
+#ifdef PROOF_WORD // CBMC
 #define must(condition, what) __CPROVER_assert(condition, what)
 #else
 #define must(condition, what) ((void)0)
@@ -126,7 +126,7 @@ static uint8_t flags_of(struct fixpid_an937 self)
 
 // Called where the assembly goes back; CBMC finds by itself what does not end,
 // and no example on a machine without an operating system goes back.
-#if defined(__CPROVER__) || (__STDC_HOSTED__ == 0)
+#if defined(PROOF_WORD) || (__STDC_HOSTED__ == 0)
 static void turned(void)
 {
 }

@@ -28,7 +28,7 @@ class AssemblyBreaks
     end
   end
 
-  # Whether a claim does not hold any more, and which.
+  # Whether a claim does not hold any more, and which, or there is nothing to ask.
   def judge(mutant, key)
     Seeded.in_tree(@build, key, mutant.file, mutant.source) do |tree|
       changed(mutant, tree).each do |claim, text|
@@ -37,10 +37,8 @@ class AssemblyBreaks
       end
     end
     [false, "#{key}: nobody noticed"]
-  rescue Translation::Refused
-    [true, "#{key}: refused by the assembler"]
-  rescue Translation::Unknown => e
-    [false, "#{key}: #{e.message}"]
+  rescue Translation::Unknown => e # of what is not broken, all is known
+    [true, "#{key}: refused: #{e.message.lines.first.chomp}"]
   end
 
   private

@@ -17,11 +17,8 @@ Disassembled = Struct.new(:address, :bytes, :name, :operands)
 #   CALLS       those that come back from there
 #   RETURNS     name => what it does before it returns
 class Translation
-  # What cannot be translated, and why.
+  # What cannot be translated, and why; or what no compiler or assembler takes.
   class Unknown < StandardError; end
-
-  # What a compiler or an assembler does not take.
-  class Refused < Unknown; end
 
   SKIPS = {}.freeze
   CALLS = [].freeze
@@ -150,7 +147,7 @@ class Translation
   # What a program prints.
   def self.said(*command)
     output, status = Open3.capture2e(*command)
-    status.success? or raise Refused, "#{command.join(' ')}\n#{output}"
+    status.success? or raise Unknown, "#{command.join(' ')}\n#{output}"
     output
   end
 end
