@@ -169,12 +169,13 @@ module Target
 
     # A program of all controllers, with the questions.
     def questions(machine, mode, source, steps, compared, options)
-      objects = mode == 'object' ? CONTROLLERS.map(&:name).uniq.map { |name| Images.object(name) } : []
+      controllers = CONTROLLERS.map(&:name).uniq
+      objects = mode == 'object' ? controllers.map { |controller| Images.object(controller) } : []
       name = ['questions', mode, source.tr('/', '_'), *options, steps, compared].join('-').gsub(/[^-\w]/, '')
       machine.program(name, [*options, "-I#{source}", "-DMACHINE_STEPS=#{steps}", "-DMACHINE_COMPARED=#{compared}", "#{HERE}/machine.c",
                              "#{HERE}/cases.c", *%w[reference reference_pid numbers numbers_pid].map { |file| "test/support/#{file}.c" },
-                             vectors, *Dir.glob("#{source}/**/fixpid_*.c").sort,
-                             *CONTROLLERS.map(&:name).uniq.map { |controller| "#{HERE}/driver_#{controller}.c" }, *objects])
+                             vectors, *Dir.glob("#{source}/{#{controllers.join(',')}}/fixpid_*.c").sort,
+                             *controllers.map { |controller| "#{HERE}/driver_#{controller}.c" }, *objects])
     end
 
     # The recorded rows as C, without the firmware's own cycles.
