@@ -8,21 +8,9 @@
 #include "pid/fixpid_pid_state.c"
 #include "pid/fixpid_pid_track.c"
 
-static struct fixpid_pid_gains any_gains(void)
-{
-    const struct fixpid_pid_gains gains = {
-        .kp_q8 = ANY_UINT16,
-        .ki_q24 = ANY_UINT32,
-        .kd_q8 = ANY_UINT16,
-        .derivative_filter = ANY_UINT8,
-    };
-
-    return gains;
-}
-
 static void set_any(struct fixpid_pid *c)
 {
-    const struct fixpid_pid_gains gains = any_gains();
+    const struct fixpid_pid_gains gains = ANY_GAINS;
 
     switch (ANY_OF(4)) {
     case 1:
@@ -97,17 +85,7 @@ static void call_any(struct fixpid_pid *c)
 
 void eva(void)
 {
-    const struct fixpid_pid_config config = {
-        .gains = any_gains(),
-        .output_min = ANY_INT16,
-        .output_max = ANY_INT16,
-        .integral_min = ANY_INT16,
-        .integral_max = ANY_INT16,
-        .setpoint_weight_q8 = ANY_UINT16,
-        .reverse = GOES_ON,
-        .derivative_on_error = GOES_ON,
-        .proportional_on_measurement = GOES_ON,
-    };
+    const struct fixpid_pid_config config = ANY_CONFIG;
     struct fixpid_pid c;
 
     (void)fixpid_pid_check(&config);

@@ -3,16 +3,25 @@
 
 #include "table/fixpid_table.c"
 
-void eva(void)
+// Behind its points the memory was never written.
+static void ask(uint8_t count)
 {
     struct fixpid_table_point points[255];
-    struct fixpid_table table = {points, 0};
+    const struct fixpid_table table = {points, count};
 
-    for (int i = 0; i < 255; i++) {
-        points[i].x = ANY_INT16;
-        points[i].y = ANY_INT16;
+    Frama_C_make_unknown((char *)points, count * sizeof points[0]);
+    if (GOES_ON) {
+        (void)fixpid_table_valid(&table);
+    } else {
+        (void)fixpid_table_at(&table, ANY_INT16);
     }
-    table.count = ANY_UINT8;
-    (void)fixpid_table_valid(&table);
-    (void)fixpid_table_at(&table, ANY_INT16);
+}
+
+void eva(void)
+{
+    int count;
+
+    for (count = 0; count <= 255; count++) {
+        ask((uint8_t)count);
+    }
 }
