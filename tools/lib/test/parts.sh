@@ -278,7 +278,7 @@ part_assembly() {
 part_breaks() {
     need ruby cc:gcc tcc :libc6-dev
     need_ceedling
-    count 'every sixth mutant' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb --some
+    count 'some mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb --some
 }
 
 part_mutants() {

@@ -28,7 +28,7 @@ class AssemblyBreaks
     end
   end
 
-  # Whether a claim does not hold any more, and which, or there is nothing to ask.
+  # Whether a claim does not hold any more, and which, or why no claim can be made of it.
   def judge(mutant, key)
     Seeded.in_tree(@build, key, mutant.file, mutant.source) do |tree|
       changed(mutant, tree).each do |claim, text|
