@@ -115,12 +115,13 @@ bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
 
 void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self)
 {
+    FIXPID_ASSERT(VALID(self));
+    SELF.flags = 0;
     fixpid_guard_acknowledge(self);
     SELF.last = 0;
     SELF.hold = 0;
     SELF.mark = 0;
     SELF.anchor = 0;
-    SELF.flags = 0;
     SELF.state &= REVERSED | NOISY;
 }
 

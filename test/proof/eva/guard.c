@@ -19,9 +19,6 @@ void eva(void)
     };
     struct fixpid_guard c;
 
-    if (GOES_ON) {
-        c.flags = 0; // always unwritten, Eva would end where reset reads it
-    }
     (void)fixpid_guard_init(&c, &config);
     while (GOES_ON) {
         if (GOES_ON) {
