@@ -179,7 +179,7 @@ sealed() {
 # gcc, whatever compiles the tests.
 need_ceedling() {
     need ruby gcc :libc6-dev
-    PATH=$PATH:$(ruby -e 'print Gem.bindir, ":", Gem.user_dir, "/bin"')
+    PATH=$PATH:$(ruby -rrubygems -e 'print Gem.bindir, ":", Gem.user_dir, "/bin"')
     command -v ceedling >/dev/null 2>&1 && return 0
     where=
     [ "$(id -u)" -eq 0 ] || where=--user-install

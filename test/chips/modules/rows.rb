@@ -29,8 +29,9 @@ puts '#ifdef __AVR__ // its RAM has no room for them', '#define IN_FLASH __flash
 entry[:rows].each { |column| table(column, values.call(column), 'ROWS') }
 if entry[:shared]
   each = entry[:shared].map(&values).transpose
-  entry[:shared].zip(each.uniq.transpose) { |column, some| table(column, some, some.size) }
-  which = each.map { |row| each.uniq.index(row) }
+  some = each.uniq
+  entry[:shared].zip(some.transpose) { |column, of_some| table(column, of_some, of_some.size) }
+  which = each.map(&some.each_with_index.to_h)
   abort "#{path}: more than 256 of them are shared" if which.max > 255
   table('shared:uint8_t', which, 'ROWS')
 end

@@ -17,12 +17,17 @@ module Inputs
     'sdcc' => %w[/usr/bin/sd* /usr/share/sdcc/**/*]
   }.freeze
   C_LIBRARY = %w[/usr/lib/*/{libc,libm,libstdc++}.so.6 /usr/lib/*/{libc.a,crt1.o} /usr/include/{stdio,features}.h].freeze
+  SETTLED_S = 2
   INCLUDE = /^[ \t]*#[ \t]*include[ \t]+["<]([^">]+)[">]/.freeze
 
   class << self
-    # By what is in them; files of which there are thousands, by size and time.
+    # By what is in them; files of which there are thousands, by size and time: what Debian
+    # has installed, and what setup.sh has sealed, which looks whether it is as it was.
     def digest(files)
-      Digest::SHA256.hexdigest(files.select { |file| File.file?(file) }.map { |file| "#{file} #{state(file)}\n" }.join)
+      installed = ['/usr/', '/opt/', *sealed.map { |seal| "#{File.dirname(seal)}/" }]
+      Digest::SHA256.hexdigest(files.select { |file| File.file?(file) }.map do |file|
+        "#{file} #{file.start_with?(*installed) ? stamp(file) : Digest::SHA256.file(file).hexdigest}\n"
+      end.join)
     end
 
     # What these names and patterns find in a folder, by content, wherever it is. Another
@@ -45,6 +50,7 @@ module Inputs
 
     # A Ruby gem, with those that it needs.
     def gem(name)
+      require 'rubygems' # which tools/test leaves out
       found = Gem::Specification.find_by_name(name)
       Dir.glob("#{found.full_gem_path}/**/*").sort + found.runtime_dependencies.flat_map { |other| gem(other.name) }
     rescue Gem::MissingSpecError
@@ -80,12 +86,25 @@ module Inputs
     private
 
     def content(path)
-      "#{File.executable?(path)} #{Digest::SHA256.file(path).hexdigest}" if File.file?(path)
+      status = File.stat(path)
+      "#{status.executable?} #{text_of(path, status)}" if status.file?
+    rescue Errno::ENOENT
+      nil # a link that leads nowhere
     end
 
-    def state(file)
-      return Digest::SHA256.file(file).hexdigest unless file.start_with?('/usr/', '/opt/')
+    # A file that nobody has touched is not read again, unless it is so new that its time
+    # may be that of two texts.
+    def text_of(path, status)
+      found = (@texts ||= {})[path]
+      seen = [status.ino, status.size, status.mode, status.ctime, status.mtime]
+      return found.last if found&.first == seen
 
+      text = Digest::SHA256.file(path).hexdigest
+      @texts[path] = [seen, text] if Time.now - status.ctime > SETTLED_S
+      text
+    end
+
+    def stamp(file)
       status = File.stat(file)
       "#{status.size} #{status.mtime.to_r}"
     end

@@ -54,11 +54,12 @@ module Seeded
          .flat_map { |of_line| of_line.each_with_index.to_a }.sort_by { |(_, key), round| [round, Digest::SHA256.hexdigest(key)] }.map(&:first)
   end
 
-  # Of each row `proof MODULE FORM WHAT: ...`.
+  # Of each row `proof MODULE FORM WHAT: ...`, for the first of its machines.
   def all(proofs)
+    named = proofs.reverse.to_h { |proof| [[proof.group, proof.form, proof.what].join(' '), proof] }
     Faults.of('proof').map do |fault|
       name = fault.words(1).join(' ')
-      proof = Proofs.find(proofs, name) or abort "prove: #{Faults::FILE}: no #{name}"
+      proof = named[name] or abort "prove: #{Faults::FILE}: no #{name}"
       Broken.new(proof, fault.file, fault.sources.fetch(fault.file), fault.to_s)
     end
   rescue Faults::Gone => e
