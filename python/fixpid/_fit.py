@@ -85,7 +85,18 @@ class _Points:
 
     def __init__(self, times, values):
         make = list if numpy is None else numpy.array
-        self.times, self.values, self.weights = make(times), make(values), make([1.0] * len(times))
+        self.times, self.values = make(times), make(values)
+        self._weigh_by(self._ones())
+
+    def _ones(self):
+        return [1.0] * len(self.times) if numpy is None else numpy.ones(len(self.times))
+
+    def _weigh_by(self, weights):
+        """What of a line through the points does not depend on a shape."""
+        self.weights = weights
+        self.total = float(sum(weights) if numpy is None else weights.sum())
+        self.mean, self.away = self._centred(self.values)
+        self.spread = self._product(self.away, self.away)
 
     def shape(self, kind, numbers):
         if numpy is None:
@@ -95,22 +106,20 @@ class _Points:
     def projected(self, kind, numbers):
         """The start and the rise that fit these numbers best, and what is left: a weighted line
         through the points (shape, value)."""
-        shape, total = self.shape(kind, numbers), float(sum(self.weights) if numpy is None else self.weights.sum())
-        mx, dx = self._centred(shape, total)
-        my, dy = self._centred(self.values, total)
-        xx, xy, yy = self._product(dx, dx), self._product(dx, dy), self._product(dy, dy)
+        mx, dx = self._centred(self.shape(kind, numbers))
+        xx, xy = self._product(dx, dx), self._product(dx, self.away)
         rise = xy / xx if xx > 0 else 0.0
-        left = yy - rise * xy
+        left = self.spread - rise * xy
         left = 0.0 if left < 0 else left
-        return {"kind": kind, **numbers, "rise": rise, "start": my - rise * mx, "error": math.sqrt(left / total),
-                "r2": 1 - left / yy if yy > 0 else 0.0}
+        return {"kind": kind, **numbers, "rise": rise, "start": self.mean - rise * mx,
+                "error": math.sqrt(left / self.total), "r2": 1 - left / self.spread if self.spread > 0 else 0.0}
 
-    def _centred(self, column, total):
+    def _centred(self, column):
         """Its weighted mean, and what it is away from it."""
         if numpy is None:
-            mean = sum(w * one for w, one in zip(self.weights, column)) / total
+            mean = sum(w * one for w, one in zip(self.weights, column)) / self.total
             return mean, [one - mean for one in column]
-        mean = float(self.weights @ column) / total
+        mean = float(self.weights @ column) / self.total
         return mean, column - mean
 
     def _product(self, a, b):
@@ -126,11 +135,11 @@ class _Points:
                 else abs(self.values - start - rise * at))
         far = 2.5 * 1.4826 * median(left)
         if not far > 0:
-            self.weights = type(self)(self.times, self.values).weights
+            self._weigh_by(self._ones())
         elif numpy is None:
-            self.weights = [far / one if one > far else 1.0 for one in left]
+            self._weigh_by([far / one if one > far else 1.0 for one in left])
         else:
-            self.weights = far / numpy.maximum(left, far)
+            self._weigh_by(far / numpy.maximum(left, far))
 
 
 def _lowest(f, start, sides, turns):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Replays the recorded rows of test/support/vectors/ through the package: replay.py FOLDER.
+"""Replays the recorded rows of test/support/vectors/ through the package: replay.py FOLDER [NAME]...
 
 Prints `ok NAME: N rows` or `FAILED NAME` with the rows that differ.
 """
@@ -357,9 +357,12 @@ def replay(path, count, thing, row_of):
     return compared, different
 
 
-def main(folder):
+def main(folder, *names):
     failed = 0
-    for name, count, make, row_of in FILES:
+    chosen = [row for row in FILES if not names or row[0] in names]
+    if len(chosen) < len(set(names)):
+        raise ValueError(f"one of these is not replayed: {', '.join(names)}")
+    for name, count, make, row_of in chosen:
         compared, different = replay(os.path.join(folder, name + ".csv"), count, make(), row_of)
         failed += 1 if different else 0
         all_rows = f"{count}" if compared == count else f"{compared} of {count}"
@@ -371,4 +374,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

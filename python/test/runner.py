@@ -28,10 +28,13 @@ def refuses(what, call, *arguments, **fields):
     return False
 
 
-def run(tests):
-    """All, and the exit status."""
+def run(tests, names=()):
+    """All, or those that are named, and the exit status."""
     failed = 0
-    for test in tests:
+    unknown = set(names) - {test.__name__ for test in tests}
+    if unknown:
+        sys.exit(f"no such test: {', '.join(sorted(unknown))}")
+    for test in (one for one in tests if not names or one.__name__ in names):
         try:
             test()
             print(f"ok {test.__name__}")

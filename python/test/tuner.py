@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tuner page's mathematics in Python: tuner.py TABLE HEADERS.
+"""The tuner page's mathematics in Python: tuner.py TABLE HEADERS [TEST]...
 
 TABLE has what the page computes, test/web/tuner/shared.json; HEADERS is include/, to compile a
 header with. Then what is Python's own: recordings, hardware, refusals, plots.
@@ -20,7 +20,7 @@ import fixpid
 from fixpid import _scene
 from runner import message, run, same
 
-TABLE, HEADERS = sys.argv[1:]
+TABLE, HEADERS, *NAMES = sys.argv[1:]
 with open(TABLE, encoding="utf-8") as file:
     ROWS = json.load(file)
 NEAR = 1e-9  # of a number: sums and exp() are rounded apart
@@ -503,4 +503,4 @@ run((near_tells_numbers_apart, columns_are_read_at_their_limits, fits_are_the_pa
      each_kind_is_tuned_and_simulated, what_is_no_step_is_refused, what_is_refused_can_be_looked_at,
      lags_that_are_no_part_of_a_step_are_simulated, tuning_is_on_the_hardware_that_is_given,
      without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do, a_simulated_loop_is_that_controllers,
-     plants_and_events_that_are_none_are_refused, the_header_compiles_to_these_gains, plots_have_what_they_show))
+     plants_and_events_that_are_none_are_refused, the_header_compiles_to_these_gains, plots_have_what_they_show), NAMES)
