@@ -5,7 +5,7 @@
 # test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
 # compiler refuses, what crashes and what does not end counts as neither. With
 # names of files only those are broken; within tools/test only those whose mutants
-# it does not remember. --some makes every sixth break of a file and every sixth fault.
+# it does not remember. --some makes every tenth break of a file and every tenth fault.
 # The chips' own folders of src/ are not broken here: their files compile to
 # nothing on this machine. test/chips/target breaks each once (`seeded`), and
 # tools/lib/faults/assembly.rb each instruction.
@@ -25,7 +25,7 @@ UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
 OF_LIBRARY = '/test_fixpid'.freeze # and of no example or port
 LINKING = Mutex.new
-SOME = 6 # of as many breaks --some makes one
+SOME = 10 # of as many breaks --some makes one
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze

@@ -9,7 +9,7 @@ PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this mac
 HOST = 64
 INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16.hh
 THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
-SLOW = %w[composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact recentre alike level kept whole].freeze # they take many seconds
+SLOW = %w[set_limits track valid cycle at relay scaling slew_reaches composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact recentre alike level kept whole].freeze # they take many seconds
 
 # One function of a harness, in one form, for one machine.
 Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
@@ -85,9 +85,14 @@ module Proofs
 
   # The file with a proof: MODULE.c, or a part of it, MODULE_PART.c, which is no module.
   def harness(group, what)
-    whole = "#{FOLDER}/#{group}.c"
-    parts = Dir["#{FOLDER}/#{group}_*.c"].sort - rows.map { |left,| "#{FOLDER}/#{left.split.first}.c" }
-    parts.find { |part| text(part).include?("void prove_#{what}(void)") } || whole
+    @harnesses ||= {}
+    @harnesses[[group, what]] ||=
+      parts(group).find { |part| text(part).include?("void prove_#{what}(void)") } || "#{FOLDER}/#{group}.c"
+  end
+
+  def parts(group)
+    @parts ||= {}
+    @parts[group] ||= Dir["#{FOLDER}/#{group}_*.c"].sort - rows.map { |left,| "#{FOLDER}/#{left.split.first}.c" }
   end
 
   # The files that a harness is compiled from, in a form.
@@ -111,12 +116,7 @@ module Proofs
   end
 
   def rows
-    text("#{FOLDER}/proofs.txt").lines(chomp: true).grep_v(/^#|^\s*$/).map { |line| line.split(' : ', 2) }
-  end
-
-  # Of the first of its machines.
-  def find(proofs, name)
-    proofs.find { |proof| proof.name.start_with?("#{name} ") }
+    @rows ||= text("#{FOLDER}/proofs.txt").lines(chomp: true).grep_v(/^#|^\s*$/).map { |line| line.split(' : ', 2) }
   end
 
   # What a harness proves and nobody runs, and the other way round.

@@ -259,6 +259,7 @@ part_gates() {
     need ruby cc:gcc tcc :libc6-dev clang clang-tidy cppcheck pmccabe g++ \
         avr-g++:gcc-avr :avr-libc gpasm:gputils dash node:nodejs npm
     need_ceedling
+    need_sdcc # what a gate starts need not try it again
     for gate in test/tools/gates/*.rb; do
         [ "${gate##*/}" = gate.rb ] || # which they share
             count "$gate" '^ok ' '^FAILED ' once whole ruby "$gate"
