@@ -17,7 +17,7 @@ module Inputs
     'sdcc' => %w[/usr/bin/sd* /usr/share/sdcc/**/*]
   }.freeze
   C_LIBRARY = %w[/usr/lib/*/{libc,libm,libstdc++}.so.6 /usr/lib/*/{libc.a,crt1.o} /usr/include/{stdio,features}.h].freeze
-  SETTLED_S = 2
+  SETTLED_S = 2 # longer than any clock of a file system needs to tell two texts apart
   INCLUDE = /^[ \t]*#[ \t]*include[ \t]+["<]([^">]+)[">]/.freeze
 
   class << self
@@ -86,15 +86,13 @@ module Inputs
     private
 
     def content(path)
-      status = File.stat(path)
-      "#{status.executable?} #{text_of(path, status)}" if status.file?
-    rescue Errno::ENOENT
-      nil # a link that leads nowhere
+      "#{File.executable?(path)} #{text_of(path)}" if File.file?(path)
     end
 
     # A file that nobody has touched is not read again, unless it is so new that its time
     # may be that of two texts.
-    def text_of(path, status)
+    def text_of(path)
+      status = File.stat(path)
       found = (@texts ||= {})[path]
       seen = [status.ino, status.size, status.mode, status.ctime, status.mtime]
       return found.last if found&.first == seen

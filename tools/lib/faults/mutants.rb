@@ -5,7 +5,7 @@
 # test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
 # compiler refuses, what crashes and what does not end counts as neither. With
 # names of files only those are broken; within tools/test only those whose mutants
-# it does not remember. --some makes every tenth break of a file and every tenth fault.
+# it does not remember. --some makes one in SOME breaks of a file, and faults.
 # The chips' own folders of src/ are not broken here: their files compile to
 # nothing on this machine. test/chips/target breaks each once (`seeded`), and
 # tools/lib/faults/assembly.rb each instruction.
