@@ -34,7 +34,7 @@ TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
 # What the page is made of: tools/lib/pages/tuner/sources.rb has the same.
 PAGE = [path for path in beside(TUNER, "*.c") if not path.endswith("main.c")] + [
-    os.path.join(SIM, "loops", "pid_double.c"), os.path.join(SIM, "plant", "plant.c"),
+    os.path.join(SIM, "loops", "pid_double.c"),
     *(os.path.join(SIM, "plant", f"plant_{plant}.c") for plant in ("motor", "oven", "pendulum", "process"))]
 PAGE_LIBRARY = ("fixpid_tuner", {
     "sources": PAGE, "cflags": ["-std=c99", "-ffp-contract=off", "-fno-builtin", "-D_DEFAULT_SOURCE"],

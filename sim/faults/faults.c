@@ -410,12 +410,12 @@ static struct fault_order shift_ticks(double ticks)
 }
 
 // Once in each tick, as long as the fault lasts.
-static struct fault_order shake_ticks(struct fault_order order)
+static void shake_ticks(struct fault_order *order)
 {
     const double ticks = floor(world_time_s() / TICK_S);
     if ((fault.kind < FAULT_TICKS_LOST) || (fault.kind > FAULT_TICKS_LATE) ||
         (ticks <= seen.ticks_seen)) {
-        return order;
+        return;
     }
     seen.ticks_seen = ticks;
     if (fault.kind == FAULT_TICKS_LATE) {
@@ -425,14 +425,16 @@ static struct fault_order shake_ticks(struct fault_order order)
     } else {
         // this tick is as it should be
     }
-    return shift_ticks(seen.ticks_ahead);
+    *order = shift_ticks(seen.ticks_ahead);
 }
 
-static struct fault_order mend(struct fault_order order)
+static void mend(struct fault_order *order)
 {
     seen.mended = true;
     world_break_input(fault.channel, WORLD_WHOLE, 0.0);
-    return (fault.kind == FAULT_TICKS_LATE) ? shift_ticks(0.0) : order;
+    if (fault.kind == FAULT_TICKS_LATE) {
+        *order = shift_ticks(0.0);
+    }
 }
 
 void faults_was_reset(void)
@@ -553,18 +555,25 @@ static bool over(double now_s)
 // What the fault does at this moment: one thing at most, by its kind.
 static struct fault_order act(double now_s)
 {
+    const bool rests =
+        seen.struck ? (seen.mended || stays()) : (now_s < fault.at_s);
+    const bool hangs = (seen.next_hang_s > 0.0) && (now_s >= seen.next_hang_s);
+    if (rests && !hangs) { // nearly always, so it is told first
+        return (struct fault_order){.deed = FAULT_GO_ON};
+    }
+
     struct fault_order order = {.deed = FAULT_GO_ON};
     if (!seen.struck && (now_s >= fault.at_s)) {
         order = strike();
     }
     if (seen.struck && !seen.mended && !stays()) {
         if (now_s < (fault.at_s + fault.for_s)) {
-            order = shake_ticks(order);
+            shake_ticks(&order);
         } else {
-            order = mend(order);
+            mend(&order);
         }
     }
-    if ((seen.next_hang_s > 0.0) && (now_s >= seen.next_hang_s)) {
+    if (hangs) {
         seen.hangs_left--;
         seen.next_hang_s = 0.0;
         order = hang();

@@ -40,7 +40,10 @@ static double delayed(struct lags_motion *self, double output)
     if (self->dead_parts > 0) {
         oldest = self->line[self->oldest];
         self->line[self->oldest] = output;
-        self->oldest = (self->oldest + 1) % self->dead_parts;
+        self->oldest++;
+        if (self->oldest == self->dead_parts) {
+            self->oldest = 0;
+        }
     }
     return oldest;
 }

@@ -11,7 +11,6 @@
 #include "plant_process.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("sim/plant/plant.c")
 TEST_SOURCE_FILE("sim/plant/plant_motor.c")
 TEST_SOURCE_FILE("sim/plant/plant_oven.c")
 TEST_SOURCE_FILE("sim/plant/plant_pendulum.c")

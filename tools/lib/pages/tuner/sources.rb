@@ -5,7 +5,7 @@
 # natively with the same arithmetic.
 module Sources
   LIBRARY = (Dir['src/*/*.c'] - Dir['src/*/*_{pic14,pic18}.c']).sort.freeze
-  PLANTS = (Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort + ['sim/plant/plant.c']).freeze
+  PLANTS = Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort.freeze
   TUNER = %w[sim/loops/pid_double.c sim/tuner/fit.c sim/tuner/params.c sim/tuner/scene.c sim/tuner/twin.c sim/tuner/tuner.c].freeze
   LINK = Dir['sim/link/*.c'].sort.freeze # the other end of a board
   PATHS = %w[-Isim/tuner/libm -Iinclude -Isrc -Isim/plant -Isim/loops -Isim/tuner -Isim/link].freeze
