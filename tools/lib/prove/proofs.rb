@@ -9,7 +9,7 @@ PRIMITIVES = 'primitives'.freeze # the harness that tries all cases, on this mac
 HOST = 64
 INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16.hh
 THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
-SLOW = %w[set_limits track valid cycle at relay scaling slew_reaches composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact recentre alike level kept whole].freeze # they take many seconds
+SLOW = %w[modes noise step_exact integrate ends candidate_rises receive limit_rises turn set_limits track valid cycle at relay scaling slew_reaches composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact recentre alike level kept whole].freeze # they take many seconds
 
 # One function of a harness, in one form, for one machine.
 Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
