@@ -153,8 +153,8 @@ module Assurance
                "#{long} here in [faults.md](faults.md#many-more), with an older version of the motor and the oven",
                '`tools/demo faults faults_chip`'),
      Claim.new('measured', "what a flip elsewhere in a chip does: in the port's variables, the others, the registers, the stack in RAM",
-               "#{FaultPlaces::RUNS} flips in each place of #{FaultPlaces::CHIPS.size} firmwares; those where the simulator stops show nothing: " \
-               '[faults.md](faults.md#elsewhere-in-a-chip)', '`tools/demo faults_places`')]
+               "#{FaultPlaces::LONG_RUNS} flips in each place of #{FaultPlaces::CHIPS.size} firmwares; those where the simulator stops show nothing: " \
+               '[faults.md](faults.md#elsewhere-in-a-chip)', '`tools/demo --long faults_places`')]
   end
 
   def of_the_tests
