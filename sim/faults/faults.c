@@ -410,12 +410,12 @@ static struct fault_order shift_ticks(double ticks)
 }
 
 // Once in each tick, as long as the fault lasts.
-static void shake_ticks(struct fault_order *order)
+static struct fault_order shake_ticks(struct fault_order order)
 {
     const double ticks = floor(world_time_s() / TICK_S);
     if ((fault.kind < FAULT_TICKS_LOST) || (fault.kind > FAULT_TICKS_LATE) ||
         (ticks <= seen.ticks_seen)) {
-        return;
+        return order;
     }
     seen.ticks_seen = ticks;
     if (fault.kind == FAULT_TICKS_LATE) {
@@ -425,16 +425,14 @@ static void shake_ticks(struct fault_order *order)
     } else {
         // this tick is as it should be
     }
-    *order = shift_ticks(seen.ticks_ahead);
+    return shift_ticks(seen.ticks_ahead);
 }
 
-static void mend(struct fault_order *order)
+static struct fault_order mend(struct fault_order order)
 {
     seen.mended = true;
     world_break_input(fault.channel, WORLD_WHOLE, 0.0);
-    if (fault.kind == FAULT_TICKS_LATE) {
-        *order = shift_ticks(0.0);
-    }
+    return (fault.kind == FAULT_TICKS_LATE) ? shift_ticks(0.0) : order;
 }
 
 void faults_was_reset(void)
@@ -568,9 +566,9 @@ static struct fault_order act(double now_s)
     }
     if (seen.struck && !seen.mended && !stays()) {
         if (now_s < (fault.at_s + fault.for_s)) {
-            shake_ticks(&order);
+            order = shake_ticks(order);
         } else {
-            mend(&order);
+            order = mend(order);
         }
     }
     if (hangs) {
