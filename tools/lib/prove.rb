@@ -15,6 +15,8 @@ require_relative 'prove/reach'
 require_relative 'prove/seeded'
 require_relative 'remembered'
 
+Encoding.default_external = 'UTF-8' # CBMC's, whatever the locale
+
 BUILD = 'build/prove'.freeze
 INPUTS = %w[include/**/* src/**/* test/proof/**/*].freeze
 

@@ -25,7 +25,7 @@ UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
 OF_LIBRARY = '/test_fixpid'.freeze # and of no example or port
 LINKING = Mutex.new
-SOME = 20 # of as many breaks --some makes one
+SOME = 60 # of as many breaks --some makes one
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
