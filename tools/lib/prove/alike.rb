@@ -14,9 +14,8 @@ require_relative 'cbmc'
 class Alike
   SECONDS = { any: 3, sound: 60 }.freeze
   FUNCTION = /^(?!typedef)(\w[\w \n*]*?)\b(\w+)\(([^;{}]*?)\)\s*\{.*?^\}/m.freeze
-  SOUND = /^static _Bool (sound_settings|sound)\(const struct (\w+) \*/.freeze
+  SOUND = /^static\s+_Bool\s+(sound_settings|sound)\(const struct (\w+) \*/.freeze
   COMING = %w[--unwind 200 --drop-unused-functions --slice-formula --no-standard-checks].freeze # no number is of interest
-  PUBLIC = Dir['include/*.h'].flat_map { |file| File.read(file).scan(/\b(fixpid_\w+)\(/).flatten }.uniq.freeze
   FROM_ANY = /_(?:init|restore)(?:_c)?\z/.freeze # they take an object of any bytes
 
   # One as a preprocessor leaves it.
@@ -25,8 +24,8 @@ class Alike
       type.gsub(/\b(?:static|inline|const|extern)\b/, '').strip
     end
 
-    def public?
-      !type.include?('static') && PUBLIC.include?(name.delete_suffix('_c'))
+    def static?
+      type.include?('static')
     end
 
     # Of each its type, its name, and the elements of an array.
@@ -100,7 +99,7 @@ class Alike
     object = @object ? '&c' : was.arguments.first[1]
     asking = "static _Bool #{@sound}(const struct #{@type} *);\n#{was.head}\n{\n" \
              "__CPROVER_assert(#{@sound}(#{object}), \"sound\");\n#{was.body.sub('{', '')}"
-    callers(function.name).select(&:public?).all? do |entry|
+    callers(function.name).select { |one| public?(one) }.all? do |entry|
       proved?(<<~C, SECONDS[:sound], COMING, [])
         #{needed(entry.text, :sound).sub(was.text) { asking }}
         void both(void)
@@ -110,6 +109,11 @@ class Alike
         }
       C
     end
+  end
+
+  def public?(function)
+    @declared ||= Dir['include/*.h'].flat_map { |file| File.read(file).scan(/\b(fixpid_\w+)\(/).flatten }.uniq
+    !function.static? && @declared.include?(function.name.delete_suffix('_c'))
   end
 
   # Itself, and what comes to it.

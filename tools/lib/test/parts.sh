@@ -315,6 +315,9 @@ part_variants() {
 
 # The runner, and what it runs in a few minutes.
 part_proofs() {
+    need ruby cc:gcc
+    need_cbmc
+    count 'functions that are changed' '^ok ' '^FAILED ' once whole ruby test/proof/alike.rb
     count 'test/proof/run' '^ok ' '^FAILED ' once whole test/proof/run
     count 'tools/prove --quick' '^ok ' '^FAILED ' once whole tools/prove --quick
 }
