@@ -54,7 +54,7 @@ class Alike
     @proof = proof
     @build = build
     @answers = answers
-    @object = proof.options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1]&.downcase
+    @object = proof.object
     @text = text('.')
     @functions = functions(@text)
     @sound, @type = @text.match(SOUND)&.captures
@@ -191,8 +191,7 @@ class Alike
   end
 
   def text(tree)
-    tool('goto-cc', "--#{@proof.word}", '-E', "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}", "-I#{FOLDER}/model",
-         "-I#{tree}/include", "-I#{tree}/src", @proof.harness).lines.grep_v(/^#|^\s*$/).join
+    tool('goto-cc', '-E', *@proof.flags(tree), @proof.harness).lines.grep_v(/^#|^\s*$/).join
   end
 
   # Gives what it says.

@@ -112,8 +112,7 @@ class Cbmc
   # What stands behind the names of a module's functions: FIXPID_MARKED in
   # include/fixpid.h.
   def mark(name)
-    noun = @proof.options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1].to_s.downcase
-    !noun.empty? && name.start_with?("fixpid_#{noun}_") ? '_c' : ''
+    @proof.object && name.start_with?("fixpid_#{@proof.object}_") ? '_c' : ''
   end
 
   def tool(name, *arguments)
@@ -126,9 +125,7 @@ class Cbmc
     FileUtils.rm_rf(@folder)
     FileUtils.mkdir_p(@folder)
     program = "#{@folder}/program"
-    tool('goto-cc', "--#{@proof.word}", "-DPROOF_WORD=#{@proof.word}", *@proof.options, "-I#{FOLDER}",
-         "-I#{FOLDER}/model", "-I#{@tree}/include", "-I#{@tree}/src", *(to_its_end ? ended : [@proof.harness, '--function', @proof.function]),
-         '-o', program) or return nil
+    tool('goto-cc', *@proof.flags(@tree), *(to_its_end ? ended : [@proof.harness, '--function', @proof.function]), '-o', program) or return nil
     @proof.contracts.each do |function, other|
       replaced = "#{program}-#{function}"
       tool('goto-instrument', '--replace-calls', "#{function}#{mark(function)}:#{other}", program, replaced) or return nil

@@ -39,6 +39,16 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
     group == THEOREMS
   end
 
+  # What goto-cc takes for it, with the sources of a tree.
+  def flags(tree)
+    ["--#{word}", "-DPROOF_WORD=#{word}", *options, "-I#{FOLDER}", "-I#{FOLDER}/model", "-I#{tree}/include", "-I#{tree}/src"]
+  end
+
+  # The module whose functions are those of one object, `c`, or nil.
+  def object
+    options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1]&.downcase
+  end
+
   def harness
     theorem? ? "#{FOLDER}/#{THEOREMS}/#{form}.c" : Proofs.harness(group, what)
   end
