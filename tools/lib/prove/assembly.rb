@@ -224,6 +224,8 @@ end
 
 # What Cbmc and Exhaustion are asked for: a claim's program, as a proof.
 Written = Struct.new(:name, :harness, :options) do
+  include Compiled
+
   def word
     HOST
   end

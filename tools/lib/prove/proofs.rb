@@ -11,8 +11,23 @@ INT_16 = '-DPRIMITIVES_INT_16'.freeze # with an int of 16 bits: test/proof/int16
 THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
 SLOW = %w[modes noise step_exact integrate ends candidate_rises receive limit_rises turn set_limits track valid cycle at relay scaling slew_reaches composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact recentre alike level kept whole].freeze # they take many seconds
 
+# Of what CBMC is asked: how its harness is compiled.
+module Compiled
+  # What goto-cc takes for it, with the sources of a tree.
+  def flags(tree)
+    ["--#{word}", "-DPROOF_WORD=#{word}", *options, "-I#{FOLDER}", "-I#{FOLDER}/model", "-I#{tree}/include", "-I#{tree}/src"]
+  end
+
+  # The module whose functions are those of one object, `c`, or nil.
+  def object
+    options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1]&.downcase
+  end
+end
+
 # One function of a harness, in one form, for one machine.
 Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
+  include Compiled
+
   def name
     "#{group} #{form} #{what} #{word}"
   end
@@ -37,16 +52,6 @@ Proof = Struct.new(:group, :form, :options, :what, :word, :first) do
 
   def theorem?
     group == THEOREMS
-  end
-
-  # What goto-cc takes for it, with the sources of a tree.
-  def flags(tree)
-    ["--#{word}", "-DPROOF_WORD=#{word}", *options, "-I#{FOLDER}", "-I#{FOLDER}/model", "-I#{tree}/include", "-I#{tree}/src"]
-  end
-
-  # The module whose functions are those of one object, `c`, or nil.
-  def object
-    options.join(' ')[/-DFIXPID_(\w+)_OBJECT=c\b/, 1]&.downcase
   end
 
   def harness
