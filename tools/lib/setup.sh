@@ -2,6 +2,10 @@
 # shellcheck shell=sh
 # Sourced by the tools: says what is missing and installs it.
 
+# Large pages, where the kernel gives them only to what asks: SDCC and gpasm, of which
+# there are thousands of runs, then take a third less of a virtual machine's time.
+export GLIBC_TUNABLES="${GLIBC_TUNABLES:-glibc.malloc.hugetlb=1}"
+
 say() {
     printf '%s: %s\n' "${0##*/}" "$*" >&2
 }

@@ -66,10 +66,6 @@ Gate.refused('an equivalent for the same line of another function',
 Gate.refused('an equivalent for a line that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
              /No longer true .*value--/)
 Gate.refused('an equivalent for a file that is gone', mutants(equivalents: SAME + ['src/toy/fixpid_toys.c, f: x = 0;: `0` -> `1`']), /names what is not broken/)
-Gate.passed('some breaks, and a line for one that is not made', mutants('--some'))
-Gate.refused('some breaks, of which one is unnoticed', mutants('--some', equivalents: SAME.drop(1)), /Nobody notices: .*`<` -> `<=`/)
-Gate.refused('and a line for one that is gone', mutants('--some', equivalents: SAME + ['src/toy/fixpid_toy.c, fixpid_toy_low: value--;: `--` -> `++`']),
-             /No longer true .*value--/)
 Gate.refused('an equivalent twice', mutants(equivalents: SAME + SAME), /named twice/)
 Gate.refused('a line that is no equivalent', mutants(equivalents: SAME + ['And all others.']), /not an equivalent/)
 Gate.refused('a fault that another test notices', mutants(faults: FAULT.sub('test_high', 'test_low')), /^FAILED test_low notices .*test_high/)

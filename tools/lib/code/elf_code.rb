@@ -4,18 +4,26 @@
 require_relative 'code'
 require_relative 'timing'
 
-# What objdump and nm say of an ELF file.
+# What objdump says of an ELF file.
 class ElfCode < Code
+  # Of what a table has, its own and files' names are marked by a d.
+  SYMBOL = /^(\h+) .{5}[^d]. (?!\*UND\*)\S+\t(\h+) (?:\.hidden )?(?!\$)(\S+)$/.freeze
   LINE = /^\s*(\h+):\t([\h ]+?)\s*\t(\S+)(?:\t([^;@<\n]*))?/.freeze
 
   def initialize(path, tools)
     @tools = tools
-    @symbols = named_apart(`#{tools}-nm -S #{path}`.scan(/^(\h+) (?:(\h+) )?\w (\S+)$/))
+    said = `#{tools}-objdump -t -d -z -w #{path}`
+    @symbols = named_apart(said.scan(SYMBOL))
     super(@symbols.select { |_, (_, bytes)| bytes.positive? }.transform_values { |address, _| address & mask })
     @lines = {}
-    `#{tools}-objdump -d -z -w #{path}`.scan(LINE) do |address, raw, mnemonic, operands|
+    said.scan(LINE) do |address, raw, mnemonic, operands|
       @lines[address.hex] = [raw.delete(' ').size / 2, mnemonic, operands.to_s.strip]
     end
+  end
+
+  # The same instructions, which cost what another timing says.
+  def timed(timing)
+    dup.tap { |other| other.timing = timing }
   end
 
   def symbol(name)
@@ -36,13 +44,22 @@ class ElfCode < Code
     `#{@tools}-size #{objects.join(' ')}`.lines.drop(1).sum { |line| line.split[1, 2].sum(&:to_i) }
   end
 
+  protected
+
+  attr_writer :timing
+
   private
+
+  def initialize_copy(other)
+    super
+    @decoded = {}
+  end
 
   # Each source may have a static function of one name: all but the first get a number.
   def named_apart(lines)
     lines.group_by(&:last).flat_map do |name, like|
       like.each_with_index.map do |(address, bytes, _), i|
-        [i.zero? ? name : "#{name}~#{i + 1}", [address.hex, bytes.to_s.hex]]
+        [i.zero? ? name : "#{name}~#{i + 1}", [address.hex, bytes.hex]]
       end
     end.to_h
   end

@@ -5,7 +5,7 @@
 # test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
 # compiler refuses, what crashes and what does not end counts as neither. With
 # names of files only those are broken; within tools/test only those whose mutants
-# it does not remember. --some makes one in SOME breaks of a file, and faults.
+# it does not remember.
 # The chips' own folders of src/ are not broken here: their files compile to
 # nothing on this machine. test/chips/target breaks each once (`seeded`), and
 # tools/lib/faults/assembly.rb each instruction.
@@ -25,7 +25,6 @@ UNITY = "#{ROOT}/ceedling/vendor/unity/src".freeze
 WORKERS = 2
 OF_LIBRARY = '/test_fixpid'.freeze # and of no example or port
 LINKING = Mutex.new
-SOME = 60 # of as many breaks --some makes one
 SECONDS_MOST = 1 # of a processor's time: no test takes half of one
 NARROW = %w[-D_PIC14].freeze
 EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127].freeze
@@ -314,19 +313,15 @@ def results_of(mutants)
 end
 
 # The lines of a file, and whether they are good: every survivor is named there, and what
-# is named there survives, if it was made.
+# is named there survives.
 def judged(file, results, keys, equivalents)
   survivors = results.select { |_, caught| caught.nil? }.map { |mutant, _| keys.fetch(mutant) }
   unexplained = survivors.reject { |key| equivalents.cover?(key) }
-  stale = equivalents.stale(file, survivors) - keys.except(*results.map(&:first)).values
+  stale = equivalents.stale(file, survivors)
   good = unexplained.empty? && stale.empty?
   [good, ["#{good ? 'ok' : 'FAILED'} #{file}: #{results.size} mutants, #{survivors.size} noticed by no test",
           *unexplained.map { |key| "Nobody notices: #{key}" },
           *stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }]]
-end
-
-def chosen_of(list)
-  list.each_slice(STRIDE).map(&:first)
 end
 
 # What breaking a file came to: its lines, the report's, and by what the mutants ended.
@@ -338,7 +333,7 @@ def verdict_of(file, equivalents)
   RUNS[file].each { |run| REACHED[[file, run]] = reached_lines(file, run, "#{ROOT}/0") }
   RUNS[file].any? { |run| REACHED[[file, run]].any? } or abort "FAILED no test of #{file} reads it"
   mutants = Breaks.of(file)
-  results = results_of(chosen_of(mutants))
+  results = results_of(mutants)
   ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught || :nobody }.transform_values(&:size)
   good, lines = judged(file, results, EquivalentMutants.keys(mutants, File.read(file)), equivalents)
   tell('lines' => lines, 'report' => results.map { |mutant, caught| "#{mutant}: #{caught || 'nobody'}" },
@@ -366,7 +361,7 @@ def good?(file, equivalents)
   tests = runs_of(file).map { |run| [run.test, run.options] }.uniq
   inputs = made_from([file, *tests.map { |test, _| program_of(test) }.compact])
   told = TOLD.size
-  verdict = REMEMBERED.of(file, files: inputs, words: [tests, equivalents.of(file), STRIDE]) { verdict_of(file, equivalents) }
+  verdict = REMEMBERED.of(file, files: inputs, words: [tests, equivalents.of(file)]) { verdict_of(file, equivalents) }
   tell(verdict) if verdict && TOLD.size == told
   !verdict.nil?
 end
@@ -422,13 +417,12 @@ REACHED = {} # by file and run
 RUNS = Hash.new { |runs, file| runs[file] = runs_of(file) }
 equivalents = EquivalentMutants.new(EQUIVALENT)
 FileUtils.mkdir_p(File.dirname(REPORT))
-STRIDE = ARGV.delete('--some') ? SOME : 1
 only = ARGV # files
 files = (Dir['src/*/*.[ch]', 'include/*.h'] - Dir[OF_CHIPS]).sort.reject { |file| Breaks.of(file).empty? }
 chosen = files.select { |file| only.empty? || only.include?(file) }
 good = chosen.map { |file| good?(file, equivalents) }
 faults = Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }
-good += chosen_of(faults).map { |fault| noticed_by_name?(fault) }
+good += faults.map { |fault| noticed_by_name?(fault) }
 strangers = equivalents.strangers(files)
 puts strangers.map { |key| "FAILED #{EQUIVALENT} names what is not broken: #{key}" }
 tell_all

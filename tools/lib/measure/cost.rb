@@ -20,10 +20,11 @@ require_relative 'together'
 
 Encoding.default_external = 'UTF-8'
 
-# What measures a part, or all of it.
+# What measures a part, or all of it but what is left out.
 class Cost
-  def initialize(subjects, modules)
-    @subjects = subjects
+  def initialize(subjects, modules, left_out = [])
+    @subjects = subjects - left_out
+    @left_out = left_out
     @modules = modules
     @remembered = RememberedFigures.new
     @done = 0
@@ -47,7 +48,7 @@ class Cost
   def check
     good = limits.all.map { |limit| tell(limit.good?, limit.what, limit.wrong) }
     all_parts.each do |document, name, rows|
-      changes = Document.new(document).replace(name, rows)
+      changes = Document.new(document).replace(name, rows, @left_out.map { |one| [one.controller.title, one.chip.title, one.built] })
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
     warn 'cost: tools/cost --update renews the tables, --tighten and --loosen the limits' unless good.all?
@@ -150,7 +151,7 @@ class Cost
   end
 
   def limits
-    @limits ||= Limits.new(measured, called, plain_c)
+    @limits ||= Limits.new(measured, called, plain_c, left_out: @left_out.map(&:key))
   end
 
   def all_parts
@@ -191,9 +192,9 @@ def main(mode, root = nil, *words)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
   seed = words.shift if mode == 'search'
-  cost = Cost.new(*chosen(mode == 'loosen' ? [] : words))
+  cost = Cost.new(*chosen(mode == 'loosen' ? [] : words), mode == 'daily' ? Subject.all.select { |one| one.chip.weekly } : [])
   case mode
-  when 'check' then cost.check
+  when 'check', 'daily' then cost.check
   when 'update' then cost.update
   when 'search' then cost.search(seed)
   when 'tighten' then cost.tighten

@@ -15,6 +15,8 @@ module Host
       @root = root
       @folder = "#{root}/build/cost"
       @running = {}
+      @shared = {}
+      @sharing = Mutex.new
       FileUtils.mkdir_p(@folder)
     end
 
@@ -35,6 +37,11 @@ module Host
         @running.delete(process.pid)
         [text, process.value.success?]
       end
+    end
+
+    # A path that the block has made what several need, once.
+    def shared(path)
+      @sharing.synchronize { @shared[path] ||= yield(path) && path }
     end
 
     # When we are stopped, none is left behind.

@@ -50,12 +50,13 @@ class Limits
   end
 
   # What was measured: { subject => figures }, { subject => { function => figures } } and
-  # { subject => the worst of its straightforward form }.
-  def initialize(measured, called, plain_c, path = "#{Host.root}/#{FILE}")
+  # { subject => the worst of its straightforward form }. Of the rows `left_out` none is judged.
+  def initialize(measured, called, plain_c, path = "#{Host.root}/#{FILE}", left_out: [])
     @rows = rows(measured, called)
     @measured = measured
     @plain_c = plain_c
     @path = path
+    @left_out = left_out
     @lines = read
   end
 
@@ -99,7 +100,7 @@ class Limits
     head, *lines = File.readlines(@path, chomp: true).map { |line| line.split(',', 4) }
     raise Host::Failure, "#{FILE}:1: the columns are not #{HEAD.join(', ')}" if head != HEAD
 
-    lines.each_with_index.map { |cells, at| line(cells, "#{FILE}:#{at + 2}") }
+    lines.each_with_index.reject { |cells, _| @left_out.include?(cells.first) }.map { |cells, at| line(cells, "#{FILE}:#{at + 2}") }
   end
 
   def line((row, figure, most, reason), place)

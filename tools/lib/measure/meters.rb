@@ -242,10 +242,14 @@ class PicMeter < Meter
   end
 
   # Two more for the sizes: one with only the calls that every application has,
-  # and one with none.
-  def build_for_sizes
-    link("#{@path}-bare", *together("test/tools/cost/bare_#{@controller.name}.c", *@subject.sources))
-    link("#{@path}-nothing", *together('test/tools/cost/bare_nothing.c'))
+  # and one with none, which is the same for all of a chip.
+  def sizes_from
+    bare = "#{@path}-bare"
+    link(bare, *together("test/tools/cost/bare_#{@controller.name}.c", *@subject.sources))
+    nothing = Host.shared("#{Host.folder}/nothing-#{[@subject.chip.name, *banks].join}") do |path|
+      link(path, *together('test/tools/cost/bare_nothing.c'))
+    end
+    [bare, nothing].map { |path| code_of(path) }
   end
 
   # A PIC16's as tools/firmware does it: compiled as one file, functions share
@@ -287,9 +291,7 @@ class PicMeter < Meter
 
   # What a firmware grows by.
   def sizes(_code)
-    build_for_sizes
-    bare = code_of("#{@path}-bare")
-    nothing = code_of("#{@path}-nothing")
+    bare, nothing = sizes_from
     instance = bare.object_size("#{@controller.name}_controller")
     { linked: bare.library_flash - nothing.library_flash, instance: instance,
       fixed: bare.ram_bytes - nothing.ram_bytes - instance, step_variables: step_variables }
@@ -383,12 +385,8 @@ class QemuMeter < AvrMeter
     @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
   end
 
-  def code_by(timing)
-    CODES.fetch(@subject.chip.name).new("#{@path}.elf", timing)
-  end
-
   # The bound in cycles, by each of the core's timings.
   def cycles
-    TIMINGS.fetch(@subject.chip.name).map { |timing| longest(code_by(timing)).function(read_code.entry(@step)).cost }
+    TIMINGS.fetch(@subject.chip.name).map { |timing| longest(read_code.timed(timing)).function(read_code.entry(@step)).cost }
   end
 end

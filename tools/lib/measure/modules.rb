@@ -94,7 +94,6 @@ ModuleFigures = Struct.new(:least, :mean, :most, :bound, :cycles, :flash, :insta
 # Builds the program of a module and meters its calls.
 class ModuleMeter
   INCLUDES = %w[include src test/support test/chips/modules].map { |folder| "-I#{folder}" }.freeze
-  MUTEX = Mutex.new
 
   def self.of(subject)
     { pic: ModulePicMeter, avr: ModuleAvrMeter, arm: ModuleArmMeter }.fetch(subject.chip.kind).new(subject)
@@ -167,13 +166,6 @@ class ModuleMeter
       end
     end
   end
-
-  # Builds what several subjects need, once.
-  def shared(path)
-    MUTEX.synchronize do
-      (@@shared ||= {})[path] ||= yield(path) && path # rubocop:disable Style/ClassVars
-    end
-  end
 end
 
 # In gpsim.
@@ -188,7 +180,7 @@ class ModulePicMeter < ModuleMeter
   end
 
   def run
-    harness = shared("#{Host.folder}/calls_pic") do |path|
+    harness = Host.shared("#{Host.folder}/calls_pic") do |path|
       Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/chip', 'test/chips/modules/chip.cc',
                   'build/gpsim/libchip.a', '-lgpsim', '-o', path)
     end
@@ -225,7 +217,7 @@ class ModuleAvrMeter < ModuleMeter
   end
 
   def run
-    meter = shared("#{Host.folder}/calls_avr") do |path|
+    meter = Host.shared("#{Host.folder}/calls_avr") do |path|
       Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, 'test/tools/cost/avr/calls.c', '-lsimavr', '-o', path)
     end
     addresses = @called.functions.keys.flat_map { |name| [name, code.symbol(name).to_s(16)] }
@@ -281,6 +273,6 @@ class ModuleArmMeter < ModuleAvrMeter
   def cycles_of(name)
     return if @called.unbounded&.include?(name)
 
-    QemuMeter::TIMINGS.fetch(@subject.chip.name).map { |timing| bound_of(name, ArmCode.new("#{@path}.elf", timing)) }
+    QemuMeter::TIMINGS.fetch(@subject.chip.name).map { |timing| bound_of(name, code.timed(timing)) }
   end
 end

@@ -222,7 +222,7 @@ part_cost() {
     count 'bounds of random loops' '^ok ' '^FAILED ' once whole ruby test/tools/cost/random_loops.rb
     count 'the search for the worst step' '^ok ' '^FAILED ' once whole ruby test/tools/cost/search.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' once whole ruby test/tools/cost/changes.rb
-    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --daily
 }
 
 part_chip() {
@@ -276,12 +276,6 @@ part_assembly() {
     count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/faults/assembly.rb
 }
 
-part_breaks() {
-    need ruby cc:gcc tcc :libc6-dev
-    need_ceedling
-    count 'some mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb --some
-}
-
 part_mutants() {
     need ruby cc:gcc tcc :libc6-dev
     need_ceedling
@@ -307,6 +301,7 @@ part_variants() {
         run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
     done
     runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
     count 'tools/demo faults_places' ' ok$' ' FAILED$' once whole tools/demo --verbose faults_places
     for runner in $runners; do
         count "$runner" '^ok ' '^FAILED ' once whole "$runner" --weekly
