@@ -20,8 +20,9 @@ cmake_build() {
     fi
     { mkdir -p "$build" && : >"$build/unfinished"; } 2>/dev/null || die "cannot write in $build"
     built=0
+    # Without messages, for each of which a CMake would start.
     # shellcheck disable=SC2086 # a list of options
-    { cmake -S "$source" -B "$build" -G 'Unix Makefiles' $options &&
+    { cmake -S "$source" -B "$build" -G 'Unix Makefiles' -DCMAKE_RULE_MESSAGES=OFF $options &&
         make -C "$build" -j 2 "$@"; } >"$build/log" 2>&1 || built=$?
     rm "$build/unfinished"
     [ $built -eq 0 ] || {

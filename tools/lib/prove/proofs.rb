@@ -134,13 +134,14 @@ module Proofs
     @rows ||= text("#{FOLDER}/proofs.txt").lines(chomp: true).grep_v(/^#|^\s*$/).map { |line| line.split(' : ', 2) }
   end
 
-  # What a harness proves and nobody runs, and the other way round.
+  # What a harness proves and nobody runs, the other way round, and what is slow and no proof.
   def complaints(proofs)
     named = proofs.reject { |proof| proof.exhausted? && proof.what == 'all' }.map { |proof| [proof.harness, proof.what] }.uniq
     there = Dir["#{FOLDER}/{,#{THEOREMS}/}*.c"].sort.flat_map do |harness|
       text(harness).scan(/^void prove_(\w+)\(void\)$/).flatten.map { |what| [harness, what] }
     end
     (there - named).map { |harness, what| "#{harness}: #{FOLDER}/proofs.txt does not name #{what}" } +
-      (named - there).map { |harness, what| "#{harness}: there is no proof of #{what}" }
+      (named - there).map { |harness, what| "#{harness}: there is no proof of #{what}" } +
+      (SLOW - named.map(&:last)).map { |what| "a slow proof that is none: #{what}" }
   end
 end
