@@ -15,8 +15,8 @@ module Host
       @root = root
       @folder = "#{root}/build/cost"
       @running = {}
-      @shared = {}
-      @sharing = Mutex.new
+      @made = {}
+      @making = Mutex.new
       FileUtils.mkdir_p(@folder)
     end
 
@@ -39,9 +39,9 @@ module Host
       end
     end
 
-    # A path that the block has made what several need, once.
-    def shared(path)
-      @sharing.synchronize { @shared[path] ||= yield(path) && path }
+    # What the block gives, which several need, made once.
+    def once(key)
+      @making.synchronize { @made[key] ||= yield(key) }
     end
 
     # When we are stopped, none is left behind.

@@ -64,18 +64,13 @@ module Harness
   INCLUDES = %w[include src test/support test/chips/target test/tools/cost].map { |folder| "-I#{folder}" }.freeze
   WARNINGS = %w[-Wall -Wextra -Werror].freeze
 
-  @mutex = Mutex.new
-  @built = {}
-
   class << self
     # The program for a kind of chips, built once.
     def build(kind)
-      @mutex.synchronize do
-        @built[kind] ||= begin
-          kept_table
-          { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table }, riscv: -> { vectors_table } }[kind].call
-          true
-        end
+      Host.once(kind) do
+        kept_table
+        { pic: -> { pic(host_objects) }, avr: -> { avr(host_objects) }, arm: -> { vectors_table }, riscv: -> { vectors_table } }[kind].call
+        true
       end
     end
 
@@ -246,8 +241,9 @@ class PicMeter < Meter
   def sizes_from
     bare = "#{@path}-bare"
     link(bare, *together("test/tools/cost/bare_#{@controller.name}.c", *@subject.sources))
-    nothing = Host.shared("#{Host.folder}/nothing-#{[@subject.chip.name, *banks].join}") do |path|
+    nothing = Host.once("#{Host.folder}/nothing-#{[@subject.chip.name, *banks].join}") do |path|
       link(path, *together('test/tools/cost/bare_nothing.c'))
+      path
     end
     [bare, nothing].map { |path| code_of(path) }
   end
@@ -347,8 +343,6 @@ class QemuMeter < AvrMeter
   CODES = { 'cortex-m0' => ArmCode, 'cortex-m4' => ArmCode, 'rv32imc' => RiscvCode, 'rv32ec' => Rv32eCode }.freeze
   TIMINGS = { 'cortex-m0' => [Timing::CortexM0.new(1), Timing::CortexM0.new(32)], 'cortex-m4' => [Timing::CortexM4.new],
               'rv32imc' => [Timing::Ibex.new], 'rv32ec' => [Timing::Ibex.new] }.freeze
-  SHARED = Hash.new { |all, core| all[core] = Harness.objects_of(core) }
-  MUTEX = Mutex.new
 
   private
 
@@ -357,7 +351,7 @@ class QemuMeter < AvrMeter
   end
 
   def build
-    shared = MUTEX.synchronize { SHARED[@subject.chip.name] }
+    shared = Host.once(@subject.chip.name) { |core| Harness.objects_of(core) }
     flags = [@subject.build, *Harness::WARNINGS, *Harness::INCLUDES, *@subject.defines]
     @objects = @subject.all_sources.map do |file|
       object = "#{@path}-#{File.basename(file, '.*')}.o"

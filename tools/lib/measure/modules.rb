@@ -180,9 +180,10 @@ class ModulePicMeter < ModuleMeter
   end
 
   def run
-    harness = Host.shared("#{Host.folder}/calls_pic") do |path|
+    harness = Host.once("#{Host.folder}/calls_pic") do |path|
       Host.output('g++', '-std=c++17', '-O2', *Harness::WARNINGS, '-Isim/chip', 'test/chips/modules/chip.cc',
                   'build/gpsim/libchip.a', '-lgpsim', '-o', path)
+      path
     end
     Host.output(harness, "#{@path}.cod", *@called.functions.keys)
   end
@@ -217,8 +218,9 @@ class ModuleAvrMeter < ModuleMeter
   end
 
   def run
-    meter = Host.shared("#{Host.folder}/calls_avr") do |path|
+    meter = Host.once("#{Host.folder}/calls_avr") do |path|
       Host.output('gcc', '-std=c99', '-O2', *Harness::WARNINGS, 'test/tools/cost/avr/calls.c', '-lsimavr', '-o', path)
+      path
     end
     addresses = @called.functions.keys.flat_map { |name| [name, code.symbol(name).to_s(16)] }
     Host.output(meter, "#{@path}.elf", @subject.chip.name, code.symbol('done').to_s(16), *addresses)
