@@ -253,11 +253,10 @@ module ManifestFaults
   def differences(path, wanted)
     return ["it is gone#{"; #{UPDATE}" if wanted}"] unless File.exist?(path)
     return lost(path) unless wanted
+    return [] if File.read(path) == wanted
 
     output, = Open3.capture2('diff', '-U0', path, '-', stdin_data: wanted)
     lines = output.lines(chomp: true).drop(2).grep_v(/\A(?:@@|\\)/).map { |line| shown(line) }
-    return [] if lines.empty?
-
     more = lines.size > LINES_MOST ? ["and #{lines.size - LINES_MOST} lines more"] : []
     [*lines.first(LINES_MOST), *more, UPDATE]
   end

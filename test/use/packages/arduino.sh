@@ -14,6 +14,11 @@ sketch() {
 build_sketch() {
     rm -rf built
     mkdir built
+    rebuild_sketch "$@"
+}
+
+# rebuild_sketch NAME BOARD [PREFERENCE]: with what is newer than in ./built.
+rebuild_sketch() {
     arduino-builder -compile -fqbn "arduino:avr:$2" -warnings all \
         -hardware /usr/share/arduino/hardware \
         -hardware /usr/share/arduino-builder -tools /usr/bin \
@@ -121,25 +126,15 @@ arduino_oven() {
 }
 
 # The sketch Live fifty times as fast, by its RATE, at a baud rate of its UART, of which
-# simavr makes half.
-fast_live() {
-    ino=libraries/fixpid/examples/arduino/05.Live/05.Live.ino
-    sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \
-        -e 's/^\(const unsigned long BAUD = \)115200;/\1500000;/' "$ino"
-    build_sketch 05.Live uno
-}
-
-# live_on_uno STEPS...: as live.c is told.
-live_on_uno() {
-    fast_live
-    ./live built/05.Live.ino.elf "$@"
-}
-
-# Its steps are made again on this machine, while commands change setpoint and gains, and
+# simavr makes half. Its steps are made again on this machine, while commands change setpoint and gains, and
 # while the wire is noisy. A bit of the library that is another, and a sketch that does not
 # use the link's setpoint, are noticed.
 arduino_live() {
     user_files libraries/fixpid
+    sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \
+        -e 's/^\(const unsigned long BAUD = \)115200;/\1500000;/' \
+        libraries/fixpid/examples/arduino/05.Live/05.Live.ino
+    build_sketch 05.Live uno
     support=$root/test/support
     # shellcheck disable=SC2046 # a list of files
     gcc -std=c99 -O2 -Wall -Wextra -Ilibraries/fixpid/src -Ilibraries/fixpid/include \
@@ -147,12 +142,16 @@ arduino_live() {
         $(find libraries/fixpid/src/link libraries/fixpid/src/pid libraries/fixpid/src/record -name '*.c') \
         "$support/link_session.c" "$support/numbers.c" \
         "$root"/sim/link/link_twin.c "$root"/sim/link/link_frames.c -lsimavr -o live
-    live_on_uno 100000 5000 1000
+    ./live built/05.Live.ino.elf 100000 5000 1000
+    mkdir sound
+    mv libraries built sound
     for number in 1 2; do
-        rm -rf libraries
-        user_files libraries/fixpid
+        rm -rf libraries built
+        cp -Rp sound/* .
         ruby "$root/tools/lib/faults/seed.rb" 'arduino 05.Live' libraries/fixpid "$number"
-        refused 'a step is different\|not all are right' live_on_uno 3000 500 500
+        rebuild_sketch 05.Live uno
+        refused 'a step is different\|not all are right' \
+            ./live built/05.Live.ino.elf 3000 500 500
         cat output
     done
 }
@@ -223,8 +222,7 @@ arduino_config() {
 # Points in flash, from a sketch.
 arduino_table() {
     heater=libraries/fixpid/examples/arduino/02.Heater/02.Heater.ino
-    rm -rf libraries built
-    sketch 02.Heater uno compiler.c.extra_flags=-fno-lto
+    user_files libraries/fixpid
     cat - "$heater" >with_table <<'END'
 #include <fixpid_table.h>
 static const fixpid_table_point points[] PROGMEM = {{0, 0}, {2, -1}};
