@@ -31,10 +31,14 @@ room() {
     [ "${free_megabytes:-$2}" -ge "$2" ] || die "less than $2 MB free for $1"
 }
 
-# Every tool makes temporary files, some only after minutes.
-[ -w "${TMPDIR:-/tmp}/" ] ||
-    die "cannot write to ${TMPDIR:-/tmp}, the folder for temporary files (TMPDIR)"
-room "${TMPDIR:-/tmp}" 1
+# Every tool makes temporary files, some only after minutes. What one has tried, those that
+# it starts need not: TMPDIR_TRIED.
+[ "${TMPDIR_TRIED-}" = "${TMPDIR:-/tmp}" ] || {
+    [ -w "${TMPDIR:-/tmp}/" ] ||
+        die "cannot write to ${TMPDIR:-/tmp}, the folder for temporary files (TMPDIR)"
+    room "${TMPDIR:-/tmp}" 1
+    export TMPDIR_TRIED="${TMPDIR:-/tmp}"
+}
 
 # work_folder FOLDER MEGABYTES: makes it, or says why nothing can be written
 # there.

@@ -5,7 +5,8 @@
 module Gputils
   # Where gpasm and gplink look for them: 'header' or 'lkr'.
   def self.folder(kind)
-    ENV.fetch("GPUTILS_#{kind.upcase}_PATH") do
+    @folders ||= {}
+    @folders[kind] ||= ENV.fetch("GPUTILS_#{kind.upcase}_PATH") do
       `#{kind == 'lkr' ? 'gplink' : 'gpasm'} --help`[/^Default (?:header file|linker script) path (.*)$/, 1] or
         abort 'gputils is missing'
     end

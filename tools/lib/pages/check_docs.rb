@@ -41,8 +41,10 @@ end
 def quick_start_output
   FileUtils.mkdir_p('build/test')
   program = 'build/test/quick_start'
+  said, objects = CodeBlocks.library
+  abort said unless said.empty?
   output, status = Open3.capture2e('cc', '-std=c99', '-Wall', '-Wextra', '-Werror', '-Iinclude',
-                                   *Dir['src/**/*.c'], 'examples/quick_start.c', '-o', program)
+                                   'examples/quick_start.c', *objects, '-o', program)
   abort output unless status.success?
   output, status = Open3.capture2e(program)
   abort "#{program} failed" unless status.success?

@@ -19,7 +19,7 @@ class CodeBlocks
   CPLUSPLUS = { 'g++' => [], 'avr-g++' => %w[-mmcu=atmega328p] }.freeze
   # The structures' fields may be named in C++, too: an extension before C++20.
   CPLUSPLUS_FLAGS = %w[-x c++ -std=gnu++11 -Wall -Wextra -Wno-missing-field-initializers -Wno-unused -Werror
-                       -Iinclude -c].freeze
+                       -Iinclude -fsyntax-only].freeze
   BLOCK = /(?:^<!-- given: (?<given>.*?) -->\n)?(?:^<!-- (?<c_only>C only): .*? -->\n)?^```c\n(?<code>.*?)^```\n(?:\n*(?:prints\n+)?^```text\n(?<printed>.*?)^```\n)?/m.freeze
   # In an indented block nothing would look at it.
   HIDDEN_CODE = /^ {4,}[^|\n]*[;{]$/.freeze
@@ -63,11 +63,23 @@ class CodeBlocks
     status.success? ? nil : output
   end
 
+  # The whole library, once for all programs: what the compiler says of it, and its objects.
+  def self.library
+    @library ||= begin
+      folder = "#{FOLDER}/library"
+      FileUtils.rm_rf(folder)
+      FileUtils.mkdir_p(folder)
+      sources = Dir['src/**/*.c'].map { |path| File.expand_path(path) }
+      output, = Open3.capture2e('cc', *FLAGS, "-I#{File.expand_path('include')}", '-c', *sources, chdir: folder)
+      [output, Dir["#{folder}/*.o"]]
+    end
+  end
+
   # What C++ compilers say of it.
   def cplusplus(code)
     File.write("#{name}.cc", code)
     complaints = CPLUSPLUS.map do |compiler, options|
-      output, status = Open3.capture2e(compiler, *CPLUSPLUS_FLAGS, *options, "#{name}.cc", '-o', "#{name}.cc.o")
+      output, status = Open3.capture2e(compiler, *CPLUSPLUS_FLAGS, *options, "#{name}.cc")
       status.success? ? nil : "#{compiler}:\n#{output}"
     end
     complaints.compact.empty? ? nil : complaints.compact.join
@@ -75,7 +87,8 @@ class CodeBlocks
 
   def run(match, failures)
     code = match[:code]
-    complaint = compile(code, '-Isrc', *Dir['src/**/*.c'], '-o', name)
+    of_library, objects = CodeBlocks.library
+    complaint = of_library.empty? ? compile(code, *objects, '-o', name) : of_library
     if complaint
       failures << "#{@path}, code block #{@number}:\n#{complaint}"
       return nil
