@@ -182,20 +182,20 @@ Gate.expect('one that could not be made', made_again { Gate.write('src/a.c', 'x'
 ENV['PATH'] = "bin:#{ENV.fetch('PATH')}"
 Gate.expect('another compiler', changed('bin/cc'), %w[one two])
 
-# A build by tools/lib/build/cmake.sh after one whose shell was killed, whose make failed,
+# A build by tools/lib/build/cmake.sh after one whose shell was killed, whose Ninja failed,
 # that was complete, or that was in another folder: whether it begins with what that left.
-CMAKE = "#!/bin/sh\necho \"CMAKE_HOME_DIRECTORY:INTERNAL=$2\" >\"$4/CMakeCache.txt\"\n"
-MAKE = "#!/bin/sh\n[ ! -e $2/left ] || touch again\ntouch \"$2/left\"\n. ./then\n"
-TOYS = { 'bin/cmake' => CMAKE, 'bin/make' => MAKE, 'toy/CMakeLists.txt' => '', 'other/CMakeLists.txt' => '',
+CMAKE = "#!/bin/sh\nprintf 'CMAKE_%s\\n' \"HOME_DIRECTORY:INTERNAL=$2\" GENERATOR:INTERNAL=\"$made_by\" >\"$4/CMakeCache.txt\"\n"
+NINJA = "#!/bin/sh\n[ ! -e $2/left ] || touch again\ntouch \"$2/left\"\n. ./then\n"
+TOYS = { 'bin/cmake' => CMAKE, 'bin/ninja' => NINJA, 'toy/CMakeLists.txt' => '', 'other/CMakeLists.txt' => '',
          'tools/lib/setup.sh' => File.read("#{PROJECT}/tools/lib/setup.sh"),
          'tools/lib/build/cmake.sh' => File.read("#{PROJECT}/tools/lib/build/cmake.sh") }.freeze
 
-def again_after(how, folder = 'toy')
+def again_after(how, folder = 'toy', generator = 'Ninja')
   lambda do
     Gate.tree(TOYS) do
-      [[how, folder], ['exit 0', 'toy']].each do |last, source|
+      [[how, folder, generator], ['exit 0', 'toy', 'Ninja']].each do |last, source, by|
         File.write('then', last)
-        Gate.run('sh', '-c', "root=$PWD; . tools/lib/setup.sh; . tools/lib/build/cmake.sh; cmake_build toy #{source} build/toy")
+        Gate.run('env', "made_by=#{by}", 'sh', '-c', "root=$PWD; . tools/lib/setup.sh; . tools/lib/build/cmake.sh; cmake_build toy #{source} build/toy")
       end
       File.exist?('again')
     end
@@ -206,4 +206,5 @@ Gate.expect('a build that was killed begins anew', again_after('kill -9 $PPID'),
 Gate.expect('a build that failed goes on', again_after('exit 1'), true)
 Gate.expect('a build that was complete goes on', again_after('exit 0'), true)
 Gate.expect('a build of another folder begins anew', again_after('exit 0', 'other'), false)
+Gate.expect('a build by make begins anew', again_after('exit 0', 'toy', 'Unix Makefiles'), false)
 Gate.finish

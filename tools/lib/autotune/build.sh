@@ -16,7 +16,7 @@ numbers() {
 }
 
 build_random_plants() {
-    need cmake cc:gcc :libc6-dev make ruby
+    need cmake ninja:ninja-build cc:gcc :libc6-dev ruby
     build=$root/build/host-examples
     work_folder "$build" 64
     cmake_build sim/random_plants "$root" "$build" -DCMAKE_BUILD_TYPE=Release \

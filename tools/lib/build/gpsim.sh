@@ -6,7 +6,7 @@
 . "${root:?}/tools/lib/build/cmake.sh"
 
 build_gpsim() {
-    need cc:gcc c++:g++ :libc6-dev make cmake gpasm:gputils :gpsim-dev \
+    need cc:gcc c++:g++ :libc6-dev cmake ninja:ninja-build gpasm:gputils :gpsim-dev \
         :libsimavr-dev
     gpsim_build=$root/build/gpsim
     cmake_build 'the simulated chips' "$root/sim/chip" "$gpsim_build"

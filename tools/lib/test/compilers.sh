@@ -8,6 +8,14 @@ strict() {
         -Wredundant-decls -Werror
 }
 
+# messages TARGET ARGUMENT...: what it says of a source, of which nothing is made.
+messages() {
+    case $1 in
+    sdcc-* | pic1[46]) compile "$@" -S -o messages.asm ;;
+    *) compile "$@" -fsyntax-only ;;
+    esac
+}
+
 # compile TARGET ARGUMENT...: `ARGUMENT...` are those of gcc.
 compile() {
     target=$1

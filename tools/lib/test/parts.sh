@@ -162,9 +162,8 @@ part_lint() {
     scripts=$(grep -rlE '^(#!/bin/sh|# shellcheck shell=sh)' tools test .ci)
     check_files shellcheck "$scripts" shellcheck -x
     rubies=$(find tools test -name '*.rb')
-    for file in $rubies; do
-        check "ruby -wc $file" ruby -wc "$file"
-    done
+    check_files 'syntax of' "$rubies" \
+        ruby -e 'ARGV.each { |file| RubyVM::InstructionSequence.compile_file(file) }'
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
     count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' once whole ruby tools/lib/lint.rb
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
@@ -172,7 +171,7 @@ part_lint() {
 }
 
 part_consumers() {
-    need cmake make ruby
+    need cmake make ninja:ninja-build ruby
     count consumers '^ok ' '^FAILED ' once whole test/use/consumers/run --daily
     count 'test/use/port_check/run' '^ok ' '^FAILED ' once whole test/use/port_check/run
 }
@@ -233,7 +232,7 @@ part_chip() {
 }
 
 part_demo() {
-    need cmake cc:gcc :libc6-dev make ruby gnuplot:gnuplot-nox
+    need cmake ninja:ninja-build cc:gcc :libc6-dev ruby gnuplot:gnuplot-nox
     count 'what tools/demo reads' '^ok ' '^FAILED ' once whole ruby test/tools/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
@@ -285,7 +284,7 @@ part_mutants() {
 # What is too long for each day, and a form of what runs daily: see test/weekly.txt.
 part_variants() {
     need qemu-system-arm simavr avr-gcc:gcc-avr :avr-libc sdcc :sdcc-libraries sstm8:sdcc-ucsim \
-        clang :libclang-rt-14-dev ld.lld:lld mspdebug timeout:coreutils cmake make ruby \
+        clang :libclang-rt-14-dev ld.lld:lld mspdebug timeout:coreutils cmake make ninja:ninja-build ruby \
         gpasm:gputils gcc g++ :libc6-dev :libsimavr-dev
     need_sdcc
     need_spdk
