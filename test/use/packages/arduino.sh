@@ -126,9 +126,9 @@ arduino_oven() {
 }
 
 # The sketch Live fifty times as fast, by its RATE, at a baud rate of its UART, of which
-# simavr makes half. Its steps are made again on this machine, while commands change setpoint and gains, and
-# while the wire is noisy. A bit of the library that is another, and a sketch that does not
-# use the link's setpoint, are noticed.
+# simavr makes half. Its steps are made again on this machine, while commands change
+# setpoint and gains, and while the wire is noisy. A bit of the library that is another,
+# and a sketch that does not use the link's setpoint, are noticed.
 arduino_live() {
     user_files libraries/fixpid
     sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \

@@ -24,6 +24,18 @@ class CodeBlocks
   # In an indented block nothing would look at it.
   HIDDEN_CODE = /^ {4,}[^|\n]*[;{]$/.freeze
 
+  # The whole library, once for all programs: what the compiler says of it, and its objects.
+  def self.library
+    @library ||= begin
+      folder = "#{FOLDER}/library"
+      FileUtils.rm_rf(folder)
+      FileUtils.mkdir_p(folder)
+      sources = Dir['src/**/*.c'].map { |path| File.expand_path(path) }
+      output, = Open3.capture2e('cc', *FLAGS, "-I#{File.expand_path('include')}", '-c', *sources, chdir: folder)
+      [output, Dir["#{folder}/*.o"]]
+    end
+  end
+
   def initialize(path)
     @path = path
     @number = 0
@@ -61,18 +73,6 @@ class CodeBlocks
     File.write("#{name}.c", code)
     output, status = Open3.capture2e('cc', *FLAGS, "#{name}.c", *arguments)
     status.success? ? nil : output
-  end
-
-  # The whole library, once for all programs: what the compiler says of it, and its objects.
-  def self.library
-    @library ||= begin
-      folder = "#{FOLDER}/library"
-      FileUtils.rm_rf(folder)
-      FileUtils.mkdir_p(folder)
-      sources = Dir['src/**/*.c'].map { |path| File.expand_path(path) }
-      output, = Open3.capture2e('cc', *FLAGS, "-I#{File.expand_path('include')}", '-c', *sources, chdir: folder)
-      [output, Dir["#{folder}/*.o"]]
-    end
   end
 
   # What C++ compilers say of it.
