@@ -4,6 +4,7 @@
 # seconds, warnings and shape of src/; with --misra only MISRA as other compilers have it.
 require 'fileutils'
 require 'open3'
+require_relative 'build/large_pages'
 
 STRICT = %w[-std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
             -Wundef -Wstrict-prototypes -Wmissing-prototypes -Wredundant-decls -Werror].freeze

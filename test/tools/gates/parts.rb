@@ -6,7 +6,7 @@
 require_relative 'gate'
 
 SHELL = %w[tools/test tools/lib/setup.sh tools/lib/build/sdcc.sh tools/lib/build/gpsim.sh tools/lib/build/cbmc.sh tools/lib/build/cmake.sh
-           tools/lib/test/checks.sh tools/lib/remembered.rb tools/lib/build/inputs.rb tools/lib/test/once.rb tools/lib/test/sights.rb
+           tools/lib/test/checks.sh tools/lib/remembered.rb tools/lib/build/inputs.rb tools/lib/build/large_pages.rb tools/lib/test/once.rb tools/lib/test/sights.rb
            tools/lib/test/told.rb].freeze
 
 # A run of the part `toy`, of three checks, whose runner is this script; `with` is what

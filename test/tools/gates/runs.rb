@@ -182,6 +182,9 @@ Gate.expect('one that could not be made', made_again { Gate.write('src/a.c', 'x'
 ENV['PATH'] = "bin:#{ENV.fetch('PATH')}"
 Gate.expect('another compiler', changed('bin/cc'), %w[one two])
 
+# The kernel says so of each process, which has it of the one that started it.
+Gate.expect('what is started may have large pages', -> { `sed -n 's/^THP_enabled:[[:space:]]*//p' /proc/self/status`.strip }, /\A1?\z/)
+
 # A build by tools/lib/build/cmake.sh after one whose shell was killed, whose Ninja failed,
 # that was complete, or that was in another folder: whether it begins with what that left.
 CMAKE = "#!/bin/sh\nprintf 'CMAKE_%s\\n' \"HOME_DIRECTORY:INTERNAL=$2\" GENERATOR:INTERNAL=\"$made_by\" >\"$4/CMakeCache.txt\"\n"

@@ -4,6 +4,7 @@
 require 'digest/sha2' # of threads, only the first may load it
 require 'open3'
 require 'pathname'
+require_relative 'large_pages'
 
 # The files that something which is built or measured depends on. Of a compiler these
 # are also what it starts, its headers, and the libraries that it links.
