@@ -126,15 +126,20 @@ arduino_oven() {
 }
 
 # The sketch Live fifty times as fast, by its RATE, at a baud rate of its UART, of which
-# simavr makes half. Its steps are made again on this machine, while commands change
-# setpoint and gains, and while the wire is noisy. A bit of the library that is another,
-# and a sketch that does not use the link's setpoint, are noticed.
-arduino_live() {
-    user_files libraries/fixpid
+# simavr makes half.
+fast_live() {
     sed -i -e 's/^\(const int RATE = \)50;/\12500;/' \
         -e 's/^\(const unsigned long BAUD = \)115200;/\1500000;/' \
         libraries/fixpid/examples/arduino/05.Live/05.Live.ino
     build_sketch 05.Live uno
+}
+
+# Its steps are made again on this machine, while commands change setpoint and gains, and
+# while the wire is noisy. A bit of the library that is another, and a sketch that does not
+# use the link's setpoint, are noticed.
+arduino_live() {
+    user_files libraries/fixpid
+    fast_live
     support=$root/test/support
     # shellcheck disable=SC2046 # a list of files
     gcc -std=c99 -O2 -Wall -Wextra -Ilibraries/fixpid/src -Ilibraries/fixpid/include \

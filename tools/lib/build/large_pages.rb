@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require 'rbconfig'
+
 # Ruby forbids large pages to itself, for the sake of its own forks, and with that to all that
 # it starts. What we start are compilers, simulators and solvers, which have them again where
 # this is loaded: on a virtual machine gpasm takes a sixth of the time then.
