@@ -4,7 +4,7 @@
 
 # Large pages, where the kernel gives them only to what asks, and of these a heap that is
 # kept: gpasm, of which there are thousands of runs, asks for 4 MB for each section of a
-# file, and takes a quarter of a virtual machine's time then.
+# file, and takes far less of a virtual machine's time then.
 export GLIBC_TUNABLES="${GLIBC_TUNABLES:-glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=268435456}"
 
 say() {

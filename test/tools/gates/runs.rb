@@ -186,7 +186,8 @@ Gate.expect('another compiler', changed('bin/cc'), %w[one two])
 Gate.expect('what is started may have large pages', -> { `sed -n 's/^THP_enabled:[[:space:]]*//p' /proc/self/status`.strip }, /\A1?\z/)
 
 # A build by tools/lib/build/cmake.sh after one whose shell was killed, whose Ninja failed,
-# that was complete, or that was in another folder: whether it begins with what that left.
+# that was complete, that was in another folder, or that was by make: whether it begins
+# with what that left.
 CMAKE = "#!/bin/sh\nprintf 'CMAKE_%s\\n' \"HOME_DIRECTORY:INTERNAL=$2\" GENERATOR:INTERNAL=\"$made_by\" >\"$4/CMakeCache.txt\"\n"
 NINJA = "#!/bin/sh\n[ ! -e $2/left ] || touch again\ntouch \"$2/left\"\n. ./then\n"
 TOYS = { 'bin/cmake' => CMAKE, 'bin/ninja' => NINJA, 'toy/CMakeLists.txt' => '', 'other/CMakeLists.txt' => '',

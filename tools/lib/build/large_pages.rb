@@ -5,7 +5,7 @@ require 'rbconfig'
 
 # Ruby forbids large pages to itself, for the sake of its own forks, and with that to all that
 # it starts. What we start are compilers, simulators and solvers, which have them again where
-# this is loaded: on a virtual machine gpasm takes a sixth of the time then.
+# this is loaded: without them, page faults are most of what gpasm takes on a virtual machine.
 module LargePages
   SET_THP_DISABLE = 41 # of prctl
   PRCTL = { 'x86_64' => 157, 'aarch64' => 167 }.freeze # the number of the system call
