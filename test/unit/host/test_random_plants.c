@@ -11,6 +11,7 @@
 #include "families_batch.h"
 #include "judge.h"
 #include "linear.h"
+#include "plant_lags.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("sim/plant/plant_lags.c")
@@ -349,4 +350,19 @@ void test_draw_task_the_first_ones_of_seed_1_stay_as_they_are(void)
         assert_near(expected[i].lag, task.plant.lag_steps[0], 1e-6);
         TEST_ASSERT_EQUAL(expected[i].setpoint, task.setpoint);
     }
+}
+
+// An integrator's ramp begins as much later.
+void test_lags_dead_time_is_the_nearest_number_of_eighths(void)
+{
+    static struct lags_motion ramp;
+    const struct plant_lags plant = {
+        .gain = 1.0, .integrating = true, .dead_steps = 2.4};
+
+    lags_start(&ramp, &plant, 0.0);
+    for (int step = 1; step <= 5; step++) {
+        lags_move(&ramp, 1.0);
+        assert_near(fmax((double)step - 2.375, 0.0), lags_value(&ramp), 1e-12);
+    }
+    assert_near(2.375, lags_dead_steps(&plant), 0.0);
 }
