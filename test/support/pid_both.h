@@ -13,6 +13,10 @@
 #include "unity.h"
 #include "vectors_pid.h"
 
+#if defined(TEST_WITHOUT_POINTERS) && !defined(FIXPID_PID_OBJECT)
+#error "no object is named: these are the tests of the mode with pointers"
+#endif
+
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 200000
 #endif

@@ -49,6 +49,8 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
   :test:
     - -:test/unit/test_fixpid_instances.c
     - -:test/unit/test_fixpid_link_twin.c # two controllers"
+        defines="$defines
+      - TEST_WITHOUT_POINTERS"
     fi
     printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
 }
