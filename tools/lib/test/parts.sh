@@ -19,7 +19,6 @@ mode_and_form() {
     objects=
     if [ "$1" = object ]; then
         objects="    '/test_fixpid_(?!bits|.*_arith)/':
-$defines
 $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
     "      - FIXPID_#{name.upcase}_OBJECT=#{name}_controller" }')
     '/test_pendulum\\.c/':
