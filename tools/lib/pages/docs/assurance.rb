@@ -69,7 +69,7 @@ module Assurance
     [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved, a claim or an end', 'each form with all features; claims and ends in all',
                '`tools/prove --coverage`'),
      Claim.new('tested', 'each claim of a proof is needed: some break makes it fail, and nothing else', 'all proofs but ' \
-               "#{Claims::NOT_ASKED.join(', ')}, of which nobody has asked; but for #{Claims.pinned.size} claims that are listed with their reasons",
+               "#{Claims::NOT_ASKED.join(', ')}, which are asked only by name; but for #{Claims.pinned.size} claims that are listed with their reasons",
                '`tools/prove --claims`'),
      Claim.new('proved', 'breaks that are said to change nothing change nothing that is proved',
                "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, and #{rows_of(Equivalents::ARGUED)} that are argued",
@@ -119,8 +119,9 @@ module Assurance
                "#{rows('autotune')} recorded experiments, and thousands of random ones", '`tools/test autotune`'),
      Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
                "#{parts['unit']} and #{parts['avr']} checks, every line and branch", '`tools/test unit avr`'),
-     Claim.new('tested', 'nothing that C leaves undefined', "#{parts['sanitize']} checks under clang's sanitizers",
-               '`tools/test sanitize`'),
+     Claim.new('tested', 'nothing that C leaves undefined',
+               "#{parts['sanitize']} checks under clang's sanitizers in the mode without pointers, and each week those of the other",
+               '`tools/test sanitize variants`'),
      Claim.new('tested', 'no warning and nothing of clang-tidy; of the rules of MISRA C:2012 that cppcheck has, only named deviations',
                "#{parts['lint']} checks", '`tools/test lint`'),
      Claim.new('tested', 'the same as a program for Windows, under Wine, and by the newest gcc and clang', 'all recorded rows; ' \
