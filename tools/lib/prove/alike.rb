@@ -184,7 +184,7 @@ class Alike
     File.write("#{path}.c", source)
     tool('goto-cc', "--#{@proof.word}", "#{path}.c", '--function', 'both', '-o', path)
     contracts.each { |one| tool('goto-instrument', '--replace-calls', "#{one}:#{one}_contract", path, path) }
-    said, = Open3.capture2e("#{ENV.fetch('CBMC')}/cbmc", path, *options, '--stop-on-fail', rlimit_cpu: [seconds, seconds + 1])
+    said, = Open3.capture2e(AskedOnce.environment, "#{ENV.fetch('CBMC')}/cbmc", path, *options, '--stop-on-fail', rlimit_cpu: [seconds, seconds + 1])
     said.match?(/^VERIFICATION SUCCESSFUL$/) && !said.match?(/^Generated 0 VCC/)
   ensure
     FileUtils.rm_f([path, "#{path}.c"])
@@ -196,7 +196,7 @@ class Alike
 
   # Gives what it says.
   def tool(name, *arguments)
-    said, complaint, good = Open3.capture3("#{ENV.fetch('CBMC')}/#{name}", *arguments)
+    said, complaint, good = Open3.capture3(AskedOnce.environment, "#{ENV.fetch('CBMC')}/#{name}", *arguments)
     good.success? or abort "prove: #{@proof.name}: #{complaint}#{said}"
     said
   end

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # One run of CBMC.
 require 'fileutils'
+require_relative 'asked_once'
 require_relative 'proofs'
 require 'open3'
 
@@ -103,7 +104,7 @@ class Cbmc
   # What CBMC says of each place or assertion, if it says something.
   def cover(program, what, *options)
     output = "#{@folder}/#{what}.txt"
-    system("#{ENV.fetch('CBMC')}/cbmc", program, '--cover', what, *options, '--unwind', '200', '--drop-unused-functions',
+    system(AskedOnce.environment, "#{ENV.fetch('CBMC')}/cbmc", program, '--cover', what, *options, '--unwind', '200', '--drop-unused-functions',
            in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1])
     said = File.read(output)
     said if said.match?(/^\*\* \d+ of \d+ covered/)
@@ -116,7 +117,7 @@ class Cbmc
   end
 
   def tool(name, *arguments)
-    @said, status = Open3.capture2e("#{ENV.fetch('CBMC')}/#{name}", *arguments)
+    @said, status = Open3.capture2e(AskedOnce.environment, "#{ENV.fetch('CBMC')}/#{name}", *arguments)
     status.success?
   end
 
@@ -136,8 +137,8 @@ class Cbmc
 
   def ask(program, *options)
     output = "#{@folder}/output.txt"
-    process = Process.spawn("#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *options, *@options, in: File::NULL, %i[out err] => output,
-                            rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
+    process = Process.spawn(AskedOnce.environment, "#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *options, *@options,
+                            in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
     status = watch(process)
     judge(@said = File.read(output), status)
   end
