@@ -23,7 +23,7 @@ class Choice
     @proofs = proofs.select { |proof| proof.exhausted? || (proof.word == WORD && !proof.theorem?) }
     @places = Seeded.long_functions.select { |file, _| whole?(file, proofs, chosen) }
     files = @places.map(&:first).uniq
-    asked = files.empty? ? [] : @proofs.select { |proof| (Proofs.sources(proof) & files).any? }
+    asked = files.empty? ? [] : @proofs.select { |proof| Proofs.from_any?(proof, files) }
     @reached = Hash[asked.each_slice([asked.size / 2, 1].max).map { |some| Thread.new { some.map { |proof| [proof, reaches(proof)] } } }
                          .flat_map(&:value)]
     @equivalents = EquivalentMutants.new(Equivalents::FILE)
@@ -97,7 +97,7 @@ class Choice
   # In the first form that comes to it. Those that say little, those that are slow, and
   # those that try all operands are the last means.
   def proofs_of(file, function)
-    reached = @reached.select { |proof, functions| Proofs.sources(proof).include?(file) && functions.include?(function) }.keys
+    reached = @reached.select { |proof, functions| Proofs.from_any?(proof, [file]) && functions.include?(function) }.keys
     reached.uniq { |proof| [proof.group, proof.what, proof.exhausted? && proof.form] }.sort_by do |proof|
       last = [Equivalents::WEAK.include?(proof.what), SLOW.include?(proof.what), proof.exhausted?].count(true)
       [last, @reached[proof].size]

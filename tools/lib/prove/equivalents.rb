@@ -76,7 +76,7 @@ class Equivalents
   # Whether all that it changes is, in each form of the proofs of its file; of what is
   # exhausted a solver is not asked.
   def alike?(mutant, tree)
-    exhausted, proved = @proofs.select { |proof| Proofs.sources(proof).include?(mutant.file) }.partition(&:exhausted?)
+    exhausted, proved = @proofs.select { |proof| Proofs.from_any?(proof, [mutant.file]) }.partition(&:exhausted?)
     return false if exhausted.any? { |proof| program(proof, '.') != program(proof, tree) }
 
     forms = proved.select { |proof| Alike.can_ask?(proof) }.uniq { |proof| [proof.harness, proof.options] }
@@ -107,7 +107,7 @@ class Equivalents
   # The proofs that come to its function, of a macro those of its files.
   def proofs_of(mutant)
     function = function_of(mutant)
-    @proofs.select { |proof| Proofs.sources(proof).include?(mutant.file) && (function.nil? || reaches(proof).include?(function)) }
+    @proofs.select { |proof| Proofs.from_any?(proof, [mutant.file]) && (function.nil? || reaches(proof).include?(function)) }
   end
 
   def reaches(proof)

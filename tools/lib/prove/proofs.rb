@@ -2,6 +2,7 @@
 # The proofs, as test/proof/proofs.txt and the harnesses in test/proof/ have them.
 require 'open3'
 require 'pathname'
+require_relative '../build/inputs'
 
 FOLDER = 'test/proof'.freeze
 WORDS = [16, 32, 64].freeze
@@ -116,6 +117,14 @@ module Proofs
     @sources[[proof.harness, proof.options]] ||=
       Open3.capture2(*proof.compiler, '-MM', *proof.options, "-I#{FOLDER}", '-Iinclude', '-Isrc', proof.harness).first.split
            .map { |file| Pathname(file).cleanpath.to_s } # of src/pid/../common/
+  end
+
+  # Whether one of these is among them. Most harnesses do not even name it in a header that
+  # they include under any condition, and of these no compiler is asked.
+  def from_any?(proof, files)
+    @named ||= {}
+    named = @named[proof.harness] ||= Inputs.with_included([proof.harness], [FOLDER, 'include', 'src'])
+    (named & files).any? && (sources(proof) & files).any?
   end
 
   # Of each row `module form [option]... : what...`.
