@@ -51,11 +51,15 @@ rescue ThreadError
   nil # it is empty
 end
 
-# With what an answer is found: CBMC, of which a private one starts what is in its `root`, and
-# the compiler whose preprocessor it takes.
-def remembered(files = INPUTS, others = [])
+# With what an answer is found: CBMC, of which a private one starts what is in its `root`, the
+# compiler whose preprocessor it takes, and what a block gives. Where nothing is remembered,
+# no compiler is asked for its parts.
+def remembered(files = INPUTS)
+  return Remembered.new('proofs') unless Remembered.in_tests?
+
   programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
   private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
+  others = block_given? ? yield : []
   Remembered.new('proofs', files: files, what: 'proofs', tools: [*programs, *private_ones, *%w[gcc cc g++].flat_map { |name| Inputs.tool(name) }, *Inputs.c_library, *others])
 end
 
@@ -164,7 +168,9 @@ proofs = Proofs.all
 $stdout.sync = true
 exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
 if mode == 'assembly'
-  REMEMBERED = remembered(Assembly::INPUTS, [*%w[avr-gcc avr-objdump arm-none-eabi-gcc arm-none-eabi-objdump gpdasm].flat_map { |name| Inputs.tool(name) }, *Inputs.sdcc])
+  REMEMBERED = remembered(Assembly::INPUTS) do
+    [*%w[avr-gcc avr-objdump arm-none-eabi-gcc arm-none-eabi-objdump gpdasm].flat_map { |name| Inputs.tool(name) }, *Inputs.sdcc]
+  end
   exit(assembly_proved?(words) ? 0 : 1)
 end
 if mode == 'equivalents'
