@@ -120,6 +120,19 @@ print(sysconfig.get_path("include"))' 2>/dev/null)" ;;
     esac
 }
 
+# found_package NAME: has_package. What one tool has found, those that it starts with the
+# same PATH and PYTHON need not look for: PACKAGES_FOUND.
+found_package() {
+    case ${PACKAGES_FOUND-} in
+    "$PATH:${PYTHON-}: "*" $1 "*) return 0 ;;
+    "$PATH:${PYTHON-}: "*) ;;
+    *) PACKAGES_FOUND="$PATH:${PYTHON-}:  " ;;
+    esac
+    has_package "$1" || return 1
+    PACKAGES_FOUND="$PACKAGES_FOUND$1 "
+    export PACKAGES_FOUND
+}
+
 # missing_of ITEM...: sets `missing` to the packages of what is not there.
 missing_of() {
     missing=
@@ -129,7 +142,7 @@ missing_of() {
             missing="$missing ${item##*:}"
     done
     for item in "$@"; do
-        [ -n "${item%%:*}" ] || has_package "${item##*:}" ||
+        [ -n "${item%%:*}" ] || found_package "${item##*:}" ||
             missing="$missing ${item##*:}"
     done
 }
