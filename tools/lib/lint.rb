@@ -26,6 +26,8 @@ SYSTEMS = {
 }.freeze
 BOARDS = { 'pic16f684' => /pendulum/, 'pic18f4520' => /motor|oven|thermostat|kept|autotune|experiment|watched/ }.freeze
 BARE = 'build/lint'.freeze # the sources without the preprocessor's lines
+# Debian's, as cppcheck and its addon are: a user's own is often a script that starts many programs.
+PYTHON = ENV.fetch('PYTHON', '/usr/bin/python3').freeze
 LINES_MAX = 40
 COMPLEXITY_MAX = 8
 
@@ -113,7 +115,7 @@ def misra(directory, files, defines, but: [])
   return if files.empty?
 
   paths = files.flat_map { |file| includes(file).first }.uniq
-  output, good = run('cppcheck', '--quiet', '--std=c99', '--addon=misra', '--cppcheck-build-dir=build/cppcheck',
+  output, good = run('cppcheck', '--quiet', '--std=c99', '--addon=misra', "--addon-python=#{PYTHON}", '--cppcheck-build-dir=build/cppcheck',
                      '--enable=warning,style,performance,portability', '--error-exitcode=0',
                      '--suppressions-list=tools/lib/cppcheck.txt', '--suppress=missingIncludeSystem',
                      '--suppress=unmatchedSuppression', *but.map { |rule| "--suppress=misra-c2012-#{rule}" },

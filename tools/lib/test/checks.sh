@@ -107,12 +107,9 @@ without_packages() {
     rm -rf "$bare"
     mkdir -p "$bare"
     for programs in $(printf '%s\n' "$PATH" | tr ':' ' '); do
-        for program in "$programs"/*; do
-            case ${program##*/} in
-            apt | apt-* | dpkg | dpkg-* | '*') ;;
-            *) [ -e "$bare/${program##*/}" ] || ln -s "$program" "$bare/" ;;
-            esac
-        done
+        # What an earlier folder has stays.
+        find -H "$programs" -mindepth 1 -maxdepth 1 ! -name 'apt' ! -name 'apt-*' \
+            ! -name dpkg ! -name 'dpkg-*' -exec ln -s -t "$bare" {} + 2>/dev/null || :
     done
     env "PATH=$PWD/$bare" "$@"
 }
