@@ -2,6 +2,7 @@
 # frozen_string_literal: true
 
 require_relative 'harness'
+require_relative 'old_rows'
 require_relative '../../../tools/lib/measure/meters'
 
 # The experiment of fixpid_autotune alone, for chips that are too small for what makes
@@ -9,6 +10,7 @@ require_relative '../../../tools/lib/measure/meters'
 # adds to a program, with the experiment alone and with all of it.
 module Alone
   FOLDER = 'test/chips/families/alone'
+  BARE = "#{FOLDER}/bare.c".freeze
   EXPERIMENT = %w[autotune autotune_cycle autotune_more].freeze
   ALONE = [*EXPERIMENT, 'autotune_record'].freeze
   WHOLE = [*EXPERIMENT, 'autotune_result'].freeze
@@ -24,13 +26,12 @@ module Alone
   # Bytes that a program takes.
   Size = Struct.new(:flash, :ram)
 
-  # One chip in one mode. `folder` is its own.
+  # One chip. `folder` is of one of its modes.
   Chip = Struct.new(:name, :title, :flash, :runs, :most, keyword_init: true) do
-    # Of what the library adds, of one part; nil where the chip's linker refuses.
-    def added(part, mode, folder)
-      size = build(part, mode, "#{folder}/#{part}") or return
-      nothing = build('nothing', mode, "#{folder}/nothing")
-      Size.new(size.flash - nothing.flash, size.ram - nothing.ram)
+    # What the library adds, of each part; nil where the chip's linker refuses.
+    def added(parts, mode, folder)
+      nothing, *sizes = ['nothing', *parts].map { |part| build(part, mode, "#{folder}/#{part}") }
+      sizes.map { |size| size && Size.new(size.flash - nothing.flash, size.ram - nothing.ram) }
     end
 
     private
@@ -38,12 +39,17 @@ module Alone
     def build(part, mode, folder)
       FileUtils.mkdir_p(folder)
       flags, names = PARTS.fetch(part)
-      size([*flags, *MODES.fetch(mode), *INCLUDES], ["#{FOLDER}/bare.c", *Alone.sources(names)], folder)
+      size([*flags, *MODES.fetch(mode), *INCLUDES], [BARE, *Alone.sources(names)], folder)
     end
 
-    def objects(sources, folder, extension)
+    # Only bare.c asks what is in the program: all others are the same for each part, and
+    # compiled once.
+    def objects(sources, flags, folder, extension)
       sources.map do |source|
-        "#{folder}/#{File.basename(source, '.c')}.#{extension}".tap { |object| yield(source, object) }
+        own = source == BARE ? flags : flags.grep_v(/\A-DBARE/)
+        Host.once([name, source, own]) do
+          "#{folder}/#{File.basename(source, '.c')}.#{extension}".tap { |object| yield(source, own, object) }
+        end
       end
     end
 
@@ -111,7 +117,7 @@ module Alone
 
     # The first source has main.
     def link(flags, sources, output, folder)
-      found = objects(sources, folder, 'rel') { |source, object| Host.output('sdcc', *OPTIONS, *flags, '-c', source, '-o', object) }
+      found = objects(sources, flags, folder, 'rel') { |source, own, object| Host.output('sdcc', *OPTIONS, *own, '-c', source, '-o', object) }
       Host.output('sdcc', '-mstm8', '--out-fmt-ihx', *found, '-o', output)
       found
     end
@@ -141,8 +147,8 @@ module Alone
     private
 
     def link(flags, sources, output, folder, entry)
-      found = objects([*sources, "#{SUPPORT}/runtime.c"], folder, 'o') do |source, object|
-        Host.output('clang', *OPTIONS, *flags, '-c', source, '-o', object)
+      found = objects([*sources, "#{SUPPORT}/runtime.c"], flags, folder, 'o') do |source, own, object|
+        Host.output('clang', *OPTIONS, *own, '-c', source, '-o', object)
       end
       Host.output('ld.lld', '-T', "#{SUPPORT}/flash.ld", '-e', entry, '--gc-sections', *found, '-o', output)
     end
@@ -151,10 +157,17 @@ module Alone
   # A PIC18, by build_pic; tools/demo chip runs its experiment.
   class Pic18 < Chip
     def size(flags, sources, folder)
-      board = "port/pic/#{name}"
-      Host.output('tools/lib/build/build_pic', name, "#{folder}/bare", *flags, '-Iport', '-Iport/pic', "-I#{board}", '--all-banks', *sources)
+      given = sources.map { |source| compiled(source, folder) || source }
+      Host.output('tools/lib/build/build_pic', name, "#{folder}/bare", *flags, '-Iport', '-Iport/pic', "-Iport/pic/#{name}", '--all-banks', *given)
       sections = PicCode.sections("#{folder}/bare.map")
       Size.new(*%w[program data].map { |place| sections.select { |one| one.place == place }.sum(&:bytes) })
+    end
+
+    private
+
+    # By the part that was built before it, in the same mode.
+    def compiled(source, folder)
+      Dir["#{File.dirname(folder)}/*/bare.d/#{File.basename(source, '.c')}.o"].first unless source == BARE
     end
   end
 
@@ -203,7 +216,11 @@ module Alone
     def add(tests)
       CHIPS.product(MODES.keys).each { |chip, mode| tests.add(name(chip, mode)) { try(chip, mode) } }
       CHIPS.select(&:runs).each { |chip| tests.add("seeded alone #{chip.name}") { notice(chip) } }
-      tests.add('alone document', needs: tests.names.grep(/\Aalone /)) { @update ? rewrite : check }
+      needs = tests.names.grep(/\Aalone /)
+      tests.add('alone document', needs: needs) do
+        @left_out = needs - tests.running
+        @update ? rewrite : check
+      end
     end
 
     private
@@ -214,7 +231,7 @@ module Alone
 
     def try(chip, mode)
       folder = "#{@folder}/alone-#{chip.name}-#{mode}"
-      found = Found.new(chip.added('alone', mode, folder), chip.added('whole', mode, folder))
+      found = Found.new(*chip.added(%w[alone whole], mode, folder))
       text = compare(chip, mode, 'src', "#{folder}/run", found) if chip.runs
       @mutex.synchronize { @found[[chip.name, mode]] = found }
       "#{text} alone #{found.alone.flash} whole #{found.whole&.flash || 'none'} of #{chip.flash}".strip
@@ -256,9 +273,18 @@ module Alone
       MODES.keys.map { |mode| @found.fetch([chip.name, mode]) }.min_by { |found| found.alone.flash }
     end
 
-    def table
-      rows = CHIPS.map { |chip| row(chip, best(chip)) }
+    # A chip that did not run in all modes has no figures: its row stays.
+    def table(old)
+      rows = CHIPS.map { |chip| left_out?(chip) ? old.of(chip.title) : row(chip, best(chip)) }
       [HEAD, HEAD.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
+    end
+
+    def left_out?(chip)
+      names = MODES.keys.map { |mode| name(chip, mode) }
+      ran = names - @left_out
+      raise Host::Failure, "#{ran.join} alone gives no row: test/weekly.txt names both modes or none" if ran.any? && ran != names
+
+      ran.empty?
     end
 
     def row(chip, found)
@@ -282,7 +308,8 @@ module Alone
     end
 
     def renewed(text)
-      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table}#{$2}" }
+      old = OldRows.new(text, 'alone')
+      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table(old)}#{$2}" }
     end
 
     def rewrite
@@ -292,7 +319,6 @@ module Alone
 
     def check
       text = File.read(DOCUMENT)
-      raise Host::Failure, "#{DOCUMENT} has no markers of alone" unless text.include?('<!-- alone:begin -->')
       return DOCUMENT if renewed(text) == text
 
       raise Host::Failure, "#{DOCUMENT} is stale; test/chips/families/run --update alone renews it"

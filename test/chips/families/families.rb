@@ -8,6 +8,7 @@ require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
 require_relative 'alone'
 require_relative 'beside'
+require_relative 'document'
 require_relative 'metered'
 require_relative 'msp430'
 require_relative 'ucsim'
@@ -61,7 +62,6 @@ STEPS = 1000
 STEPS_LONG = 20_000
 STEPS_PLANTED = 250
 APART_PLANTED = 8
-CHIPS_DOCUMENT = 'docs/chips.md'
 
 # All tests, and the results of runs by family, controller and mode.
 class Families
@@ -79,6 +79,11 @@ class Families
 
   def broken
     @mutex.synchronize { @broken ||= break_library }
+  end
+
+  # Family, controller and mode of what this run leaves out. All else has a result.
+  def left_out
+    (exact.map(&:first) - @tests.running).map { |name| name.split.drop(1) }
   end
 
   private
@@ -179,95 +184,15 @@ class Families
     copy
   end
 
-  # In the mode that costs less.
+  # In the mode that costs less, of what ran in all its modes.
   def limits
     kept = FAMILIES.flat_map { |family| family.limits.map { |controller, most| [family, controller, most] } }
+                   .reject { |family, controller, _| left_out.any? { |name, other, _| [name, other] == [family.name, controller] } }
     kept.each do |family, controller, most|
       worst = family.modes.fetch(controller).map { |mode| @results[[family.name, controller, mode]]&.worst || most + 1 }.min
       raise Host::Failure, "#{family.title}, #{controller}: #{worst}, at most #{most} allowed" if worst > most
     end
     "#{kept.size} kept"
-  end
-end
-
-# The tables of docs/chips.md, which --long --update writes. A shorter run finds no
-# more than the worst steps that stand there, and all else as it stands.
-class Document
-  HEAD = ['', 'built', 'mean', 'worst', 'flash', 'RAM'].freeze
-
-  def initialize(results, long)
-    @results = results
-    @long = long
-  end
-
-  def update
-    File.write(CHIPS_DOCUMENT, renewed(File.read(CHIPS_DOCUMENT)))
-    "#{CHIPS_DOCUMENT} is rewritten"
-  end
-
-  def check
-    old = File.read(CHIPS_DOCUMENT)
-    expected = renewed(old.dup)
-    stale = old.lines.zip(expected.lines).reject { |was, is| same?(was, is) }
-    return CHIPS_DOCUMENT if stale.empty?
-
-    raise Host::Failure, "#{CHIPS_DOCUMENT} is stale; test/chips/families/run --update renews it\n#{stale.first.join}"
-  end
-
-  private
-
-  def same?(was, is)
-    return was == is if @long
-
-    was.sub(WORST, '') == is.sub(WORST, '') && was[WORST, 1].to_i >= is[WORST, 1].to_i
-  end
-
-  # The fourth cell of a row of costs.
-  WORST = /(?<=`object` \||`pointer` \|) \d+ \| (\d+)/.freeze
-
-  def renewed(text)
-    tables.reduce(text) { |all, (name, content)| put(all, name, content) }
-  end
-
-  def put(text, name, content)
-    text.sub!(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
-      raise Host::Failure, "#{CHIPS_DOCUMENT} has no markers of #{name}"
-  end
-
-  def tables
-    { 'families' => exact, 'family-costs' => costs }
-  end
-
-  def markdown(head, rows)
-    [head, head.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
-  end
-
-  def exact
-    markdown(['', *TITLES.values], FAMILIES.map { |family| [family.title, *TITLES.keys.map { |name| exact_cell(family, name) }] })
-  end
-
-  def exact_cell(family, controller)
-    return family.refused.fetch(controller).last if family.refused.key?(controller)
-
-    modes = family.modes.fetch(controller)
-    results = modes.map { |mode| @results.fetch([family.name, controller, mode]) }
-    cell = "#{thousands(results.sum(&:rows))} rows, #{thousands(STEPS_LONG * results.size)} steps, #{results.sum(&:different)} different"
-    modes == BOTH ? cell : "#{cell}, #{modes.first} mode"
-  end
-
-  def costs
-    metered = @results.select { |(family, _, _), result| result.worst && FAMILIES.any? { |one| one.name == family && one.costs_listed? } }
-    rows = FAMILIES.flat_map do |family|
-      TITLES.keys.product(BOTH.reverse).filter_map do |controller, mode|
-        result = metered[[family.name, controller, mode]] or next
-        ["#{TITLES.fetch(controller)}, #{family.title}", "`#{mode}`", result.mean, result.worst, result.flash, result.ram]
-      end
-    end
-    markdown(HEAD, rows)
-  end
-
-  def thousands(number)
-    number.to_s.reverse.scan(/\d{1,3}/).join(' ').reverse
   end
 end
 
@@ -280,7 +205,7 @@ families = Families.new(long ? STEPS_LONG : STEPS)
 Alone::Tests.new('build/families', -> { families.broken }, update).add(families.tests)
 Beside::Tests.new('build/families').add(families.tests)
 families.tests.add('document', needs: families.tests.names.grep(/\Aexact /)) do
-  document = Document.new(families.results, long)
+  document = Document.new(families.results, long, families.left_out)
   update ? document.update : document.check
 end
 exit families.tests.run(ARGV)

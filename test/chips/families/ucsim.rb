@@ -13,7 +13,7 @@ Ucsim = Struct.new(:name, :title, :modes, :refused, :limits, :compiler, :linker,
   end
 
   def costs_listed?
-    true
+    !cycle_ns.nil?
   end
 end
 

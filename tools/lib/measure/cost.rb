@@ -16,16 +16,18 @@ require_relative 'firmware'
 require_relative 'remembered'
 require_relative 'modules'
 require_relative 'features'
+require_relative 'daily'
+require_relative 'documented'
 require_relative 'together'
 
 Encoding.default_external = 'UTF-8'
 
-# What measures a part, or all of it but what is left out.
+# What measures a part, or all of it but what is left out, which is as documented.
 class Cost
   def initialize(subjects, modules, left_out = [])
-    @subjects = subjects - left_out
-    @left_out = left_out
+    @subjects = subjects
     @modules = modules
+    @left_out = left_out
     @remembered = RememberedFigures.new
     @done = 0
     @mutex = Mutex.new
@@ -48,7 +50,7 @@ class Cost
   def check
     good = limits.all.map { |limit| tell(limit.good?, limit.what, limit.wrong) }
     all_parts.each do |document, name, rows|
-      changes = Document.new(document).replace(name, rows, @left_out.map { |one| [one.controller.title, one.chip.title, one.built] })
+      changes = Document.new(document).replace(name, rows)
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
     warn 'cost: tools/cost --update renews the tables, --tighten and --loosen the limits' unless good.all?
@@ -102,14 +104,23 @@ class Cost
   end
 
   def measured
-    @measured ||= begin
-      @subjects.zip(in_parallel(@subjects, &:figures)).to_h
-    end
+    @measured ||= known(@subjects, :figures) { |some| in_parallel(some, &:figures) }
   end
 
   # The figures of the modules' functions.
   def called
-    @called ||= @modules.zip(Host.in_parallel(@modules) { |one| calls_of(one) }).to_h
+    @called ||= known(@modules, :called) { |some| Host.in_parallel(some) { |one| calls_of(one) } }
+  end
+
+  # In their order: what the block measures, and what is documented of those that are left out.
+  def known(all, what)
+    now = all - @left_out
+    measured = now.zip(yield(now)).to_h
+    all.to_h { |one| [one, measured.fetch(one) { documented.public_send(what, one) }] }
+  end
+
+  def documented
+    @documented ||= Documented.new(File.read(page))
   end
 
   def calls_of(one)
@@ -131,10 +142,7 @@ class Cost
   end
 
   def plain_c
-    @plain_c ||= begin
-      subjects = @subjects.select(&:has_plain_c?)
-      subjects.zip(in_parallel(subjects.map(&:plain_c), &:most)).to_h
-    end
+    @plain_c ||= known(@subjects.select(&:has_plain_c?), :plain_c) { |some| in_parallel(some.map(&:plain_c), &:most) }
   end
 
   def in_parallel(subjects)
@@ -147,20 +155,28 @@ class Cost
 
   def progress
     @done += 1
-    warn "cost: #{@done} of #{@total ||= @subjects.size + @subjects.count(&:has_plain_c?)}" if (@done % 10).zero?
+    warn "cost: #{@done} of #{@total ||= (@subjects - @left_out).then { |some| some.size + some.count(&:has_plain_c?) }}" if (@done % 10).zero?
+  end
+
+  def page
+    "#{Host.root}/docs/cost.md"
   end
 
   def limits
-    @limits ||= Limits.new(measured, called, plain_c, left_out: @left_out.map(&:key))
+    @limits ||= Limits.new(measured, called, plain_c, left_out: @left_out)
+  end
+
+  # Daily none and all of them are measured, as PID, typical and PID.
+  def features
+    @left_out.empty? ? [["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)]] : []
   end
 
   def all_parts
-    page = "#{Host.root}/docs/cost.md"
     [[page, 'steps', Tables.steps(measured)],
      [page, 'modules', Tables.modules(called)],
      [page, 'together', Together.table(together)],
      ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
-     ["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)],
+     *features,
      [page, 'ratios', Tables.ratios(measured, plain_c)],
      [page, 'beside', Tables.beside(measured)],
      [page, 'pics', Tables.beside_pics(measured)],
@@ -192,7 +208,7 @@ def main(mode, root = nil, *words)
   return UserFirmware.new(*words).print if mode == 'firmware'
 
   seed = words.shift if mode == 'search'
-  cost = Cost.new(*chosen(mode == 'loosen' ? [] : words), mode == 'daily' ? Subject.all.select { |one| one.chip.weekly } : [])
+  cost = Cost.new(*chosen(mode == 'loosen' ? [] : words), mode == 'daily' ? Daily.left_out + Daily.modules_left_out : [])
   case mode
   when 'check', 'daily' then cost.check
   when 'update' then cost.update

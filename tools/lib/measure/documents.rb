@@ -8,15 +8,13 @@ class Document
     @text = @old = File.read(path)
   end
 
-  # Puts a table between its markers and says what differs from the old one, without the rows
-  # of it that begin with the cells of one `left_out`.
-  def replace(name, rows, left_out = [])
+  # Puts a table between its markers and says what differs from the old one.
+  def replace(name, rows)
     marks = ["<!-- #{name}:begin -->\n", "<!-- #{name}:end -->"]
     head, rest = @text.split(marks[0], 2)
     old, tail = rest&.split(marks[1], 2)
     tail or raise Host::Failure, "#{@path} has lost its markers of #{name}"
     @text = [head, marks[0], Tables.markdown(rows), marks[1], tail].join
-    old = old.lines.reject { |line| line.start_with?(*left_out.map { |cells| "| #{cells.join(' | ')} |" }) }.join
     old == Tables.markdown(rows) ? [] : Changes.new(old, rows).to_a
   end
 

@@ -50,23 +50,25 @@ class Limits
   end
 
   # What was measured: { subject => figures }, { subject => { function => figures } } and
-  # { subject => the worst of its straightforward form }. Of the rows `left_out` none is judged.
+  # { subject => the worst of its straightforward form }. Those of `left_out` are as documented,
+  # and not judged: the largest bound among them stands beside the others.
   def initialize(measured, called, plain_c, path = "#{Host.root}/#{FILE}", left_out: [])
     @rows = rows(measured, called)
     @measured = measured
     @plain_c = plain_c
     @path = path
     @left_out = left_out
-    @lines = read
+    @lines = read.reject { |line| left_out.include?(line.subject) }
   end
 
   def all
-    @lines.map(&:limit) + missing.map { |line| Limit.new("#{line.row}, #{line.figure}, of which there is no limit", 0, line.now, '') } + others
+    @lines.map(&:limit) + missing.map { |line| Limit.new("#{line.row}, #{line.figure}, of which there is no limit", 0, line.now, '') } +
+      bounds + ratios(@plain_c.reject { |subject, _| @left_out.include?(subject) })
   end
 
   # Those that are not in the file.
   def others
-    bounds + ratios
+    bounds + ratios(@plain_c)
   end
 
   # Lowers what is too high, unless there is a reason for it.
@@ -100,7 +102,7 @@ class Limits
     head, *lines = File.readlines(@path, chomp: true).map { |line| line.split(',', 4) }
     raise Host::Failure, "#{FILE}:1: the columns are not #{HEAD.join(', ')}" if head != HEAD
 
-    lines.each_with_index.reject { |cells, _| @left_out.include?(cells.first) }.map { |cells, at| line(cells, "#{FILE}:#{at + 2}") }
+    lines.each_with_index.map { |cells, at| line(cells, "#{FILE}:#{at + 2}") }
   end
 
   def line((row, figure, most, reason), place)
@@ -119,7 +121,7 @@ class Limits
 
   def missing
     there = @lines.map { |line| [line.row, line.figure] }
-    wanted = @measured.keys.map(&:key).product(OF_EACH_ROW) - there
+    wanted = (@measured.keys - @left_out).map(&:key).product(OF_EACH_ROW) - there
     wanted.map do |row, figure|
       subject, figures = @rows[row]
       Line.new(row: row, figure: figure, reason: '', subject: subject, now: figure_of(figures, figure))
@@ -143,8 +145,8 @@ class Limits
     [Limit.new("bound by worst found, largest: #{subject}", BOUND_MOST, figures.bound.fdiv(figures.most))]
   end
 
-  def ratios
-    @plain_c.map do |subject, worst|
+  def ratios(worst_of)
+    worst_of.map do |subject, worst|
       most, reason = RATIOS.fetch(subject.chip.title)
       Limit.new("#{subject}, by the straightforward form", most, @measured.fetch(subject).most.fdiv(worst).round(2), nil, reason)
     end

@@ -63,6 +63,11 @@ ModuleSubject = Struct.new(:called, :chip, :build) do
     [called.id, chip.title, build].join(', ')
   end
 
+  # Of a function of it.
+  def title_of(function)
+    function == 'step' ? called.id : "#{called.id}, #{function}"
+  end
+
   def matches?(words)
     own = [called.id, chip.name, build, chip.kind.to_s]
     words.empty? || words.group_by { |word| Subject.kind_of_word(word) }

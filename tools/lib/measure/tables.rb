@@ -27,9 +27,7 @@ module Tables
     def modules(called)
       [['', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
         functions.map do |name, figures|
-          function = subject.called.functions.fetch(name)
-          title = function == 'step' ? subject.called.id : "#{subject.called.id}, #{function}"
-          [title, subject.chip.title, subject.build, figures.least, figures.mean, figures.most,
+          [subject.title_of(subject.called.functions.fetch(name)), subject.chip.title, subject.build, figures.least, figures.mean, figures.most,
            figures.bound || '-', in_cycles(figures), subject.chip.flash == 'words' ? "#{figures.flash} words" : figures.flash,
            figures.instance]
         end
