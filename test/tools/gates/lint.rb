@@ -16,13 +16,13 @@ def source(lines, before: '')
     "#{lines.gsub(/^/, '    ')}    return value;\n}\n"
 end
 
-def lint(lines, *options, before: '', inline: '', programs: {})
+def lint(lines, *options, before: '', inline: '', programs: {}, settings: [])
   files = { 'include/fixpid_toy.h' => header(inline), 'src/fixpid_toy.c' => source(lines, before: before),
             '.clang-tidy' => File.read("#{PROJECT}/.clang-tidy"),
             'tools/lib/cppcheck.txt' => File.read("#{PROJECT}/tools/lib/cppcheck.txt") }
   files.merge!(programs.transform_keys { |name| "bin/#{name}" }.transform_values { |text| "#!/bin/sh\n#{text}\n" })
   lambda do
-    Gate.tree(files) { |folder| Gate.run('ruby', "#{PROJECT}/tools/lib/lint.rb", *options, programs: "#{folder}/bin") }
+    Gate.tree(files) { |folder| Gate.run('env', *settings, 'ruby', "#{PROJECT}/tools/lib/lint.rb", *options, programs: "#{folder}/bin") }
   end
 end
 
@@ -77,6 +77,7 @@ Gate.refused('a parameter changed where only SDCC sees it',
              lint('', before: "#ifdef __SDCC\nuint8_t fixpid_toy_more(uint8_t value);\n" \
                               "uint8_t fixpid_toy_more(uint8_t value)\n{\n    value = 2u;\n    return value;\n}\n#endif\n"),
              /cppcheck src as of SDCC/, /misra-c2012-17\.8/)
+Gate.refused("a Python that cannot run cppcheck's addon", lint('', '--misra', settings: %w[PYTHON=/nowhere/python3]), /internal error.*nowhere/)
 rules = { 'misra.rb' => File.read("#{PROJECT}/tools/lib/pages/docs/misra.rb") }
 { "'8.13' => nil," => '', "'2.6' =>" => "'2.5' =>" }.each do |text, instead|
   Gate.refused("another list of MISRA's rules, #{text} as #{instead}".inspect,
