@@ -2,8 +2,8 @@
 # frozen_string_literal: true
 
 require_relative 'harness'
-require_relative 'old_rows'
 require_relative '../../../tools/lib/measure/meters'
+require_relative '../../../tools/lib/measure/old_rows'
 
 # The experiment of fixpid_autotune alone, for chips that are too small for what makes
 # gains of it: the same experiments there and here, bit for bit, and what the library

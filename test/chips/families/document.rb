@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'old_rows'
+require_relative '../../../tools/lib/measure/old_rows'
 
 # The tables of docs/chips.md, which --long --update writes. A shorter run finds no
 # more than the worst steps that stand there, and all else as it stands. What was left out,
@@ -71,7 +71,7 @@ class Document
     return family.refused.fetch(controller).last if family.refused.key?(controller)
 
     modes = family.modes.fetch(controller)
-    return old.cell(TITLES.fetch(controller), family.title) if left_out?(family, controller, modes)
+    return old.named(family.title).fetch(TITLES.fetch(controller)) if left_out?(family, controller, modes)
 
     results = modes.map { |mode| @results.fetch([family.name, controller, mode]) }
     cell = "#{thousands(results.sum(&:rows))} rows, #{thousands(STEPS_LONG * results.size)} steps, #{results.sum(&:different)} different"

@@ -53,7 +53,7 @@ Gate.expect('a worst step of what ran', check(PAGE.sub('| 201 |', '| 200 |'), le
 Gate.expect('one mode that was left out', check(PAGE, left_out: LARGE.first(1)), '/chips.md')
 Gate.expect('and a wrong figure of the other', check(PAGE.sub('303', '999'), left_out: LARGE.first(1)), /stale.*\n.*999/)
 Gate.expect('a row that is lost of what was left out', check(PAGE.lines.grep_v(/^\| PID, Large/).join, left_out: LARGE),
-            /family-costs has no row of PID, Large, `object`, which did not run/)
+            /no row of PID, Large, `object` in family-costs, which did not run/)
 Gate.expect('no result of what was not left out', lambda do
   check(PAGE, results: all.except(*LARGE))
 rescue KeyError => e

@@ -3,18 +3,18 @@
 
 require_relative 'meters'
 require_relative 'modules'
+require_relative 'old_rows'
 
 # Figures as they stand in the tables of docs/cost.md, of what is not measured this time:
 # other tables have them, too, and the largest of all is among the limits.
 class Documented
   def initialize(text)
-    @text = text
-    @tables = {}
+    @tables = Hash.new { |all, name| all[name] = OldRows.new(text, name) }
   end
 
   # Without the step's variables, which stand in no table.
   def figures(subject)
-    cells = row('steps', subject.controller.title, subject.chip.title, subject.built)
+    cells = @tables['steps'].named(subject.controller.title, subject.chip.title, subject.built)
     Figures.new(**costs(cells, subject.chip), step_flash: cells['flash of the step'].to_i, needed: cells['with init'].to_i,
                 linked: cells['linked'].to_i, instance: cells['RAM each'].to_i, fixed: cells['RAM once'].to_i,
                 levels: cells['stack'][/(\d+) levels/, 1].to_i, stack: cells['stack'][/(\d+) bytes/, 1].to_i)
@@ -23,14 +23,14 @@ class Documented
   # By function.
   def called(subject)
     subject.called.functions.transform_values do |function|
-      cells = row('modules', subject.title_of(function), subject.chip.title, subject.build)
+      cells = @tables['modules'].named(subject.title_of(function), subject.chip.title, subject.build)
       ModuleFigures.new(**costs(cells, subject.chip), flash: cells['flash'].to_i, instance: cells['RAM each'].to_i)
     end
   end
 
   # The worst of its straightforward form.
   def plain_c(subject)
-    row('ratios', subject.controller.title, subject.chip.title, subject.build)['straightforward'].to_i
+    @tables['ratios'].named(subject.controller.title, subject.chip.title, subject.build)['straightforward'].to_i
   end
 
   private
@@ -40,19 +40,5 @@ class Documented
     bounds = cells['bound in cycles'].scan(/\d+/).map(&:to_i)
     { least: cells['least'].to_i, mean: cells['mean'].to_i, most: cells['worst found'].to_i, bound: cells['bound'][/\d+/]&.to_i,
       cycles: chip.cost == 'cycles' || bounds.empty? ? nil : bounds }
-  end
-
-  # Cells by the words of the head.
-  def row(name, *keys)
-    head, *rows = table(name)
-    cells = rows.find { |one| one.take(keys.size) == keys } or raise Host::Failure, "docs/cost.md has no row of #{keys.join(', ')} in #{name}"
-    head.zip(cells).to_h
-  end
-
-  def table(name)
-    @tables[name] ||= begin
-      lines = @text[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1] or raise Host::Failure, "docs/cost.md has lost its markers of #{name}"
-      lines.lines.map { |line| line.split('|', -1)[1..-2].map(&:strip) }
-    end
   end
 end
