@@ -85,8 +85,19 @@ def avr_warnings(file)
                '-o', '/dev/null')
 end
 
+# But for those that make no other text of it than another one.
 def modes_and_forms(file)
-  [[], OBJECT_MODE].product(FORMS).each { |mode, form| strictly(file, '-Iinclude', *mode, *form) }
+  seen = [preprocessed(file)] # by what warnings looks at
+  [[], OBJECT_MODE].product(FORMS).each do |mode, form|
+    text = preprocessed(file, *mode, *form)
+    strictly(file, '-Iinclude', *mode, *form) unless seen.include?(text)
+    seen << text
+  end
+end
+
+def preprocessed(file, *words)
+  output, good = run('gcc', '-std=c99', '-E', '-P', '-Iinclude', *words, file)
+  good ? output : words
 end
 
 # clang-tidy counts the warnings it hid on its standard error.
