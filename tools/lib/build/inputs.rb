@@ -79,8 +79,8 @@ module Inputs
       found = sources.dup
       found.each do |file|
         names = File.binread(file).scan(INCLUDE).flatten
-        paths = names.product([File.dirname(file), *folders]).map { |name, folder| Pathname("#{folder}/#{name}").cleanpath.to_s }
-        found.concat(paths.uniq.select { |path| File.file?(path) } - found)
+        paths = names.product([File.dirname(file), *folders]).map { |name, folder| "#{folder}/#{name}" }
+        found.concat(paths.select { |path| File.file?(path) }.map { |path| Pathname(path).cleanpath.to_s }.uniq - found)
       end
     end
 
