@@ -67,16 +67,13 @@ def expect_clean(*command)
 end
 
 # Both compilers as far as they warn: gcc does until it has written the assembly.
-def strictly(file, *words)
-  expect_clean('gcc', *STRICT, *words, '-S', file, '-o', '/dev/null')
+def strictly(file, *words, gcc: [])
+  expect_clean('gcc', *STRICT, *gcc, *words, '-S', file, '-o', '/dev/null')
   expect_clean('clang', *STRICT, *words, '-fsyntax-only', file)
 end
 
 def warnings(file)
-  includes(file).each do |paths|
-    strictly(file, *paths)
-    expect_clean('gcc', '-std=c99', '-O1', '-fanalyzer', '-Werror', *paths, '-S', file, '-o', '/dev/null')
-  end
+  includes(file).each { |paths| strictly(file, *paths, gcc: %w[-O1 -fanalyzer]) }
 end
 
 # Its registers are avr-libc's.
