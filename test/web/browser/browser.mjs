@@ -31,13 +31,15 @@ export const launch = (...more) => chromium.launch({
 });
 export const browser = await launch();
 
-// What axe-core has against the page as it is shown; by `rules` only, if there are any.
-export async function violations(page, rules) {
+// What axe-core has against the page as it is shown; by `rules` only, if there are any, and
+// `without` what these selectors find. Of what is good it need not make a list.
+export async function violations(page, rules, without = []) {
     if (!(await page.evaluate(() => 'axe' in globalThis))) {
         await page.addScriptTag({ path: AXE });
     }
-    const { violations: found } = await page.evaluate((only) =>
-        globalThis.axe.run(only ? { runOnly: only } : {}), rules);
+    const options = { ...(rules ? { runOnly: rules } : {}), resultTypes: ['violations'] };
+    const { violations: found } = await page.evaluate(([exclude, how]) =>
+        globalThis.axe.run({ exclude }, how), [without.map((one) => [one]), options]);
     return found.map(({ id, nodes }) => `${id} (${nodes.length}): ${nodes[0].html.slice(0, 120)}`);
 }
 

@@ -7,9 +7,9 @@
 // system's dark mode.
 import { createServer } from 'node:http';
 import { readFileSync, readdirSync, existsSync, statSync } from 'node:fs';
-import { extname, join, relative } from 'node:path';
+import { dirname, extname, join, relative } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { browser, check, checkNone, finish, PATIENCE, violations } from '../browser/browser.mjs';
+import { AXE, browser, check, checkNone, finish, PATIENCE, violations } from '../browser/browser.mjs';
 
 const [site, ...named] = process.argv.slice(2);
 const PHONE = { width: 390, height: 844 }; // pixels
@@ -17,10 +17,15 @@ const DESK = { width: 1300, height: 900 };
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
     '.png': 'image/png', '.svg': 'image/svg+xml' };
 
+// Where pages find axe-core: the browser compiles an address once, and a script of a file for each page.
+const READER = '/axe.min.js';
 const server = createServer((request, response) => {
-    const path = join(site, decodeURIComponent(new URL(request.url, 'http://host').pathname));
+    const { pathname } = new URL(request.url, 'http://host');
+    const path = pathname === READER ? AXE : join(site, decodeURIComponent(pathname));
     const found = existsSync(path) && statSync(path).isFile();
-    response.writeHead(found ? 200 : 404, { 'content-type': TYPES[extname(path)] ?? 'text/plain' });
+    // The script of the search's words is half of what a page loads: it is taken once.
+    const type = TYPES[extname(path)] ?? 'text/plain';
+    response.writeHead(found ? 200 : 404, { 'content-type': type, 'cache-control': 'max-age=3600' });
     response.end(found ? readFileSync(path) : 'not found');
 }).listen(0, '127.0.0.1');
 await new Promise((resolve) => server.on('listening', resolve));
@@ -43,6 +48,38 @@ const PLACES = ['scrollable-region-focusable', 'aria-hidden-focus', 'target-size
 
 // Pages that show a source file are alike: one of them is enough for what takes long.
 const sources = pages.filter((name) => /^(examples|port|sim|test|tools)\//.test(name));
+
+// What all pages have around their article: axe-core reads it on the first page of each folder.
+const TEMPLATE = ['.md-header', '.md-tabs', '.md-sidebar--primary', '.md-footer'];
+const folderOf = (name) => (sources.includes(name) ? 'sources' : dirname(name));
+const firstOf = (folder) => pages.find((name) => folderOf(name) === folder);
+const whole = pages.filter((name) => name === 'index.html' || name === firstOf(folderOf(name)));
+
+// In the page: of rows and of coloured words of programs that differ in what they say only,
+// each page keeps a few. Axe-core takes milliseconds for each of thousands.
+function thin() {
+    const seen = new Map();
+    const isFew = (kind) => {
+        seen.set(kind, (seen.get(kind) ?? 0) + 1);
+        return seen.get(kind) <= 3;
+    };
+    const kindOf = (word) => [word, word.parentElement, word.closest('div, td, th')]
+        .map((one) => `${one?.tagName} ${one?.className} ${one?.getAttribute('style')}`).join();
+    for (const [i, body] of document.querySelectorAll('tbody').entries()) {
+        for (const row of [...body.rows]) {
+            const kind = row.outerHTML.replace(/ (href|id|title|aria-label)="[^"]+"/g, ' $1')
+                .replace(/>[^<]*[^<\s][^<]*/g, '>text');
+            if (!isFew(`${i} ${kind}`)) {
+                row.remove();
+            }
+        }
+    }
+    for (const word of document.querySelectorAll('article pre span[class]')) {
+        if (word.children.length === 0 && !isFew(kindOf(word))) {
+            word.replaceWith(word.textContent);
+        }
+    }
+}
 
 const context = await browser.newContext({ reducedMotion: 'reduce' });
 context.setDefaultTimeout(PATIENCE);
@@ -189,10 +226,27 @@ const wide = [];
 const light = [];
 const dark = [];
 
+// All are shown in one tab, which keeps what it has read of the theme.
+const page = await tab(PHONE);
+let shown = '';
+page.on('pageerror', (error) => errors.push(`${shown}: ${error.message}`));
+page.on('console', (message) => message.type() === 'error' && errors.push(`${shown}: ${message.text()}`));
+
+async function read() {
+    const without = whole.includes(shown) ? [] : TEMPLATE;
+    await page.addScriptTag({ url: `${host}${READER}` });
+    light.push(...(await violations(page, PLACES, without)).map((text) => `${shown} on a phone: ${text}`));
+    await page.evaluate(thin); // before the page hears that its size is another
+    await page.setViewportSize(DESK);
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    light.push(...(await violations(page, undefined, without)).map((text) => `${shown}: ${text}`));
+    await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
+    dark.push(...(await violations(page, COLOURS, without)).map((text) => `${shown}: ${text}`));
+    await page.setViewportSize(PHONE);
+}
+
 for (const name of pages) {
-    const page = await tab(PHONE);
-    page.on('pageerror', (error) => errors.push(`${name}: ${error.message}`));
-    page.on('console', (message) => message.type() === 'error' && errors.push(`${name}: ${message.text()}`));
+    shown = name;
     await page.goto(`${host}/${name}`);
     for (const address of await page.evaluate(() => [...document.querySelectorAll('a[href]')].map((a) => a.href))) {
         links.set(address, name);
@@ -203,16 +257,10 @@ for (const name of pages) {
         wide.push(`${name}: ${width} pixels`);
     }
     if (!sources.includes(name) || name === sources[0]) {
-        await page.setViewportSize(DESK);
-        light.push(...(await violations(page)).map((text) => `${name}: ${text}`));
-        await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
-        dark.push(...(await violations(page, COLOURS)).map((text) => `${name}: ${text}`));
-        await page.setViewportSize(PHONE);
-        await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-        light.push(...(await violations(page, PLACES)).map((text) => `${name} on a phone: ${text}`));
+        await read();
     }
-    await page.close();
 }
+await page.close();
 
 function deadLinks() {
     return [...links].filter(([address]) => {
