@@ -97,7 +97,7 @@ for (const preset of presets) {
 }
 const draw = random(7);
 const faults = [];
-for (let i = 0; i < 10; i++) {
+for (let i = 0; i < 4; i++) {
     const state = { ...presets[1], KP: 0.1 + 3 * draw(), KI: 0.1 + draw(), KD: 0.1 + draw(), WEIGHT: 0.1 + 0.9 * draw(), RATE: 7 + i,
         OPTIONS: i % 3 === 0 ? 0x80 : 0, unit: ['°C', 'a*/b\\', '', '??/'][i % 4] };
     faults.push(...headerFaults(`random ${i}`, await page.evaluate(headerOf, state)));

@@ -7,7 +7,6 @@
 # without assembly, too, which an AVR has.
 forms='wide narrow'
 first_form=${forms%% *}
-other_forms=${forms#* }
 
 # The mixin text for a mode (pointer or object) and a form, in Ceedling's context
 # test or gcov.
@@ -154,13 +153,7 @@ part_avr() {
     need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
     need_ceedling
     rows_of_avr
-    run_mode avr pointer "$first_form" test/chips/avr/avr.yml
-}
-
-part_sanitize() {
-    need clang :libclang-rt-14-dev
-    need_ceedling
-    run_mode sanitize object "$first_form" test/unit/sanitize/sanitize.yml
+    run_mode avr object "$first_form" test/chips/avr/avr.yml
 }
 
 check_formats() {
@@ -300,6 +293,12 @@ part_mutants() {
     count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
 }
 
+part_sanitize() {
+    need clang :libclang-rt-14-dev
+    need_ceedling
+    run_mode sanitize object "$first_form" test/unit/sanitize/sanitize.yml
+}
+
 # What is too long for each day, and a form of what runs daily: see test/weekly.txt.
 part_variants() {
     need qemu-system-arm simavr avr-gcc:gcc-avr :avr-libc sdcc :sdcc-libraries sstm8:sdcc-ucsim \
@@ -312,12 +311,9 @@ part_variants() {
     rows_of_avr
     limits seven-turns 29999 127 1022 8190 126
     limits eight-turns 256 128 999 64 127
-    run_mode avr object "$first_form" test/chips/avr/avr.yml
     for form in $forms; do
         run_mode unit object "$form"
         run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
-    done
-    for form in $other_forms; do
         run_mode avr pointer "$form" test/chips/avr/avr.yml
     done
     runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)

@@ -120,8 +120,8 @@ module Assurance
      Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
                "#{parts['unit']} and #{parts['avr']} checks, every line and branch", '`tools/test unit avr`'),
      Claim.new('tested', 'nothing that C leaves undefined',
-               "#{parts['sanitize']} checks under clang's sanitizers in the mode without pointers, and each week those of the other",
-               '`tools/test sanitize variants`'),
+               "all targets of the fuzzer under clang's sanitizers, and each week #{parts['sanitize']} unit tests of the mode without pointers and those of the other",
+               '`tools/test fuzz sanitize variants`'),
      Claim.new('tested', 'no warning and nothing of clang-tidy; of the rules of MISRA C:2012 that cppcheck has, only named deviations',
                "#{parts['lint']} checks", '`tools/test lint`'),
      Claim.new('tested', 'the same as a program for Windows, under Wine, and by the newest gcc and clang', 'all recorded rows; ' \
