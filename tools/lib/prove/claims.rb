@@ -77,24 +77,27 @@ class Claims < AboutClaims
   end
 
   # For each claim that fails with a break, the first of those with which the fewest others do.
+  # A machine draws until all are alone but those that are said to be unneeded.
   def failures(claims, build)
     found = {}
-    tried(build).each do |name, file, source, seconds|
-      break if claims.keys.all? { |property| found[property]&.alone? }
+    @breaks.each { |broken| try(found, build, broken.words, broken.file, broken.source) }
+    drawn(build).first(DRAWN_MOST).each do |mutant|
+      break if claims.all? { |property, claim| pinned.include?(claim) || found[property]&.alone? }
 
-      failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, seconds).failing }
-      failing&.each do |property|
-        found[property] = Failure.new(failing - [property], name) unless found.key?(property) && found[property].others.size < failing.size
-      end
+      try(found, build, *mutant)
     end
     found
   end
 
-  # Names, files, sources, and for how long each is tried if that is limited.
-  def tried(build)
-    @breaks.map { |broken| [broken.words, broken.file, broken.source] } + drawn(build).first(DRAWN_MOST)
+  # Notes what fails with a break, which may be limited in time.
+  def try(found, build, name, file, source, seconds = nil)
+    failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, seconds).failing }
+    failing&.each do |property|
+      found[property] = Failure.new(failing - [property], name) unless found.key?(property) && found[property].others.size < failing.size
+    end
   end
 
+  # Names, files, sources, and for how long each is tried.
   def drawn(build)
     functions = [nil, *Cbmc.new(@proof, build).functions]
     equivalents = EquivalentMutants.new(Equivalents::FILE)
