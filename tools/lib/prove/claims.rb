@@ -13,7 +13,7 @@ require_relative 'seeded'
 # of them needs stands in unneeded.txt.
 class Claims < AboutClaims
   FILE = "#{FOLDER}/unneeded.txt".freeze
-  NOT_ASKED = %w[autotune model pid theorems].freeze # unless a word names the group
+  NOT_ASKED = %w[composed].freeze # unless a word names it: each of its breaks takes as long as the proof
   DRAWN_MOST = 40
   SECONDS = 20 # for one that is drawn
 
@@ -26,13 +26,14 @@ class Claims < AboutClaims
 
   # The first form of each proof that is asked.
   def self.chosen(proofs, words, breaks)
-    asked(proofs).select { |proof| words.include?(proof.group) || !left_out?(proof) }
+    breakable(proofs).select { |proof| words.include?(proof.what) || !NOT_ASKED.include?(proof.what) }
                  .uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
                  .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
   end
 
-  def self.left_out?(proof)
-    NOT_ASKED.include?(proof.group)
+  # Of a proof in which no source is nothing can be broken.
+  def self.breakable(proofs)
+    asked(proofs).reject { |proof| Proofs.sources(proof).grep(%r{\A(?:src|include)/}).empty? }
   end
 
   def initialize(proof, breaks)
