@@ -145,9 +145,12 @@ uint16_t check_of_contract(const uint8_t bytes[], uint8_t count)
 // check_of.
 void prove_pack(void)
 {
-    struct fixpid_autotune_record record = nondet_record();
+    const struct fixpid_autotune_record given = nondet_record();
+    struct fixpid_autotune_record record = given;
     struct fixpid_autotune was;
+    const uint8_t at = nondet_uint8();
 
+    assume(at < FIXPID_AUTOTUNE_RECORD_SIZE);
     c = nondet_autotune();
     was = c;
     claim(fixpid_autotune_pack(&c, &record) == over(was.state));
@@ -167,7 +170,21 @@ void prove_pack(void)
                   (c.highest == was.highest) && (c.lowest == was.lowest));
             claim(c.output == was.config.output_rest);
         }
+    } else {
+        claim(record.bytes[at] == given.bytes[at]);
     }
+}
+
+static bool same_wave(const struct fixpid_autotune *a,
+                      const struct fixpid_autotune *b)
+{
+    return (a->side == b->side) && (a->seen == b->seen) &&
+           (a->averaged == b->averaged) && (a->elapsed == b->elapsed) &&
+           (a->period == b->period) && (a->last_period == b->last_period) &&
+           (a->highest == b->highest) && (a->lowest == b->lowest) &&
+           (a->noise == b->noise) && (a->edge == b->edge) &&
+           (a->centre == b->centre) && (a->half == b->half) &&
+           (a->first_on == b->first_on);
 }
 
 // Nothing but what an experiment can be is unpacked, and packed again it is the
@@ -195,6 +212,6 @@ void prove_unpack(void)
         claim(same_config(&c.config, &was.config) && (c.state == was.state));
         claim(equal_sums(&c.sums[0], &was.sums[0]) &&
               equal_sums(&c.sums[1], &was.sums[1]));
-        claim((c.output == was.output) && (c.highest == was.highest));
+        claim((c.output == was.output) && same_wave(&c, &was));
     }
 }
