@@ -175,18 +175,6 @@ void prove_pack(void)
     }
 }
 
-static bool same_wave(const struct fixpid_autotune *a,
-                      const struct fixpid_autotune *b)
-{
-    return (a->side == b->side) && (a->seen == b->seen) &&
-           (a->averaged == b->averaged) && (a->elapsed == b->elapsed) &&
-           (a->period == b->period) && (a->last_period == b->last_period) &&
-           (a->highest == b->highest) && (a->lowest == b->lowest) &&
-           (a->noise == b->noise) && (a->edge == b->edge) &&
-           (a->centre == b->centre) && (a->half == b->half) &&
-           (a->first_on == b->first_on);
-}
-
 // Nothing but what an experiment can be is unpacked, and packed again it is the
 // record. By contract: check_of.
 void prove_unpack(void)
@@ -209,9 +197,6 @@ void prove_unpack(void)
         claim(fixpid_autotune_pack(&c, &again));
         claim(again.bytes[at] == record.bytes[at]);
     } else {
-        claim(same_config(&c.config, &was.config) && (c.state == was.state));
-        claim(equal_sums(&c.sums[0], &was.sums[0]) &&
-              equal_sums(&c.sums[1], &was.sums[1]));
-        claim((c.output == was.output) && same_wave(&c, &was));
+        claim_same(&c, &was);
     }
 }
