@@ -31,19 +31,29 @@ class Cbmc
     ask(program, '--stop-on-fail')
   end
 
-  # The names of all properties that fail; nil without an answer.
+  # The names of two properties that fail, of one if no other does, or none; nil without an
+  # answer. It stops at the first, and is asked again without that.
   def failing
     program = compile or return
-    return if ask(program).verdict == :none
+    places = places_of_properties(program)
+    found = []
+    2.times do
+      others = (places.keys - found).flat_map { |name| ['--property', name] }
+      verdict = ask(program, '--stop-on-fail', *others).verdict
+      return if verdict == :none
+      break if verdict == :proved
 
-    @said.scan(/^\[(\S+)\] .*: FAILURE$/).flatten
+      found << violated(places)
+    end
+    found
   end
 
   # name => text of each assertion of its harness.
   def properties
     program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
-    tool('cbmc', program, '--show-properties', '--no-standard-checks', '--drop-unused-functions') or abort "prove: #{@proof.name}: #{@said}"
-    @said.scan(%r{^Property (\S+\.assertion\.\d+):\n  file (?:\./)?#{FOLDER}/.*\n  (.*)$}).to_h
+    shown(program, '--no-standard-checks', '--drop-unused-functions')
+      .select { |name, file, *| name.match?(/\.assertion\.\d+\z/) && Pathname(file).cleanpath.to_s.start_with?("#{FOLDER}/") }
+      .to_h { |name, *, text| [name, text] }
   end
 
   # The functions that the proof comes to.
@@ -85,6 +95,23 @@ class Cbmc
   end
 
   private
+
+  # [name, file, line, function, text] of each property.
+  def shown(program, *options)
+    tool('cbmc', program, '--show-properties', *options) or abort "prove: #{@proof.name}: #{@said}"
+    @said.scan(/^Property (\S+):\n  file (\S+) line (\d+) function (\w+)\n  (.*)$/)
+  end
+
+  # name => where it is and what it says.
+  def places_of_properties(program)
+    shown(program, *CHECKS).to_h { |name, *place| [name, place] }
+  end
+
+  # The name of the one at which the last run stopped; of an unwinding there is its place.
+  def violated(places)
+    file, function, line, text = @said.match(/^Violated property:\n  file (\S+) function (\w+) line (\d+) .*\n  (.*)$/).captures
+    places.key([file, line, function, text]) || "#{file}:#{line}: #{text}"
+  end
 
   # The harness, with a claim behind its end.
   def ended

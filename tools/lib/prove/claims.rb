@@ -13,22 +13,20 @@ require_relative 'seeded'
 # of them needs stands in unneeded.txt.
 class Claims < AboutClaims
   FILE = "#{FOLDER}/unneeded.txt".freeze
-  NOT_ASKED = %w[composed].freeze # unless a word names it: each of its breaks takes as long as the proof
   DRAWN_MOST = 40
   SECONDS = 20 # for one that is drawn
 
-  # The other properties that fail with a break.
-  Failure = Struct.new(:others, :broken) do
+  # Another property that fails with a break, or nil.
+  Failure = Struct.new(:other, :broken) do
     def alone?
-      others.empty?
+      other.nil?
     end
   end
 
   # The first form of each proof that is asked.
   def self.chosen(proofs, words, breaks)
-    breakable(proofs).select { |proof| words.include?(proof.what) || !NOT_ASKED.include?(proof.what) }
-                 .uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
-                 .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
+    breakable(proofs).uniq { |proof| [proof.harness, proof.what] }.select { |proof| proof.matches?(words) }
+                     .map { |proof| new(proof, breaks.select { |broken| broken.proof == proof }) }
   end
 
   # Of a proof in which no source is nothing can be broken.
@@ -74,10 +72,10 @@ class Claims < AboutClaims
   def why(failure, claims)
     return 'none makes it fail' unless failure
 
-    "where it fails, others do: #{failure.others.map { |other| claims.fetch(other, other) }.join('; ')}: #{failure.broken}"
+    "where it fails, another does: #{claims.fetch(failure.other, failure.other)}: #{failure.broken}"
   end
 
-  # For each claim that fails with a break, the first of those with which the fewest others do.
+  # For each claim that fails with a break, the first of those with which no other does, if any.
   # A machine draws until all are alone but those that are said to be unneeded.
   def failures(claims, build)
     found = {}
@@ -94,7 +92,8 @@ class Claims < AboutClaims
   def try(found, build, name, file, source, seconds = nil)
     failing = Seeded.in_tree(build, "#{@proof.name} #{name}", file, source) { |tree| Cbmc.new(@proof, build, tree, seconds).failing }
     failing&.each do |property|
-      found[property] = Failure.new(failing - [property], name) unless found.key?(property) && found[property].others.size < failing.size
+      failure = Failure.new((failing - [property]).first, name)
+      found[property] = failure if !found.key?(property) || (failure.alone? && !found[property].alone?)
     end
   end
 

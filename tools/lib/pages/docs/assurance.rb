@@ -68,8 +68,8 @@ module Assurance
   def beside_the_proofs
     [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved, a claim or an end', 'each form with all features; claims and ends in all',
                '`tools/prove --coverage`'),
-     Claim.new('tested', 'each claim of a proof is needed: some break makes it fail, and nothing else', 'all proofs but ' \
-               "#{Claims::NOT_ASKED.join(', ')}, which is asked only by name; but for #{Claims.pinned.size} claims that are listed with their reasons",
+     Claim.new('tested', 'each claim of a proof is needed: some break makes it fail, and nothing else',
+               "in the first form of each; but for #{Claims.pinned.size} claims that are listed with their reasons",
                '`tools/prove --claims`'),
      Claim.new('proved', 'breaks that are said to change nothing change nothing that is proved',
                "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, and #{rows_of(Equivalents::ARGUED)} that are argued",
