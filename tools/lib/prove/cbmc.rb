@@ -28,18 +28,18 @@ class Cbmc
 
   def run
     program = compile or return Answer.new(:none, "it does not compile\n#{@said}")
-    ask(program, '--stop-on-fail')
+    ask(program)
   end
 
   # The names of two properties that fail, of one if no other does, or none; nil without an
   # answer. It stops at the first, and is asked again without that.
   def failing
     program = compile or return
-    places = places_of_properties(program)
+    places = shown(program, *CHECKS).to_h { |name, *place| [name, place] }
     found = []
     2.times do
       others = (places.keys - found).flat_map { |name| ['--property', name] }
-      verdict = ask(program, '--stop-on-fail', *others).verdict
+      verdict = ask(program, *others).verdict
       return if verdict == :none
       break if verdict == :proved
 
@@ -102,11 +102,6 @@ class Cbmc
     @said.scan(/^Property (\S+):\n  file (\S+) line (\d+) function (\w+)\n  (.*)$/)
   end
 
-  # name => where it is and what it says.
-  def places_of_properties(program)
-    shown(program, *CHECKS).to_h { |name, *place| [name, place] }
-  end
-
   # The name of the one at which the last run stopped; of an unwinding there is its place.
   def violated(places)
     file, function, line, text = @said.match(/^Violated property:\n  file (\S+) function (\w+) line (\d+) .*\n  (.*)$/).captures
@@ -164,7 +159,7 @@ class Cbmc
 
   def ask(program, *options)
     output = "#{@folder}/output.txt"
-    process = Process.spawn(AskedOnce.environment, "#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, *options, *@options,
+    process = Process.spawn(AskedOnce.environment, "#{ENV.fetch('CBMC')}/cbmc", program, *CHECKS, '--stop-on-fail', *options, *@options,
                             in: File::NULL, %i[out err] => output, rlimit_cpu: [@seconds_most, @seconds_most + 1], rlimit_as: MEGABYTES_MOST << 20)
     status = watch(process)
     judge(@said = File.read(output), status)
