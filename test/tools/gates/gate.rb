@@ -16,9 +16,6 @@ require "#{PROJECT}/tools/lib/test/named"
 Encoding.default_external = 'UTF-8'
 ENV['LC_ALL'] = 'C'
 
-# What they judge is not remembered.
-%w[FIXPID_TALLY FIXPID_FRESH].each { |name| ENV.delete(name) }
-
 module Gate
   @tests = NamedTests.new(File.expand_path($PROGRAM_NAME).delete_prefix("#{PROJECT}/"), 1)
 

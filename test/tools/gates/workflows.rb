@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# .github/workflows: each part of tools/test runs in one of them, those that run only by
-# name each week and before a release, with a log that says of what; and with a part
-# left out it is said.
+# .github/workflows: the tests run the daily parts of tools/test, the week and a release all,
+# with a log that says of what; and a part without a log is named.
 require_relative 'gate'
 require 'json'
 require 'yaml'
 
-PARTS = File.readlines("#{PROJECT}/test/parts.txt").grep(/^[a-z]/).map { |line| line.split.first }.freeze
+PARTS = File.readlines("#{PROJECT}/test/parts.txt").grep(/^[a-z]/).map { |line| line.split.first(2) }.group_by(&:last).transform_values { |rows| rows.map(&:first) }.freeze
 KEPT = 'tools/lib/test/kept'
 
 def workflow(name)
@@ -40,10 +39,10 @@ def run_each(name)
             .flat_map { |job| commands(job) }.grep(/tools\/test .*\$\{\{ matrix\.part \}\}|tools\/test \$\{\{ matrix\.part \}\}/)
 end
 
-# A project with these parts, of which `long` runs by name, and what a command says there.
+# A project with a part `long`, and what a command says there.
 def toy(*lines)
   files = [KEPT, 'tools/lib/setup.sh', 'tools/lib/pages/docs/packages.rb'].to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
-  files['tools/test'] = "#!/bin/sh\n[ \"$1\" != --by-name ] || exec echo long\necho ok a\n[ ! -e fault ]\n"
+  files['tools/test'] = "#!/bin/sh\n[ \"$1\" != --all ] || exec echo long\necho ok a\n[ ! -e fault ]\n"
   lambda do
     Gate.tree(files) do
       %w[tools/test tools/lib/test/kept].each { |path| File.chmod(0o755, path) }
@@ -54,10 +53,8 @@ def toy(*lines)
   end
 end
 
-Gate.expect('parts of the tests and of the week', -> { (listed('test') + listed('weekly')).sort }, PARTS.sort)
-Gate.expect('the tests run each part that they list', -> { run_each('test').size }, 1)
-Gate.expect('the week runs each part that it lists, and keeps the log', -> { run_each('weekly').grep(/\A#{KEPT} /).size }, 1)
-Gate.expect('the week proves the mutants that change nothing, and asks for the need of claims', -> { %w[excuses claims] - listed('weekly') }, [])
+Gate.expect('the tests run the daily parts', -> { [listed('test'), run_each('test').size] }, [PARTS['daily'], 1])
+Gate.expect('the week runs all, and keeps the logs', -> { [listed('weekly'), run_each('weekly').grep(/\A#{KEPT} /).size] }, [PARTS['daily'] + PARTS['weekly'], 1])
 Gate.expect('a release waits for the week',
             -> { [jobs('release').dig('weekly', 'uses'), jobs('release').dig('archives', 'needs')] }, ['./.github/workflows/weekly.yml', 'weekly'])
 Gate.expect('the week may be called', -> { workflow('weekly')[true].key?('workflow_call') }, true)
@@ -69,7 +66,7 @@ def steps(name, job)
 end
 
 Gate.expect('a release takes the logs of the week', lambda do
-  kept = steps('weekly', 'by_name').map { |step| step['with'] }.compact.find { |with| with.fetch('path', '') == 'build/kept/' }
+  kept = steps('weekly', 'test').map { |step| step['with'] }.compact.find { |with| with.fetch('path', '') == 'build/kept/' }
   taken = steps('release', 'archives').map { |step| step['with'] }.compact.find { |with| with.fetch('path', '') == 'build/kept/' }
   File.fnmatch(taken.fetch('pattern'), kept.fetch('name'))
 end, true)
@@ -85,11 +82,6 @@ Gate.expect('only what publishes may write', lambda do
   %w[release test weekly].flat_map { |name| [workflow(name)['permissions'], *jobs(name).values.map { |job| job['permissions'] }] }.compact
                           .reject { |given| given == { 'contents' => 'read' } }
 end, [{ 'contents' => 'write', 'id-token' => 'write', 'attestations' => 'write' }])
-Gate.expect('a pull request tells what it costs', -> { [jobs('test').dig('cost', 'if'), commands(jobs('test').fetch('cost')).grep(/\Atools\/cost --since .*GITHUB_STEP_SUMMARY/).size] },
-            ["github.event_name == 'pull_request'", 1])
-Gate.expect('the week has other systems, which were not tried', lambda do
-  %w[macos windows].map { |name| [jobs('weekly').dig(name, 'runs-on'), jobs('weekly').dig(name, 'continue-on-error')] }
-end, [['macos-latest', true], ['windows-latest', true]])
 
 # What actionlint says of the workflows in a folder with these changes of one of them.
 def linted(path = nil, text = nil, instead = nil)
@@ -106,15 +98,11 @@ end
 
 Gate.passed('actionlint has nothing against the workflows', linted)
 Gate.refused('an output that no job has', linted('.github/workflows/test.yml', 'needs.parts.outputs.parts', 'needs.parts.outputs.part'), /test.yml:\d+:\d+: property "part" is not defined/)
-Gate.refused('a function that there is not', linted('.github/workflows/weekly.yml', 'always()', 'alway()'), /weekly.yml:\d+:\d+: undefined function "alway"/)
 
 again = "#{KEPT} long tools/test long"
 Gate.expect('a part without a log', -> { toy("#{KEPT} --missing").call.first }, "long\n")
 Gate.expect('one with a log', -> { toy(again, "#{KEPT} --missing").call.first }, '')
 Gate.expect('one that failed', -> { toy('touch fault', again, "#{KEPT} --missing").call.first }, "long\n")
-Gate.expect('one of another commit', -> { toy(again, 'git -c user.name=a -c user.email=a@b commit -q --allow-empty -m b', "#{KEPT} --missing").call.first }, "long\n")
-Gate.expect('one of a tree that was changed', -> { toy('echo b >new', again, "#{KEPT} --missing").call.first }, "long\n")
 Gate.refused('what failed fails', toy('touch fault', again), /^ok a$/, /^ended with 1$/)
-Gate.passed('what passed passes', toy(again))
 Gate.said('the log says of what', toy(again, 'cat build/kept/long.log'), /\Acommit: \h{40}$/, /^command: tools.test long$/, /^ruby \d/)
 Gate.finish

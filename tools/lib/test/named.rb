@@ -12,13 +12,12 @@ require 'fileutils'
 #   exit tests.run(ARGV)
 #
 # A test fails by raising. A word picks the tests that have it as their name or among
-# their other words; an argument of several words, those that have all of them. --daily are
-# all but those that test/weekly.txt names: what needs one of these judges what ran. --weekly
-# are these, and what needs one of them, with all that it needs.
+# their other words; an argument of several words, those that have all of them. A test with
+# the word `weekly` runs once a week, and all others have the word `daily`. With `daily` alone
+# what needs a weekly test judges what ran; otherwise all that is needed runs, too.
 class NamedTests
   Test = Struct.new(:name, :words, :needs, :body)
   LINES_MOST = 40 # of what a failure says
-  WEEKLY = 'test/weekly.txt'
 
   # Names of what failed, and of what runs this time.
   attr_reader :failed, :running
@@ -35,6 +34,7 @@ class NamedTests
 
   # `needs` are names of tests that run before it, also where only this is asked for.
   def add(name, *words, needs: [], &body)
+    words |= ['daily'] unless words.include?('weekly')
     @tests << Test.new(name, [name, *name.split(/[ ,]+/), *words], needs, body)
   end
 
@@ -46,10 +46,8 @@ class NamedTests
   def run(arguments)
     case arguments.first
     when '-h', '--help' then puts help
-    when '--list' then puts names
-    when '--daily' then return run_only(@tests - weekly)
-    when '--weekly' then return run_all(weekly | @tests.select { |test| (test.needs & weekly.map(&:name)).any? })
-    else return run_all(asked_for(arguments))
+    when '--list' then puts asked_for(arguments.drop(1)).map(&:name)
+    else return arguments == ['daily'] ? run_only(asked_for(arguments)) : run_all(asked_for(arguments))
     end
     true
   end
@@ -67,18 +65,13 @@ class NamedTests
 
     arguments.flat_map do |argument|
       found = @tests.select { |test| test.words.include?(argument) || (argument.split - test.words).empty? }
-      found.empty? ? refuse(argument) : found
+      found.empty? && !%w[daily weekly].include?(argument) ? refuse(argument) : found
     end
   end
 
   def refuse(argument)
     warn "#{@script}: no such test: #{argument}; see --list"
     exit 2
-  end
-
-  def weekly
-    patterns = File.readlines(WEEKLY).filter_map { |line| /\A(?:#{line.split(' ', 2).last.strip})\z/ if line.start_with?("#{@script} ") }
-    @tests.select { |test| patterns.any? { |pattern| pattern.match?(test.name) } }
   end
 
   def remembered

@@ -53,9 +53,9 @@ $(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
     printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
 }
 
-# run_mode NAME MODE FORM [MIXIN]: all unit tests so; NAME is that of their sight, too.
+# run_mode NAME MODE FORM [MIXIN]: all unit tests so.
 run_mode() {
-    run_ceedling "$1" "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
+    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
         ${4:+"$4"}
 }
 
@@ -92,7 +92,7 @@ part_unit() {
         modules='[a-z0-9_]+' task=gcov:all
         [ "$form" = "$first_form" ] ||
             modules=$(narrow_modules) task="gcov:pattern[fixpid_($modules)]"
-        run_ceedling unit "coverage-$form" "$task" \
+        run_ceedling "coverage-$form" "$task" \
             "$(mode_and_form pointer "$form" gcov)
 :gcov:
   :summaries: FALSE
@@ -109,7 +109,7 @@ limits() {
         chip=
         [ "$form" = wide ] || chip='
       - _PIC14'
-        run_ceedling unit "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
+        run_ceedling "limits-$1-$form" 'test:pattern[limits|an964.*arith]' \
             ":defines:
   :test:
     '*':$chip
@@ -129,11 +129,11 @@ part_limits() {
 }
 
 part_autotune() {
-    count 'test/model/autotune/run' '^ok ' '^FAILED ' once whole test/model/autotune/run
+    runner test/model/autotune/run daily
 }
 
 part_fuzz() {
-    count 'test/fuzz/run' '^ok ' '^FAILED ' once whole test/fuzz/run --daily
+    runner test/fuzz/run daily
 }
 
 # The recorded rows as C, for a machine without files.
@@ -173,81 +173,81 @@ part_lint() {
     check_files 'syntax of' "$rubies" \
         ruby -e 'ARGV.each { |file| RubyVM::InstructionSequence.compile_file(file) }'
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
-    count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' once whole ruby tools/lib/lint.rb
+    count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' ruby tools/lib/lint.rb
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'each unit test asserts' ruby tools/lib/test/asserts.rb
 }
 
 part_consumers() {
     need cmake make ninja:ninja-build ruby
-    count consumers '^ok ' '^FAILED ' once whole test/use/consumers/run --daily
-    count 'test/use/port_check/run' '^ok ' '^FAILED ' once whole test/use/port_check/run
+    runner test/use/consumers/run daily
+    runner test/use/port_check/run daily
 }
 
 part_packages() {
-    count packages '^ok ' '^FAILED ' once whole test/use/packages/run --daily
+    runner test/use/packages/run daily
 }
 
 part_firmware() {
     need clang
     need_sdcc
-    count 'chips of tools/firmware' '^ok ' '^FAILED ' once whole test/use/firmware/run
+    runner test/use/firmware/run daily
     check 'tools/firmware' tools/firmware
-    count 'the sources under XC8' '^ok ' '^FAILED ' once whole test/use/xc8_check/run
-    count 'test/use/notes/run' '^ok ' '^FAILED ' once whole test/use/notes/run
+    runner test/use/xc8_check/run daily
+    runner test/use/notes/run daily
 }
 
 part_target() {
     need qemu-system-arm simavr avr-gcc:gcc-avr
     need_sdcc
     build_gpsim
-    count 'test/chips/target/run' '^ok ' '^FAILED ' once target test/chips/target/run --daily
-    count 'test/model/autotune/chips' '^ok ' '^FAILED ' once whole test/model/autotune/chips --daily
+    runner test/chips/target/run daily
+    runner test/model/autotune/chips daily
 }
 
 part_python() {
-    count 'test/use/python/run' '^ok ' '^FAILED ' once whole test/use/python/run
+    runner test/use/python/run daily
 }
 
 part_site() {
-    count 'test/web/site/run' '^ok ' '^FAILED ' once whole test/web/site/run
+    runner test/web/site/run daily
 }
 
 part_families() {
     need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
     need_sdcc
     need_spdk
-    count 'test/chips/families/run' '^ok ' '^FAILED ' once families test/chips/families/run --daily
+    runner test/chips/families/run
 }
 
 part_cost() {
     need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :avr-libc \
         :libsimavr-dev
     build_gpsim
-    count 'bounds of known routines' '^ok ' '^FAILED ' once whole ruby test/tools/cost/bounds.rb
-    count 'stacks of known routines' '^ok ' '^FAILED ' once whole ruby test/tools/cost/stacks.rb
-    count 'bounds of random loops' '^ok ' '^FAILED ' once whole ruby test/tools/cost/random_loops.rb
-    count 'the search for the worst step' '^ok ' '^FAILED ' once whole ruby test/tools/cost/search.rb
-    count 'what tools/cost tells' '^ok ' '^FAILED ' once whole ruby test/tools/cost/changes.rb
+    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/bounds.rb
+    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/stacks.rb
+    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/tools/cost/random_loops.rb
+    count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
+    count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --daily
 }
 
 part_chip() {
     need_sdcc
     build_gpsim
-    count 'tools/demo chip' ' ok$' ' FAILED$' once whole tools/demo --verbose chip faults_chip
-    count 'the co-simulation' '^ok ' '^FAILED ' once whole tools/lib/build/cosim_check
+    count 'tools/demo chip' ' ok$' ' FAILED$' tools/demo --verbose chip faults_chip
+    count 'the co-simulation' '^ok ' '^FAILED ' tools/lib/build/cosim_check
 }
 
 part_demo() {
     need cmake ninja:ninja-build cc:gcc :libc6-dev ruby gnuplot:gnuplot-nox
-    count 'what tools/demo reads' '^ok ' '^FAILED ' once whole ruby test/tools/demo/readers.rb
+    count 'what tools/demo reads' '^ok ' '^FAILED ' ruby test/tools/demo/readers.rb
     check 'without dpkg' without_packages tools/demo thermostat
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --check-docs
 }
 
 part_tuner() {
-    count 'test/web/tuner/run' '^ok ' '^FAILED ' once whole test/web/tuner/run
+    runner test/web/tuner/run daily
 }
 
 part_docs() {
@@ -259,7 +259,7 @@ part_docs() {
 
 # The first command on a machine that has nothing.
 part_bare() {
-    count 'test/tools/bare/run' '^ok ' '^FAILED ' test/tools/bare/run
+    runner test/tools/bare/run
 }
 
 part_gates() {
@@ -271,25 +271,15 @@ part_gates() {
         case ${gate##*/} in
         gate.rb) ;;    # which they share
         mutants.rb) ;; # with what it judges
-        *) count "$gate" '^ok ' '^FAILED ' once whole ruby "$gate" ;;
+        *) count "$gate" '^ok ' '^FAILED ' ruby "$gate" ;;
         esac
     done
-}
-
-# After the answers of the unbroken assembly: what remains are its harnesses.
-part_assembly() {
-    need ruby cc:gcc :libc6-dev simavr avr-gcc:gcc-avr :avr-libc \
-        arm-none-eabi-gcc:gcc-arm-none-eabi qemu-system-arm
-    need_sdcc
-    build_gpsim
-    check 'the arithmetic on chips' test/chips/target/run arith
-    count 'every instruction' '^ok ' '^FAILED ' ruby tools/lib/faults/assembly.rb
 }
 
 part_mutants() {
     need ruby cc:gcc tcc :libc6-dev
     need_ceedling
-    count 'test/tools/gates/mutants.rb' '^ok ' '^FAILED ' once whole ruby test/tools/gates/mutants.rb
+    count 'test/tools/gates/mutants.rb' '^ok ' '^FAILED ' ruby test/tools/gates/mutants.rb
     count 'mutants' '^ok ' '^FAILED ' ruby tools/lib/faults/mutants.rb
 }
 
@@ -299,7 +289,7 @@ part_sanitize() {
     run_mode sanitize object "$first_form" test/unit/sanitize/sanitize.yml
 }
 
-# What is too long for each day, and a form of what runs daily: see test/weekly.txt.
+# Forms, chips, compilers and pages beside those that run daily.
 part_variants() {
     need qemu-system-arm simavr avr-gcc:gcc-avr :avr-libc sdcc :sdcc-libraries sstm8:sdcc-ucsim \
         clang :libclang-rt-14-dev ld.lld:lld mspdebug timeout:coreutils cmake make ninja:ninja-build ruby \
@@ -316,20 +306,28 @@ part_variants() {
         run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
         run_mode avr pointer "$form" test/chips/avr/avr.yml
     done
-    runners=$(sed -n 's,^\(test/[^ ]*\) .*,\1,p' test/weekly.txt | sort -u)
-    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
-    count 'tools/demo faults_places' ' ok$' ' FAILED$' once whole tools/demo --verbose faults_places
-    for runner in $runners; do
-        count "$runner" '^ok ' '^FAILED ' once whole "$runner" --weekly
+    for path in use/consumers use/port_check use/packages use/firmware use/xc8_check use/notes \
+        use/python chips/target model/autotune web/site web/tuner; do
+        runner "test/$path/run" weekly
     done
+    runner test/model/autotune/chips weekly
+}
+
+part_long() {
+    need ruby clang :libclang-rt-14-dev cmake ninja:ninja-build cc:gcc :libc6-dev gnuplot:gnuplot-nox
+    need_sdcc
+    build_gpsim
+    runner test/fuzz/run
+    count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
+    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --long faults faults_places faults_chip
 }
 
 # The runner, and what it runs in a few minutes.
 part_proofs() {
     need ruby cc:gcc
     need_cbmc
-    count 'test/proof/run' '^ok ' '^FAILED ' once whole test/proof/run
-    count 'tools/prove --quick' '^ok ' '^FAILED ' once whole tools/prove --quick
+    runner test/proof/run daily
+    count 'tools/prove --quick' '^ok ' '^FAILED ' tools/prove --quick
 }
 
 part_prove() {
@@ -339,24 +337,11 @@ part_prove() {
     count 'tools/prove --assembly' '^ok ' '^FAILED ' tools/prove --assembly
 }
 
-# What a machine proves of the breaks that nobody need notice.
-part_excuses() {
-    need ruby cc:gcc
-    need_cbmc
-    count 'functions that are changed' '^ok ' '^FAILED ' once whole ruby test/proof/alike.rb
-    count 'tools/prove --equivalents' '^ok ' '^FAILED ' tools/prove --equivalents
-}
-
-part_claims() {
-    need ruby cc:gcc
-    count 'tools/prove --claims' '^ok ' '^FAILED ' tools/prove --claims
-}
-
 part_windows() {
-    count 'test/use/windows/run' '^ok ' '^FAILED ' test/use/windows/run
+    runner test/use/windows/run
 }
 
 # As root, with a mirror of Debian.
 part_newest() {
-    count 'test/tools/newest/run' '^ok ' '^FAILED ' test/tools/newest/run
+    runner test/tools/newest/run
 }

@@ -15,23 +15,22 @@ export LC_ALL=C
 # asked SCRIPT [ARGUMENT]...: answers --help with the script's first comment, and sets
 # `chosen`, a line for each test to run: those that are named, with --failed what failed
 # when it ran last, and with no argument all. The runner has a function `names`, which
-# prints all, and --list prints that; or it calls `wanted` before each test. --daily are all
-# but those that test/weekly.txt names, and --weekly are these.
+# prints all; or it calls `wanted` before each test. It may have a function `weekly_names`,
+# which prints those that run once a week: the word `weekly` names these, and `daily` the
+# others. --list prints what would run.
 asked() {
     script=$1
     record=$root/build/failed/$(echo "$script" | tr / _)
     listing=no
     chosen=
+    left_out=
     shift
     all=$(names 2>/dev/null) || all=
+    weekly=$(weekly_names 2>/dev/null) || weekly=
     case ${1-} in
     --list)
-        [ -z "$all" ] || {
-            printf '%s\n' "$all"
-            exit 0
-        }
         listing=yes
-        return
+        shift
         ;;
     -h | --help)
         sed -n '3,/^[^#]/{/shellcheck/d;s/^# \{0,1\}//p;}' "$root/$script"
@@ -45,24 +44,32 @@ asked() {
         chosen=$(cat "$record")
         return
         ;;
-    --daily | --weekly)
-        weekly=$(sed -n "s,^$script  *,,p" "$root/test/weekly.txt")
-        [ "$1" = --weekly ] && kept= || kept=-v
-        # shellcheck disable=SC2086 # an option or none
-        chosen=$(printf '%s\n' "$all" | grep -xE $kept -e "$weekly") || chosen=
-        return
-        ;;
     esac
+    [ $# -ne 0 ] || chosen=$all
     for name in "$@"; do
+        named=$name
         case $name in
         -*) wrong_name "$name" ;;
+        weekly)
+            named=$weekly
+            [ -n "$weekly" ] || left_out=every
+            ;;
+        daily)
+            named=$(printf '%s\n' "$all" | grep -vxF -e "$weekly") || named=
+            [ -n "$all" ] || left_out=$weekly
+            ;;
+        *)
+            [ -z "$all" ] || printf '%s\n' "$all" | grep -qxF -e "$name" ||
+                wrong_name "$name"
+            ;;
         esac
-        [ -z "$all" ] || printf '%s\n' "$all" | grep -qxF -e "$name" ||
-            wrong_name "$name"
         chosen="$chosen${chosen:+
-}$name"
+}$named"
     done
-    chosen=${chosen:-$all}
+    [ "$listing" = no ] || [ -z "$all" ] || {
+        [ -z "$chosen" ] || printf '%s\n' "$chosen"
+        exit 0
+    }
 }
 
 wrong_name() {
@@ -73,13 +80,16 @@ wrong_name() {
 # wanted NAME: whether to run this test; for --list it says the name.
 seen=
 wanted() {
+    [ "$left_out" != every ] || return 1
+    ! printf '%s\n' "$left_out" | grep -qxF -e "$1" || return 1
+    picked=yes
+    [ -z "$chosen" ] || printf '%s\n' "$chosen" | grep -qxF -e "$1" || picked=no
     printf '%s\n' "$seen" | grep -qxF -e "$1" || {
-        [ "$listing" = no ] || echo "$1"
+        [ "$listing$picked" != yesyes ] || echo "$1"
         seen="$seen
 $1"
     }
-    [ "$listing" = no ] || return 1
-    [ -z "$chosen" ] || printf '%s\n' "$chosen" | grep -qxF -e "$1"
+    [ "$listing$picked" = noyes ]
 }
 
 # each COMMAND...: with the name of each chosen test as its last arguments, one for each
@@ -87,7 +97,7 @@ $1"
 each() {
     while read -r name <&3; do
         # shellcheck disable=SC2086 # its words
-        "$@" "$name" $name
+        [ -z "$name" ] || "$@" "$name" $name
     done 3<<END
 $chosen
 END
@@ -144,7 +154,8 @@ runner() {
     shift
     if "$@" >"$work/log" 2>&1 </dev/null; then
         remember "$attempted"
-        grep '^ok ' "$work/log" || echo "ok $attempted"
+        grep '^ok ' "$work/log"
+        echo "ok $attempted"
     elif grep -q '^FAILED ' "$work/log"; then
         remember "$attempted" failed
         failures=$((failures + 1))
