@@ -162,7 +162,7 @@ need() {
     install_log=$(mktemp)
     # shellcheck disable=SC2086 # a list of package names
     if ! { apt-get update -qq &&
-        DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y -qq \
+        DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o DPkg::Lock::Timeout=600 \
             --no-install-recommends $missing; } >"$install_log" 2>&1 </dev/null; then
         tail -n 5 "$install_log" >&2
         rm -f "$install_log"

@@ -13,8 +13,6 @@ module Outside
     'tools/lib/build/build_sdcc' => %w[build/none],
     'tools/lib/test/kept' => %w[none true], 'tools/lib/build/one_bank' => %w[check build/none]
   }.freeze
-  # `announce` as it was: where descriptor 8 is closed, dash ends with the script.
-  SILENT = ['(: >&8) 2>/dev/null && told=8', '{ : >&8; } 2>/dev/null && told=8'].freeze
   SHELL_ERROR = /: \d+: .*(?:not found|not set|bad |Bad |unexpected)|command not found/.freeze
   # What a tool says, or the end of a runner's list.
   SENTENCE = /\A(?:[a-z][\w.-]*: \w.*|FAILED .+|\d+ passed, \d+ failed.*)\z/.freeze

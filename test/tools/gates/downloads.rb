@@ -69,11 +69,8 @@ Dir.mktmpdir do |folder|
   Gate.expect('it is not installed', File.exist?("#{folder}/gem/found"), false)
 end
 Dir.mktmpdir { |folder| Gate.passed('a private one as it was put there', private_cbmc(folder, 'seal .')) }
-{ 'a byte of it is another' => 'seal .; echo >>goto-cc', 'a file of it is gone' => 'seal .; rm goto-cc',
-  'it has no digests' => ':' }.each do |what, command|
-  Dir.mktmpdir do |folder|
-    Gate.refused(what, private_cbmc(folder, command), /cbmc-6 is not as it was put there: it is not used/, /^fetched$/)
-  end
+Dir.mktmpdir do |folder|
+  Gate.refused('another byte of it', private_cbmc(folder, 'seal .; echo >>goto-cc'), /cbmc-6 is not as it was put there: it is not used/, /^fetched$/)
 end
 Dir["#{PROJECT}/.github/workflows/*.yml"].sort.each do |path|
   Gate.expect("the actions of #{File.basename(path)} are commits", unpinned(File.read(path)), [])
