@@ -159,7 +159,7 @@ module Alone
     def size(flags, sources, folder)
       given = sources.map { |source| compiled(source, folder) || source }
       Host.output('tools/lib/build/build_pic', name, "#{folder}/bare", *flags, '-Iport', '-Iport/pic', "-Iport/pic/#{name}", '--all-banks', *given)
-      sections = PicCode.sections("#{folder}/bare.map")
+      sections = Bound.sections("#{folder}/bare.map")
       Size.new(*%w[program data].map { |place| sections.select { |one| one.place == place }.sum(&:bytes) })
     end
 

@@ -7,7 +7,7 @@
 # firmware is exceeded. NAMEs are of runs that were not made this time: a row that one of
 # them belongs to is left as it stands.
 require 'json'
-require_relative '../../../tools/lib/bound'
+require_relative '../../../tools/bound/bound'
 require_relative '../../../tools/lib/measure/subjects'
 require_relative 'firmware_limits'
 
@@ -153,16 +153,19 @@ def title_of_chip(chip)
   chip == 'atmega328p' ? 'ATmega328P' : chip.upcase
 end
 
+def code_of(name, size)
+  Bound.code(size['chip'], "#{FIRMWARE}/#{name}")
+end
+
 # Of an example's code, with interrupts; it fits its chip.
 def depth_of(name, size)
-  path = "#{FIRMWARE}/#{name}"
-  code = size['chip'] == 'atmega328p' ? AvrCode.new("#{path}.elf") : PicCode.of(size['chip']).new(path)
-  depth = Stack.new(code).firmware
+  code = code_of(name, size)
+  depth = code.stack_of_all
   room = size['chip'] == 'atmega328p' ? size['ram_size'] - size['ram'] : size.fetch('stack', 0)
-  return depth if depth.levels <= code.class::LEVELS && depth.bytes <= room
+  return depth if depth.levels <= code.levels && depth.bytes <= room
 
-  abort "figures: #{name} may need #{depth.levels} levels of #{code.class::LEVELS} and #{depth.bytes} bytes of #{room}"
-rescue Stack::Failure, Code::Failure => e
+  abort "figures: #{name} may need #{depth.levels} levels of #{code.levels} and #{depth.bytes} bytes of #{room}"
+rescue Bound::Failure => e
   abort "figures: #{name}: #{e.message}"
 end
 
@@ -175,7 +178,7 @@ def stacks(name, size, figures)
   depth = depth_of(name, size)
   return "#{deep(name, depth.bytes, figures['stack'])} bytes" if size['chip'] == 'atmega328p'
 
-  levels = "#{deep(name, depth.levels, figures['stack'])} of #{PicCode.of(size['chip'])::LEVELS}"
+  levels = "#{deep(name, depth.levels, figures['stack'])} of #{code_of(name, size).levels}"
   bytes = deep(name, depth.bytes, figures['software'])
   bytes.zero? ? levels : "#{levels}, #{bytes} of #{size['stack']} bytes"
 end

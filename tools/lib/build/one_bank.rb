@@ -5,7 +5,7 @@
 # are right in FIRMWARE.map and FIRMWARE.hex: all that they use lies in bank 0 or
 # in what all banks share, and on every path bank 0 is selected where they use it.
 # Exit status: 0 they are, 1 they are not.
-require_relative '../code/pic_code'
+require_relative '../../bound/bound'
 
 # A line of the linker's table of symbols.
 LinkedSymbol = Struct.new(:name, :address, :location, :storage, :file)
@@ -92,7 +92,7 @@ class Banks
   # The banks in which a function returns, which is entered in this one.
   def exits(entry, bank, cause)
     found = @exits[[entry, bank]]
-    raise Code::Failure, "#{@code.name(entry)} calls itself" if found == :open
+    raise Bound::Failure, "#{@code.name(entry)} calls itself" if found == :open
     return found if found
 
     @exits[[entry, bank]] = :open
@@ -183,9 +183,9 @@ outside.each do |symbol, file|
               file: file.sub(/\.asm\z/, ''), name: symbol.name.sub(/\A_/, ''), at: symbol.address)
 end
 begin
-  code = Pic14Code.new(path)
+  code = Bound.code('pic16f684', path)
   wrong = Banks.new(code, map).wrong
-rescue Code::Failure => e
+rescue Bound::Failure => e
   abort "one_bank: #{e.message}"
 end
 wrong.group_by { |at, since| [code.name(at), since] }.each do |(name, since), places|

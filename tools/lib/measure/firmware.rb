@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative '../bound'
+require_relative '../../bound/bound'
 
 # A function of anybody's firmware for a PIC: FILE.hex with the .cod and .map
 # that gplink -m writes beside it.
@@ -25,9 +25,9 @@ class UserFirmware
     chip, numbers = text.match(/^(p\w+) (calls .*)/).captures
     calls, least, most, total = numbers.scan(/\d+/).map(&:to_i)
     puts measured(chip, calls, least, most, total)
-    puts "static bound: #{of_code(chip) { |code| bound(code) }}"
-    puts "its stack: #{of_code(chip) { |code| "#{depth(code, own_stack(code))}, with its call" }}"
-    puts "stack of all: #{of_code(chip) { |code| "#{depth(code, Stack.new(code).firmware)}, with interrupts" }}"
+    puts "static bound: #{of_code(chip) { |code| "#{code.longest(@function).cost} cycles, without interrupts" }}"
+    puts "its stack: #{of_code(chip) { |code| "#{code.shown(code.stack(@function))}, with its call" }}"
+    puts "stack of all: #{of_code(chip) { |code| "#{code.shown(code.stack_of_all)}, with interrupts" }}"
     calls.positive?
   end
 
@@ -35,7 +35,7 @@ class UserFirmware
 
   # SDCC's sections of interrupts begin at their vectors.
   def vectors
-    sections = PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/ivec|interrupt/) }
+    sections = Bound.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/ivec|interrupt/) }
     sections.map { |one| one.address.to_s(16) }
   end
 
@@ -48,25 +48,11 @@ class UserFirmware
 
   # Of a mid-range PIC with one page of code, enhanced or not, or of a PIC18.
   def of_code(chip)
-    core = PicCode.of(chip) or return 'none for this core'
-    code = core.new(@path)
-    return 'none beyond the first page of 2048 words' if code.is_a?(Pic14Code) && code.pages > 1
+    code = Bound.code(chip, @path) or return 'none for this core'
+    return 'none beyond the first page of 2048 words' if code.several_pages?
 
     yield(code)
-  rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
+  rescue Bound::Failure => e
     "none: #{e.message}"
-  end
-
-  def bound(code)
-    "#{LongestPath.new(code).function(code.entry(@function)).cost} cycles, without interrupts"
-  end
-
-  def own_stack(code)
-    stack = Stack.new(code)
-    stack.called(stack.function(code.entry(@function)))
-  end
-
-  def depth(code, depth)
-    "#{depth.levels} levels#{", #{depth.bytes} bytes" if code.is_a?(Pic18Code)}"
   end
 end

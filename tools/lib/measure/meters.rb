@@ -3,7 +3,7 @@
 
 require_relative 'cores'
 require_relative 'kept'
-require_relative '../bound'
+require_relative '../../bound/bound'
 
 RANDOM_STEPS = 5000
 SEARCH = [30_000, 1, 1].freeze # steps of a run of the search, runs, and the first one's seed
@@ -148,7 +148,7 @@ class Meter
     Harness.build(@subject.chip.kind)
     build
     code = read_code
-    [longest(code).function(code.entry(@step)).cost, needed(code)]
+    [longest(code).cost, needed(code)]
   end
 
   # The worst step and no more.
@@ -171,14 +171,14 @@ class Meter
     build
     answers = Answers.new(run, @subject)
     code = read_code
-    step = longest(code).function(code.entry(@step))
-    stack = stack(code)
+    step = longest(code)
+    stack = code.stack(@step).bytes # with the return address where that is in RAM
     check_bound(answers.most, step.cost)
     check_stack(answers.stack, stack)
     Figures.new(least: answers.least, mean: answers.mean, most: answers.most, bound: step.cost, cycles: cycles,
                 step_flash: code.size_of(step.addresses), needed: needed(code), levels: step.levels + 1,
                 stack: stack, **sizes(code))
-  rescue LongestPath::Failure, Stack::Failure, Code::Failure => e
+  rescue Bound::Failure => e
     raise Host::Failure, "#{@subject}: #{e.message}"
   end
 
@@ -206,23 +206,16 @@ class Meter
   end
 
   def needed(code)
-    entries = @controller.calls.map { |verb| code.entry(@controller.function(verb)) }
-    code.size_of(LongestPath.reached(code, entries))
+    code.flash_of(*@controller.calls.map { |verb| @controller.function(verb) })
   end
 
   def longest(code)
-    LongestPath.new(code, code.turns.merge(@controller.turns || {}))
+    code.longest(@step, @controller.turns || {})
   end
 
   # What is counted is in cycles.
   def cycles
     nil
-  end
-
-  # Bytes, with the return address where that is in RAM.
-  def stack(code)
-    stack = Stack.new(code)
-    stack.called(stack.function(code.entry(@step))).bytes
   end
 end
 
@@ -278,7 +271,7 @@ class PicMeter < Meter
   end
 
   def code_of(path)
-    PicCode.of(@subject.chip.name).new(path)
+    Bound.code(@subject.chip.name, path)
   end
 
   def words?
@@ -329,7 +322,7 @@ class AvrMeter < Meter
   end
 
   def read_code
-    @read_code ||= AvrCode.new("#{@path}.elf")
+    @read_code ||= Bound.code(@subject.chip.name, @path)
   end
 
   def sizes(code)
@@ -340,10 +333,6 @@ end
 
 # In QEMU.
 class QemuMeter < AvrMeter
-  CODES = { 'cortex-m0' => ArmCode, 'cortex-m4' => ArmCode, 'rv32imc' => RiscvCode, 'rv32ec' => Rv32eCode }.freeze
-  TIMINGS = { 'cortex-m0' => [Timing::CortexM0.new(1), Timing::CortexM0.new(32)], 'cortex-m4' => [Timing::CortexM4.new],
-              'rv32imc' => [Timing::Ibex.new], 'rv32ec' => [Timing::Ibex.new] }.freeze
-
   private
 
   def core
@@ -375,12 +364,8 @@ class QemuMeter < AvrMeter
     core.run("#{@path}.elf", @search == SEARCH ? 300 : 3600)
   end
 
-  def read_code
-    @read_code ||= CODES.fetch(@subject.chip.name).new("#{@path}.elf")
-  end
-
   # The bound in cycles, by each of the core's timings.
   def cycles
-    TIMINGS.fetch(@subject.chip.name).map { |timing| longest(read_code.timed(timing)).function(read_code.entry(@step)).cost }
+    Bound.cycles(@subject.chip.name, read_code, @step, @controller.turns || {})
   end
 end

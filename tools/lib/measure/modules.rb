@@ -130,20 +130,20 @@ class ModuleMeter
                                     &.map(&:to_i)
     raise Host::Failure, "#{@subject}: no figures of #{name}:\n#{text}" unless calls&.positive?
 
-    bound = bound_of(name, code)
+    bound = bound_of(name)
     raise Host::Failure, "#{@subject}, #{name}: #{most} measured, but #{bound} is the bound" if bound && most > bound
 
     ModuleFigures.new(least: least, mean: total.fdiv(calls).round, most: most, bound: bound, cycles: cycles_of(name),
                       flash: flash, instance: instance)
+  rescue Bound::Failure => e
+    raise Host::Failure, "#{@subject}: #{e.message}"
   end
 
   # From the code.
-  def bound_of(name, code)
+  def bound_of(name)
     return if @called.unbounded&.include?(name)
 
-    LongestPath.new(code, code.turns.merge(@called.turns || {})).function(code.entry(name)).cost
-  rescue LongestPath::Failure, Code::Failure => e
-    raise Host::Failure, "#{@subject}: #{e.message}"
+    code.longest(name, @called.turns || {}).cost
   end
 
   # What is counted is in cycles.
@@ -194,7 +194,7 @@ class ModulePicMeter < ModuleMeter
   end
 
   def flash
-    PicCode.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/\AS_fixpid_#{@called.id}_/) }
+    Bound.sections("#{@path}.map").select { |one| one.place == 'program' && one.name.match?(/\AS_fixpid_#{@called.id}_/) }
            .sum(&:bytes) / (words? ? 2 : 1)
   end
 
@@ -207,7 +207,7 @@ class ModulePicMeter < ModuleMeter
   end
 
   def code
-    @code ||= PicCode.of(@subject.chip.name).new(@path)
+    @code ||= Bound.code(@subject.chip.name, @path)
   end
 end
 
@@ -236,7 +236,7 @@ class ModuleAvrMeter < ModuleMeter
   end
 
   def code
-    @code ||= AvrCode.new("#{@path}.elf")
+    @code ||= Bound.code(@subject.chip.name, @path)
   end
 
   def flash
@@ -273,13 +273,9 @@ class ModuleArmMeter < ModuleAvrMeter
     core.tools
   end
 
-  def code
-    @code ||= ArmCode.new("#{@path}.elf")
-  end
-
   def cycles_of(name)
     return if @called.unbounded&.include?(name)
 
-    QemuMeter::TIMINGS.fetch(@subject.chip.name).map { |timing| bound_of(name, code.timed(timing)) }
+    Bound.cycles(@subject.chip.name, code, name, @called.turns || {})
   end
 end

@@ -7,7 +7,7 @@ require_relative '../remembered'
 class RememberedFigures
   SOURCES = %w[include/*.h port/**/* sim/**/* src/**/* test/chips/avr/vectors_table.rb test/chips/modules/* test/tools/cost/**/*
                test/support/*.[ch] test/chips/target/**/* test/support/vectors/* tools/cost tools/lib/setup.sh
-               tools/lib/bound.rb tools/lib/build/* tools/lib/{bound,code,measure}/*.rb].freeze
+               tools/bound/*.rb tools/lib/build/* tools/lib/measure/*.rb].freeze
   PROGRAMS = %w[gpasm gplink qemu-system-arm qemu-system-riscv32].freeze
 
   def initialize

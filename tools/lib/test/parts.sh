@@ -224,9 +224,9 @@ part_cost() {
     need ruby gpasm:gputils gcc g++ :libc6-dev avr-gcc:gcc-avr :avr-libc \
         :libsimavr-dev
     build_gpsim
-    count 'bounds of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/bounds.rb
-    count 'stacks of known routines' '^ok ' '^FAILED ' ruby test/tools/cost/stacks.rb
-    count 'bounds of random loops' '^ok ' '^FAILED ' ruby test/tools/cost/random_loops.rb
+    count 'bounds of known routines' '^ok ' '^FAILED ' ruby tools/bound/test/bounds.rb
+    count 'stacks of known routines' '^ok ' '^FAILED ' ruby tools/bound/test/stacks.rb
+    count 'bounds of random loops' '^ok ' '^FAILED ' ruby tools/bound/test/random_loops.rb
     count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --daily

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative '../../code/elf_code'
+require_relative '../../../bound/bound'
 require_relative 'translation'
 
 # What an AVR and an ARM have alike: a program that gcc links, and objdump's text of it.
@@ -47,7 +47,7 @@ class ElfTranslation < Translation
       said("#{self::TOOLS}-gcc", *self::OPTIONS.fetch(image), '-std=gnu99', '-O2', '-w', "-I#{tree}/include", "-I#{tree}/src", '-nostdlib',
            file, '-lgcc', '-o', program)
       text = said("#{self::TOOLS}-objdump", '-d', '-z', '-w', program)
-      new(text.scan(ElfCode::LINE).map { |row| disassembled(*row) }, text.scan(/^(\h+) <(\w+)>:$/).to_h { |at, name| [name, at.hex] })
+      new(text.scan(Bound::OBJDUMP_LINE).map { |row| disassembled(*row) }, text.scan(/^(\h+) <(\w+)>:$/).to_h { |at, name| [name, at.hex] })
     end
 
     def disassembled(address, code, name, operands)

@@ -131,6 +131,14 @@ class Pic14Code < PicCode
   BSF_GIE = 0x178B
   BANK_BITS = [5, 6].freeze
 
+  def shown(depth)
+    "#{depth.levels} levels"
+  end
+
+  def several_pages?
+    pages.to_i > 1
+  end
+
   # Of 2048 words, configuration words left out.
   def pages
     @pages ||= program.select { |one| one.address < 0x2000 }.map { |one| (one.address + units(one) - 1) / 2048 + 1 }.max
@@ -214,7 +222,7 @@ class Pic14Code < PicCode
 
   # CALL or GOTO, within the page.
   def paged(at, word)
-    missing(at, 'code of several pages') if pages.to_i > 1
+    missing(at, 'code of several pages') if several_pages?
     to = word & 0x7FF
     word < 0x2800 ? Instruction.new([[at + 1, 2]], to, nil, 2) : Instruction.new([[to, 2]], nil, nil, 2)
   end
@@ -321,6 +329,10 @@ class Pic18Code < PicCode
   UNSEEN = { 0x0005 => 'PUSH', 0x0006 => 'POP', 0x0014 => 'CALLW' }.freeze
   EXTENDED = (0xE8..0xEB).freeze
   FAST_RETURNS = [0x0011, 0x0013].freeze # they restore WREG, STATUS and BSR
+
+  def shown(depth)
+    "#{depth.levels} levels, #{depth.bytes} bytes"
+  end
 
   # A name is a number within a bank and the access bit: with that bit set it
   # stands for the same register as long as no bank is selected. From 0x60 it may be

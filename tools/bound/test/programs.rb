@@ -4,7 +4,7 @@
 # What the tests of the static bounds share: programs in assembly, each of a
 # folder beside this file, on simulated chips. They are assembled when they are needed.
 require 'fileutils'
-require_relative '../gates/gate'
+require_relative '../../../test/tools/gates/gate'
 %w[host meters].each { |name| require "#{PROJECT}/tools/lib/measure/#{name}" }
 Host.setup(PROJECT)
 
@@ -139,9 +139,9 @@ class CoreProgram
     @elf ||= "#{Host.folder}/core-#{@name}.elf".tap do |elf|
       each = routines.reject(&:refusal).map { |one| "EACH(#{one.name})" }.join(' ')
       object = elf.sub(/elf\z/, 'o')
-      @core.compile('-c', @source, '-Wa,-Itest/tools/cost/cores', '-o', object)
+      @core.compile('-c', @source, '-Wa,-Itools/bound/test/cores', '-o', object)
       @core.link(elf, '-O2', *Harness::WARNINGS, "-DROUTINES=#{each}", '-Itest/support', '-Wl,--no-gc-sections',
-                 'test/tools/cost/cores/meter.c', object, *@core.sources)
+                 'tools/bound/test/cores/meter.c', object, *@core.sources)
     end
   end
 end

@@ -13,7 +13,7 @@ class Stack
   # fewer than none if it takes its arguments.
   Depth = Struct.new(:levels, :bytes, :left)
 
-  class Failure < StandardError; end
+  class Failure < Bound::Failure; end
 
   def initialize(code)
     @code = code

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'failure'
+
 # An instruction as the longest path needs it: where it may go next and what
 # that costs, the function that it calls before, and the cost if it returns. An
 # `opaque` one leads where only a run can tell, and one that `waits` costs what only a
@@ -9,7 +11,7 @@ Instruction = Struct.new(:edges, :call, :return_cost, :bytes, :opaque, :waits)
 
 # Linked code: instructions by address and functions by name.
 class Code
-  class Failure < StandardError; end
+  class Failure < Bound::Failure; end
 
   # Turns of a counter that begins with 0.
   WRAP = 256
@@ -39,6 +41,40 @@ class Code
   def name(address)
     found = @functions.select { |_, start| start <= address }.max_by { |_, start| start }
     found ? found[0] : format('%05x', address)
+  end
+
+  # The longest path through a function: its cost, levels and addresses. `turns` says how often
+  # loops turn that count no constant down, as LongestPath has it.
+  def longest(function, turns = {})
+    LongestPath.new(self, self.turns.merge(turns)).function(entry(function))
+  end
+
+  # A function's stack with its return address, and that of the whole firmware with interrupts.
+  def stack(function)
+    Stack.new(self).then { |stack| stack.called(stack.function(entry(function))) }
+  end
+
+  def stack_of_all
+    Stack.new(self).firmware
+  end
+
+  # What these functions take with all that they call, in the chip's units of flash.
+  def flash_of(*functions)
+    size_of(LongestPath.reached(self, functions.map { |function| entry(function) }))
+  end
+
+  # How many return addresses fit, and a depth in words.
+  def levels
+    self.class::LEVELS
+  end
+
+  def shown(depth)
+    "#{depth.bytes} bytes"
+  end
+
+  # Of the first page alone code of several is followed.
+  def several_pages?
+    false
   end
 
   # For loops that count down: the register that an instruction decrements, if

@@ -6,7 +6,7 @@
 # its paths are equally long. Those of bounds/ are loops, also such that may not
 # be bounded, which are measured here. Prints `ok` or `FAILED` for each:
 #
-#   ruby test/tools/cost/bounds.rb [NAME]... | --failed | --list
+#   ruby tools/bound/test/bounds.rb [NAME]... | --failed | --list
 require_relative 'programs'
 
 # Code without a linker's map.
@@ -50,7 +50,7 @@ end
 
 def bound(code, name, turns = {})
   LongestPath.new(code, turns).function(code.entry(name)).cost
-rescue LongestPath::Failure, Code::Failure => e
+rescue Bound::Failure => e
   e.message
 end
 

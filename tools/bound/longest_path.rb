@@ -13,7 +13,7 @@ class LongestPath
   # and its callees need besides its own, and all addresses that it reaches.
   Function = Struct.new(:cost, :levels, :addresses)
 
-  class Failure < StandardError; end
+  class Failure < Bound::Failure; end
 
   def initialize(code, turns = {})
     @code = code

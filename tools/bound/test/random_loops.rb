@@ -4,7 +4,7 @@
 # Random loops for the 14-bit core, run from random states: none that has a bound
 # takes longer, or more levels of the stack. Prints `ok` or `FAILED` for each check.
 #
-#   ruby test/tools/cost/random_loops.rb [PROGRAMS [FIRST]] [NAME]... | --failed | --list
+#   ruby tools/bound/test/random_loops.rb [PROGRAMS [FIRST]] [NAME]... | --failed | --list
 require_relative 'programs'
 
 # A program of words at 0, with one function.

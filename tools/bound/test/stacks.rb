@@ -5,19 +5,12 @@
 # where an interrupt of each priority comes at the deepest place and the depth is
 # measured. Prints `ok` or `FAILED` for each:
 #
-#   ruby test/tools/cost/stacks.rb [NAME]... | --failed | --list
+#   ruby tools/bound/test/stacks.rb [NAME]... | --failed | --list
 require_relative 'programs'
 
-# "3 levels, 4 bytes", of a PIC14 "3 levels" and of an AVR "9 bytes".
-def shown(code, depth)
-  levels = "#{depth.levels} levels"
-  { Pic14Code => levels, Pic18Code => "#{levels}, #{depth.bytes} bytes" }.fetch(code.class, "#{depth.bytes} bytes")
-end
-
 def depth_of(code, name)
-  stack = Stack.new(code)
-  shown(code, name == 'main' ? stack.firmware : stack.called(stack.function(code.entry(name))))
-rescue Stack::Failure, Code::Failure => e
+  code.shown(name == 'main' ? code.stack_of_all : code.stack(name))
+rescue Bound::Failure => e
   e.message
 end
 
