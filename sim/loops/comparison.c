@@ -6,43 +6,36 @@
 #include "loops.h"
 
 struct quality {
-    double overshoot;    // counts, of the setpoint that is judged
-    int settled;         // steps, until it stays within 2 % of it
-    double steady_error; // mean over the last fifth of it
-    double iae;          // sum of the magnitudes of the error
-    double iae_after;    // the same for the last one
+    double overshoot; // counts, of the first setpoint
+    int settled;      // steps, until it stays within 2 % of it
+    double iae;       // sum of the magnitudes of the error
+    double iae_after; // the same for the last one
 };
 
-static void judge(struct quality *quality, const struct trial *trial,
-                  double setpoint, int step, double error)
+static void judge(struct quality *quality, double setpoint, int step,
+                  double error)
 {
-    const int tail = trial->steps / 5;
-
     quality->iae += fabs(error);
     quality->overshoot = fmax(quality->overshoot, -error);
     if (fabs(error) > 0.02 * setpoint) {
         quality->settled = step + 1;
     }
-    if (step >= trial->steps - tail) {
-        quality->steady_error += error / (double)tail;
-    }
 }
 
-// Judges the setpoint of that number, from 0.
-static struct quality run(const struct trial *trial, bool fixed,
-                          enum pid_double_without without, int judged)
+// Judges the first of its setpoints.
+static struct quality run(const struct trial *trial, bool fixed)
 {
-    struct quality quality = {0.0, 0, 0.0, 0.0, 0.0};
+    struct quality quality = {0.0, 0, 0.0, 0.0};
     struct loop loop;
 
-    loop_start(&loop, trial, fixed, without);
+    loop_start(&loop, trial, fixed);
     for (int step = 0; step < TRIAL_SETPOINTS * trial->steps; step++) {
         const int part = step / trial->steps;
         const double setpoint = trial->setpoints[part];
         loop_step(&loop, setpoint);
         const double error = setpoint - loop.motion.value;
-        if (part == judged) {
-            judge(&quality, trial, setpoint, step % trial->steps, error);
+        if (part == 0) {
+            judge(&quality, setpoint, step, error);
         }
         if (part == TRIAL_SETPOINTS - 1) {
             quality.iae_after += fabs(error);
@@ -51,90 +44,22 @@ static struct quality run(const struct trial *trial, bool fixed,
     return quality;
 }
 
-static void print_row(const struct trial *trial, const char *controller,
-                      const struct quality *quality)
+static void print_row(const struct trial *trial, bool fixed)
 {
-    (void)printf("%s;%s;%.9g;%d;%.9g;%.9g;%.9g\n", trial->plant.name,
-                 controller, 100.0 * quality->overshoot / trial->setpoints[0],
-                 quality->settled, quality->steady_error, quality->iae,
-                 quality->iae_after);
-}
+    const struct quality quality = run(trial, fixed);
 
-// fixpid_pid, the law, and the law without a feature.
-static const struct {
-    const char *name;
-    bool fixed;
-    enum pid_double_without without;
-} controllers[] = {
-    {"fixpid_pid", true, PID_DOUBLE_WHOLE},
-    {"double", false, PID_DOUBLE_WHOLE},
-    {"no anti-windup", false, PID_DOUBLE_NO_ANTI_WINDUP},
-    {"sign-blind", false, PID_DOUBLE_SIGN_BLIND},
-    {"integral clamped", false, PID_DOUBLE_INTEGRAL_CLAMPED},
-};
-#define CONTROLLERS (sizeof(controllers) / sizeof(controllers[0]))
-
-static void print_all(const struct trial *trial)
-{
-    for (size_t i = 0; i < CONTROLLERS; i++) {
-        const struct quality quality =
-            run(trial, controllers[i].fixed, controllers[i].without, 0);
-        print_row(trial, controllers[i].name, &quality);
-    }
-}
-
-static void print_head(void)
-{
-    (void)printf("plant;controller;overshoot;settled;steady;iae;iae_after\n");
+    (void)printf("%s;%s;%.9g;%d;%.9g;%.9g\n", trial->plant.name,
+                 fixed ? "fixpid_pid" : "double",
+                 100.0 * quality.overshoot / trial->setpoints[0],
+                 quality.settled, quality.iae, quality.iae_after);
 }
 
 void print_comparison(void)
 {
-    print_head();
+    (void)printf("plant;controller;overshoot;settled;iae;iae_after\n");
     for (int i = 0; i < TRIALS; i++) {
-        print_all(&trials[i]);
-    }
-}
-
-// A reset time kp / ki of three lags and more, and one that is right.
-void print_slow(void)
-{
-    static const struct {
-        const char *name;
-        double ki;
-    } cases[] = {{"lag 3000, reset time 10000", 0.0001},
-                 {"lag 3000, reset time 3000", 1.0 / 3000.0}};
-    struct trial trial = trials[0];
-
-    print_head();
-    trial.plant.lag_steps = 3000.0;
-    trial.gains.kp = 1.0;
-    trial.steps = 40000;
-    for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); i++) {
-        trial.plant.name = cases[i].name;
-        trial.gains.ki = cases[i].ki;
-        print_all(&trial);
-    }
-}
-
-// After a setpoint out of reach: steps until the loop stays within 2 % of the
-// next one, and the sum of the magnitudes of its error.
-void print_recovery(void)
-{
-    static const double backs[] = {300.0, 700.0, 900.0, 1000.0};
-    const int last = TRIAL_SETPOINTS - 1;
-    struct trial trial = trials[0];
-
-    (void)printf("controller;back;settled;iae\n");
-    trial.steps = 1500;
-    for (size_t i = 0; i < CONTROLLERS; i++) {
-        for (size_t k = 0; k < sizeof(backs) / sizeof(backs[0]); k++) {
-            trial.setpoints[last] = backs[k];
-            const struct quality quality =
-                run(&trial, controllers[i].fixed, controllers[i].without, last);
-            (void)printf("%s;%.9g;%d;%.9g\n", controllers[i].name, backs[k],
-                         quality.settled, quality.iae);
-        }
+        print_row(&trials[i], true);
+        print_row(&trials[i], false);
     }
 }
 
@@ -159,7 +84,7 @@ static double largest_difference(const struct trial *trial)
     struct pid_double exact;
     double largest = 0.0;
 
-    loop_start(&loop, trial, true, PID_DOUBLE_WHOLE);
+    loop_start(&loop, trial, true);
     exact = loop.exact;
     for (int step = 0; step < TRIAL_SETPOINTS * trial->steps; step++) {
         const double setpoint = trial->setpoints[step / trial->steps];

@@ -23,8 +23,7 @@ struct fixpid_pid_config loop_config(const struct pid_double_gains *gains,
     };
 }
 
-void loop_start(struct loop *self, const struct trial *trial, bool fixed,
-                enum pid_double_without without)
+void loop_start(struct loop *self, const struct trial *trial, bool fixed)
 {
     const struct fixpid_pid_config config =
         loop_config(&trial->gains, trial->setpoint_weight, trial->output_min,
@@ -35,9 +34,8 @@ void loop_start(struct loop *self, const struct trial *trial, bool fixed,
         (void)fprintf(stderr, "%s: refused\n", trial->plant.name);
         exit(EXIT_FAILURE);
     }
-    pid_double_init(&self->exact, without, &trial->gains,
-                    trial->setpoint_weight, trial->output_min,
-                    trial->output_max);
+    pid_double_init(&self->exact, &trial->gains, trial->setpoint_weight,
+                    trial->output_min, trial->output_max);
     motion_start(&self->motion, &trial->plant);
     self->output = 0.0;
 }
@@ -52,23 +50,4 @@ void loop_step(struct loop *self, double setpoint)
             pid_double_step(&self->exact, setpoint, (double)reading) + 0.5);
     }
     motion_move(&self->motion, self->output);
-}
-
-void loop_set_limits(struct loop *self, double output_min, double output_max)
-{
-    (void)fixpid_pid_set_limits(&self->pid, (int16_t)output_min,
-                                (int16_t)output_max);
-    pid_double_set_limits(&self->exact, output_min, output_max);
-}
-
-void loop_set_manual(struct loop *self, double output)
-{
-    fixpid_pid_set_manual(&self->pid, (int16_t)output);
-    pid_double_set_manual(&self->exact, output);
-}
-
-void loop_set_auto(struct loop *self)
-{
-    fixpid_pid_set_auto(&self->pid);
-    pid_double_set_auto(&self->exact);
 }

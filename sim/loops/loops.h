@@ -21,27 +21,14 @@ struct fixpid_pid_config loop_config(const struct pid_double_gains *gains,
 
 // Both controllers with a trial's gains, its plant at rest. The actuator takes
 // whole counts, of either of them.
-void loop_start(struct loop *self, const struct trial *trial, bool fixed,
-                enum pid_double_without without);
+void loop_start(struct loop *self, const struct trial *trial, bool fixed);
 
 // One step; self->motion.value is what it led to.
 void loop_step(struct loop *self, double setpoint);
 
-void loop_set_limits(struct loop *self, double output_min, double output_max);
-void loop_set_manual(struct loop *self, double output);
-void loop_set_auto(struct loop *self);
-
-void print_comparison(
-    void); // fixpid_pid against it in double precision on five plants
-void print_slow(void);      // where the integral is far too slow
-void print_recovery(void);  // from a setpoint out of reach back to four others
-void print_agreement(void); // step by step, on the same readings
-void print_bumps(void);
-void print_drift(void);
+void print_comparison(void); // of how well both do on five plants
+void print_agreement(void);  // step by step, on the same readings
 void print_autotune(void);
 void print_failures(void);
-
-// What happens without one feature; false where there is no such scene.
-bool print_scene(const char *name);
 
 #endif

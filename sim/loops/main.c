@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The comparisons of tools/demo: `loops TABLE`, or `loops scene NAME`.
+// What tools/demo prints of plants in counts: `loops TABLE`.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,10 +12,10 @@ int main(int count, char **arguments)
         const char *name;
         void (*print)(void);
     } tables[] = {
-        {"comparison", print_comparison}, {"slow", print_slow},
-        {"agreement", print_agreement},   {"bumps", print_bumps},
-        {"drift", print_drift},           {"autotune", print_autotune},
-        {"failures", print_failures},     {"recovery", print_recovery},
+        {"comparison", print_comparison},
+        {"agreement", print_agreement},
+        {"autotune", print_autotune},
+        {"failures", print_failures},
     };
 
     for (size_t i = 0; i < sizeof(tables) / sizeof(tables[0]); i++) {
@@ -24,10 +24,6 @@ int main(int count, char **arguments)
             return EXIT_SUCCESS;
         }
     }
-    if (count == 3 && strcmp(arguments[1], "scene") == 0 &&
-        print_scene(arguments[2])) {
-        return EXIT_SUCCESS;
-    }
-    (void)fprintf(stderr, "usage: loops TABLE, or loops scene NAME\n");
+    (void)fprintf(stderr, "usage: loops TABLE\n");
     return EXIT_FAILURE;
 }

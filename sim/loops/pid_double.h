@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The law of fixpid_pid in double precision, to compare with: whole, or with
-// one feature taken away, as other controllers lack it.
-//
-// Units and signs are those of fixpid_pid.h; gains are per step. Left out are
-// reverse action, which is the same law with both signals negated, and the
-// limits of int16_t.
+// The law of fixpid_pid in double precision, to compare with. Units and signs
+// are those of fixpid_pid.h; gains are per step. It has the integral's
+// conditional anti-windup, a setpoint weight and the derivative's filter, and
+// none of what happens beside a step.
 #ifndef PID_DOUBLE_H
 #define PID_DOUBLE_H
 #include <stdbool.h>
-
-enum pid_double_without {
-    PID_DOUBLE_WHOLE,
-    PID_DOUBLE_NO_ANTI_WINDUP,   // the integral always moves
-    PID_DOUBLE_SIGN_BLIND,       // it rests while the output is limited, even
-                                 // where it would leave the limit
-    PID_DOUBLE_INTEGRAL_CLAMPED, // it is kept inside the output's range
-    PID_DOUBLE_DERIVATIVE_ON_ERROR,   // instead of on the measurement
-    PID_DOUBLE_EIGHT_FRACTIONAL_BITS, // of the integral gain
-    PID_DOUBLE_NO_SEED // manual to automatic: where the integral was
-};
 
 struct pid_double_gains {
     double kp;
@@ -28,33 +15,21 @@ struct pid_double_gains {
 };
 
 struct pid_double {
-    enum pid_double_without without;
     struct pid_double_gains gains;
     double setpoint_weight;
     double output_min;
     double output_max;
-    double integral_min; // none of its own if both are 0
-    double integral_max;
-    double feedforward; // output counts, added to the terms
 
-    double proportional;
     double integral;
     double derivative;
     double previous;
-    double held;
     bool first;
-    bool seeded;
-    bool manual;
 };
 
-void pid_double_init(struct pid_double *self, enum pid_double_without without,
+void pid_double_init(struct pid_double *self,
                      const struct pid_double_gains *gains,
                      double setpoint_weight, double output_min,
                      double output_max);
-void pid_double_set_limits(struct pid_double *self, double output_min,
-                           double output_max);
-void pid_double_set_manual(struct pid_double *self, double output);
-void pid_double_set_auto(struct pid_double *self);
 
 // The output before it is rounded to a whole count.
 double pid_double_step(struct pid_double *self, double setpoint,

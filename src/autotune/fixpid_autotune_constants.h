@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The constants of fixpid_autotune's result, mantissa * 2^exponent. Written by
-// tools/lib/autotune/constants.rb. A regression was repeated after these were
-// chosen, and tools/lib/autotune/refit repeats it again. Its numbers differ a
-// little from these, and loops with them were not better: so these stay.
+// The constants of fixpid_autotune's result, mantissa * 2^exponent: the
+// mantissa is the nearest one of 32768 to 65535. Those of a regression have
+// more digits than their names. It was repeated after these were chosen, by
+// tools/lib/autotune/refit of commit 8668fb10. Its numbers differ a little from
+// these, and loops with them were not better: so these stay.
 #ifndef FIXPID_AUTOTUNE_CONSTANTS_H
 #define FIXPID_AUTOTUNE_CONSTANTS_H
 #include <stdint.h>

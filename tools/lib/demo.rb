@@ -7,6 +7,7 @@
 require 'fileutils'
 require 'json'
 
+require_relative 'demo/extent'
 require_relative 'demo/host'
 require_relative 'demo/plot'
 require_relative 'demo/report'
@@ -19,7 +20,7 @@ require_relative 'demo/tuning'
 require_relative 'demo/thermostat'
 require_relative 'demo/loops'
 require_relative 'demo/autotune'
-require_relative 'demo/others'
+require_relative 'demo/double'
 require_relative 'demo/random_plants'
 require_relative 'demo/recipes'
 require_relative 'demo/guard'
@@ -43,16 +44,16 @@ LOOPS = {
   'thermostat' => Loop.new('reaches 80 C without overshoot, by hand and back without a bump',
                            -> { thermostat }),
   'autotune' => Loop.new('an oven finds its gains, and six plants work with theirs', -> { autotune }),
-  'random_plants' => Loop.new('gains for random plants of 22 families, and what others find',
-                              -> { random_plants(ENV.key?('DEMO_LONG')) }),
-  'others' => Loop.new('as good as double precision; six features, with and without', -> { others }),
+  'random_plants' => Loop.new('gains for random plants of 22 families',
+                              -> { random_plants }),
+  'double' => Loop.new('as good on five plants as in double precision', -> { double }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
-  'guard' => Loop.new('no false alarm on 800 plants, each of eight faults seen on all of them', -> { guard }),
+  'guard' => Loop.new('no false alarm on random plants, each of eight faults seen on all of them', -> { guard }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time; in 15 for good: seen',
-                       -> { run_faults(ENV.key?('DEMO_LONG')) }),
-  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips(ENV.key?('DEMO_LONG')) }),
+                       -> { run_faults }),
+  'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips }),
   'faults_places' => Loop.new('a bit flips in the port, the application, the registers or the stack of a chip',
-                              -> { run_faults_of_places(ENV.key?('DEMO_LONG')) }),
+                              -> { run_faults_of_places }),
   'chip' => Loop.new('simulated chips do what the host does', -> { chip })
 }.freeze
 

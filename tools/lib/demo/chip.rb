@@ -3,6 +3,8 @@
 
 # The examples as firmware on simulated chips, each beside the host's run of
 # the same scenario.
+require_relative 'extent'
+
 class Chip
   attr_reader :name, :example, :title, :chip, :host, :step, :step_ticks, :lines,
               :start_s
@@ -110,6 +112,10 @@ CHIPS = [
            THERMOSTAT_ON_CHIP, step_ticks: 100)
 ].freeze
 
+# One of each kind.
+CHIPS_OF_PART = %w[pendulum motor motor_atmega328p].freeze
+CHIPS_RUN = CHIPS.select { |one| Extent.whole? || CHIPS_OF_PART.include?(one.name) }.freeze
+
 # How far the chip may be off the host, by column, from one time to another. The
 # motor's load comes when it comes, however long the chip took to start.
 Agreement = Struct.new(:column, :unit, :from, :to, :most, :start) do
@@ -152,9 +158,9 @@ LONGEST = %w[thermostat thermostat_pic18f26k22 autotune experiment oven oven_pic
              oven_atmega328p].freeze
 
 def chip
-  CHIPS.each(&:run_on_host)
-  run_two_at_a_time(CHIPS.sort_by { |one| LONGEST.index(one.name) || LONGEST.size })
-  CHIPS.each do |one|
+  CHIPS_RUN.each(&:run_on_host)
+  run_two_at_a_time(CHIPS_RUN.sort_by { |one| LONGEST.index(one.name) || LONGEST.size })
+  CHIPS_RUN.each do |one|
     Report.start("chip #{one.name}")
     check_on_chip(one)
     check_resources(one)
@@ -294,7 +300,7 @@ end
 def chip_table
   head = ['firmware', 'flash', 'RAM', 'worst step', 'worst pass', 'of a tick',
           'interrupt', 'stack', 'real time']
-  rows = CHIPS.map do |one|
+  rows = CHIPS_RUN.map do |one|
     sizes = one.sizes
     numbers = Report.numbers["chip #{one.name}"]
     [one.name, "#{sizes['flash']} #{sizes['flash_unit']}",
@@ -314,9 +320,9 @@ end
 # One row for each firmware, and in it one dot for each stretch in which it is compared, the later
 # one lower: the greatest difference as a part of the one that is allowed, the line at the right.
 def draw_chips
-  rows = CHIPS.each_with_index.flat_map do |one, i|
+  rows = CHIPS_RUN.each_with_index.flat_map do |one, i|
     parts = AGREEMENTS.fetch(one.name)
-    parts.each_with_index.map { |part, k| [greatest(one, part), CHIPS.size - i + (parts.size - 1 - 2 * k) * 0.22, part] }
+    parts.each_with_index.map { |part, k| [greatest(one, part), CHIPS_RUN.size - i + (parts.size - 1 - 2 * k) * 0.22, part] }
   end
   path = "#{Host.folder}/chip_differences.csv"
   Report.replace(path, rows.map { |most, row, part| "#{most / part.most},#{row},#{said(most, part)}\n" }.join)
@@ -336,8 +342,8 @@ def said(most, part)
 end
 
 def dots
-  names = CHIPS.each_with_index.map { |one, i| "'#{one.title}' #{CHIPS.size - i}" }
-  ["set ytics (#{names.join(', ')}) scale 0", "set yrange [0.3:#{CHIPS.size + 0.7}]", 'set xrange [0:1.25]',
+  names = CHIPS_RUN.each_with_index.map { |one, i| "'#{one.title}' #{CHIPS_RUN.size - i}" }
+  ["set ytics (#{names.join(', ')}) scale 0", "set yrange [0.3:#{CHIPS_RUN.size + 0.7}]", 'set xrange [0:1.25]',
    'set xtics 0.25', "set xlabel 'the greatest difference, as a part of what is allowed'",
    "set arrow from 1, graph 0 to 1, graph 1 nohead linecolor '#{Plot::LIMIT}' linewidth 1.6",
    "set label 'allowed' at 1, graph 1.02 center textcolor '#{Plot::TEXT}'"]

@@ -5,30 +5,30 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants others guard chip
+  PICTURES = %w[pendulum motor oven tuning thermostat autotune guard chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
-  # Document, its parts between markers, and what makes each of them.
+  # Document, and by loop its parts between markers with what makes each of them.
   PARTS = {
-    'docs/tuning.md' => { 'tuning' => :tuning, 'gains' => :found_gains,
-                          'autotune' => :autotune, 'random_plants' => :random_plants,
-                          'at_once' => :at_once },
-    'docs/behaviour.md' => { 'comparison' => :comparison, 'slow' => :slow, 'recovery' => :recovery,
-                             'bumps' => :bumps, 'drift' => :drift },
-    'docs/recipes.md' => { 'cascade' => :cascade, 'override' => :override, 'two_rates' => :two_rates,
-                           'heat_cool' => :heat_cool, 'least_output' => :least_output, 'ramp_soak' => :ramp_soak,
-                           'guard' => :guard, 'interpolated' => :interpolated,
-                           'behind_tpo' => :behind_tpo, 'retune' => :retune },
-    'docs/faults.md' => { 'faults' => :faults, 'limits' => :fault_limits,
-                          'staying' => :staying, 'staying_limits' => :staying_limits,
-                          'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
-                          'guard_half' => :guard_half }
+    'docs/tuning.md' => { 'tuning' => { 'tuning' => :tuning },
+                          'autotune' => { 'gains' => :found_gains, 'autotune' => :autotune },
+                          'random_plants' => { 'random_plants' => :random_plants, 'at_once' => :at_once } },
+    'docs/recipes.md' => { 'recipes' => { 'cascade' => :cascade, 'override' => :override, 'two_rates' => :two_rates,
+                                          'heat_cool' => :heat_cool, 'least_output' => :least_output, 'ramp_soak' => :ramp_soak,
+                                          'guard' => :guard, 'interpolated' => :interpolated,
+                                          'behind_tpo' => :behind_tpo, 'retune' => :retune } },
+    'docs/faults.md' => { 'faults' => { 'faults' => :faults, 'limits' => :fault_limits,
+                                        'staying' => :staying, 'staying_limits' => :staying_limits },
+                          'guard' => { 'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
+                                       'guard_half' => :guard_half } }
   }.freeze
+  # These tell of all that a loop has.
+  WHOLE = %i[faults staying guard_sees guard_half].freeze
 
   # Made by tools/demo --long only, of these loops.
   LONG = { 'docs/faults.md' => { 'long' => :long_faults, 'places' => :fault_places },
            'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
-                                'study_refusals' => :study_refusals, 'study_peers' => :study_peers } }.freeze
+                                'study_refusals' => :study_refusals } }.freeze
   LONG_LOOPS = { long_faults: %w[faults faults_chip], fault_places: %w[faults_places] }.freeze
 
   class << self
@@ -36,13 +36,20 @@ module Docs
     def update(mode, root, loops)
       return true if %w[run renew].include?(mode)
 
-      parts = mode == 'long' ? long_parts(loops) : PARTS
+      parts = mode == 'long' ? long_parts(loops) : parts_of(loops)
       stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       stale.none?
     end
 
     private
+
+    # Those of which enough was run.
+    def parts_of(loops)
+      PARTS.transform_values do |by_loop|
+        by_loop.slice(*loops).values.reduce({}, :merge).select { |_, table| Extent.whole? || !WHOLE.include?(table) }
+      end
+    end
 
     # Those of which all loops were run.
     def long_parts(loops)

@@ -59,7 +59,7 @@ module FaultPlaces
   end
 end
 
-def run_faults_of_places(long)
+def run_faults_of_places
   FaultPlaces::CHIPS.each_key do |name|
     chip = CHIP_FAULTS.fetch(name)
     firmware = Dir["#{Host.root}/build/firmware/#{name}.{cod,elf}"].first or raise Host::Failure, "no firmware of #{name}"
@@ -67,12 +67,12 @@ def run_faults_of_places(long)
     sizes = JSON.parse(File.read("#{Host.root}/build/firmware/sizes.json"))
     part = sizes.fetch(name).fetch('chip')
     places = FaultPlaces.of(firmware, part)
-    count = long ? FaultPlaces::LONG_RUNS : FaultPlaces::RUNS
+    count = Extent.long? ? FaultPlaces::LONG_RUNS : FaultPlaces::RUNS
     rows = places.map { |place, bytes| [place, faults_of_place(name, firmware, chip, place, bytes, count)] }.to_h
     Report.number('places', rows)
     drive = faults_of_place(name, firmware, chip, 'drive', FaultPlaces::DRIVE.fetch(part), FaultPlaces::DRIVE_RUNS)
     Report.at_least("the drive's register: flips that stopped it", drive['off'] + drive['out'], 1)
-    rows.each { |place, row| check_place(place, row, count, long) }
+    rows.each { |place, row| check_place(place, row, count) }
   end
 end
 
@@ -92,10 +92,10 @@ def faults_of_place(name, firmware, chip, place, bytes, count)
     'back_s' => in_time.map(&:back_s).max || 0.0 }
 end
 
-def check_place(place, row, count, long)
+def check_place(place, row, count)
   what = FaultPlaces::NAMES.fetch(place)
   Report.exactly("#{what}: flips tried", row['runs'], count)
   Report.exactly("#{what}: drive beyond its limits", row['beyond'], 0)
   counts = row.values_at('back', 'reset', 'off', 'out', 'stopped')
-  Report.unchanged("#{what}: back, back after a reset, off, out, simulator stopped", counts.join('/')) unless long
+  Report.unchanged("#{what}: back, back after a reset, off, out, simulator stopped", counts.join('/')) unless Extent.long?
 end

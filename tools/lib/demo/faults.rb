@@ -3,6 +3,8 @@
 
 # The loops broken on purpose. A program runs each fault and prints a row of what
 # came of it; here is what must, and the picture.
+require_relative 'extent'
+
 FAULT_KINDS = {
   'none' => 'nothing', 'flip' => 'a bit of the controller flips', 'reset' => 'a reset',
   'brown_out' => 'brown-out, then random RAM', 'hang' => 'the loop hangs',
@@ -26,7 +28,8 @@ STAYING_FAULTS = {
   'no drive' => ['stays_off'], 'drive always full' => ['stays_on'], 'sign turned round' => ['stays_turned']
 }.freeze
 STAYING_LEVELS = STAYING_FAULTS.values.count { |kind,| kind == 'stays_level' }
-STAYING_TURNS = 8 # of each
+STAYING_TURNS = Extent.share(8, 8) # of each
+FAULT_SHARE = 10 # one of so many is tried, unless all are
 # Where it stands still at the set point or next to it, a sensor can be right.
 STAYING_UNSEEN = ['sensor stuck as it read', 'sensor at the set point'].freeze
 WATCHDOG_KINDS = %w[hang hangs dead_timer].freeze
@@ -209,23 +212,23 @@ CHIP_FAULTS = {
 }.freeze
 RESET_PLACES = 200 # of one pass, as in sim/faults/faults.c
 
-def run_faults(long)
+def run_faults
   programs = "#{Host.root}/build/host-examples/examples"
   FAULT_LOOPS.each do |name, rules|
-    count = long ? rules.long_runs : rules.runs
+    count = Extent.long? ? rules.long_runs : rules.runs
     command = ["#{programs}/faults_#{name}", "#{programs}/faults_#{name}_application.so"]
     Report.start("faults #{name}")
-    all = FaultRuns.read(name, rules, halves_of_faults("faults-#{name}", command, count))
-    all.check(count, true)
+    all = FaultRuns.read(name, rules, halves_of_faults("faults-#{name}", command, count, share: FAULT_SHARE))
+    all.check(Extent.share(count, FAULT_SHARE), Extent.whole?)
     number_faults(all)
     draw_faults(all)
     run_staying(all, command) if rules.guard
   end
 end
 
-def run_faults_on_chips(long)
+def run_faults_on_chips
   CHIP_FAULTS.each do |name, chip|
-    count = long ? chip.long_runs : chip.runs
+    count = Extent.long? ? chip.long_runs : chip.runs
     next if count.zero?
 
     firmware = Dir["#{Host.root}/build/firmware/#{name}.{cod,elf}"].first or
@@ -233,7 +236,7 @@ def run_faults_on_chips(long)
     command = ["#{Host.root}/build/gpsim/#{name}", firmware, '--faults', name]
     Report.start("faults_chip #{name}")
     paths = halves_of_faults("faults_chip-#{name}", command, count)
-    places = long && chip.example == name ? RESET_PLACES : 0
+    places = Extent.long? && chip.example == name ? RESET_PLACES : 0
     paths += halves_of_faults("faults_chip-#{name}-reset", command, places, 'reset') if places.positive?
     all = FaultRuns.read(name, chip.rules, paths)
     all.check(count + places, false)
@@ -247,10 +250,11 @@ def check_places(all)
                   RESET_PLACES)
 end
 
-# Two programs at a time, each with half of the faults.
-def halves_of_faults(name, command, count, *kind)
+# Two programs at a time, each with half of the faults, or with one of `share` from where its
+# half begins.
+def halves_of_faults(name, command, count, *kind, share: 1)
   half = (count + 1) / 2
-  parts = [[0, half], [half, count - half]]
+  parts = [[0, half], [half, count - half]].map { |first, some| [first, Extent.share(some, share)] }
   threads = parts.each_with_index.map do |(first, some), i|
     path = "#{Host.folder}/#{name}.#{i}"
     Thread.new do
@@ -274,7 +278,7 @@ def run_staying(all, command)
     FaultRuns.read(all.name, all.rules, paths)
   end
   rows = STAYING_FAULTS.to_h { |what, fault| [what, check_staying(what, without.like(*fault), with.like(*fault))] }
-  rows.each { |what, row| Report.unchanged("#{what}: seen; s; reach without, with", staying_text(row)) }
+  rows.each { |what, row| Report.unchanged("#{what}: seen; s; reach without, with", staying_text(row)) } if Extent.whole?
   Report.number('staying', rows)
 end
 

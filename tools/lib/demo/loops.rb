@@ -36,9 +36,4 @@ module Loops
     Hash.new { |_, key| raise Host::Failure, "#{path} has no #{key}" }
         .merge(head.zip(row.map { |text| Cell.new(text) }).to_h)
   end
-
-  # A scene of three runs, a row for each step.
-  def self.scene(name, steps)
-    Trace.new(Host.print('loops', "#{Report.loop}-#{name}.csv", 'scene', name), steps - 1)
-  end
 end

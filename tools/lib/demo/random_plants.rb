@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The autotuner and those of three other libraries on random plants of 22 families:
-# how good the gains are that they find.
-require_relative '../autotune/study'
+# The autotuner on random plants of 22 families: how good the gains are that it finds.
+require_relative 'extent'
+require_relative 'study'
 
 STUDY_SEEDS = [31, 77].freeze
 STUDY_PLANTS = 60 * Study::FAMILIES.size # of each seed
@@ -21,46 +21,45 @@ AT_ONCE_PLANTS = 300
 PLAIN = ['lag-dominant', 'balanced', 'dead-time', 'equal lags', 'integrator', 'servo', 'integrator and lag', 'batch',
          'two lags', 'servo and lag', 'servo without delay'].freeze
 
-def study_rows(part, seed, plants, designs, *family)
-  name = ['random_plants', part, seed, *family.map { |word| word.tr(' ', '-') }].join('-')
-  lines = File.readlines(Host.print('random_plants', "#{name}.txt", part, seed.to_s, plants.to_s, *family))
-  lines.size == plants * designs + 1 or
-    raise Host::Failure, "#{name}.txt has #{lines.size - 1} rows, not #{plants * designs}"
+def study_rows(seed, plants, *family)
+  name = ['random_plants', seed, *family.map { |word| word.tr(' ', '-') }].join('-')
+  lines = File.readlines(Host.print('random_plants', "#{name}.txt", seed.to_s, plants.to_s, *family))
+  rows = plants * Study::DESIGNS.size
+  lines.size == rows + 1 or raise Host::Failure, "#{name}.txt has #{lines.size - 1} rows, not #{rows}"
   Study.rows(lines.drop(1))
 rescue Study::Failure => e
   raise Host::Failure, "#{name}.txt: #{e.message}"
 end
 
-def random_plants(long)
-  ours, peers = study(STUDY_SEEDS, STUDY_PLANTS)
-  keep_study(ours)
+def random_plants
+  all = study(STUDY_SEEDS, STUDY_PLANTS)
+  keep_study(all)
   tell_at_once
-  draw_random_plants(ours, peers)
-  return unless long
+  draw_random_plants(all)
+  return unless Extent.long?
 
   Report.start('random_plants long')
   study(LONG_SEEDS, LONG_PLANTS)
 end
 
-# What the autotuner did, and what the others did, on plants of all seeds.
+# What the autotuner did on plants of all seeds.
 def study(seeds, plants)
-  drawn = seeds.to_h { |seed| [seed, study_rows('ours', seed, plants, Study::DESIGNS.size)] }
+  drawn = seeds.to_h { |seed| [seed, study_rows(seed, plants)] }
   drawn.each { |seed, all| check_study("seed #{seed}", all) }
-  ours = drawn.values.reduce(:+)
-  check_robust(ours)
-  peers = seeds.map { |seed| study_rows('peers', seed, plants, Study::PEERS.values.sum(&:size)) }.reduce(:+)
-  tell_study(ours, peers)
-  [ours, peers]
+  drawn.values.reduce(:+).tap do |all|
+    check_robust(all)
+    tell_study(all)
+  end
 end
 
 # Whoever takes the gains of a word unseen must have a loop that is stable, and with
 # the default word nearly always one with a margin.
 def check_study(seed, all)
-  ours = Study::DESIGNS.to_h { |design| [design, all.of(Study::OURS, design)] }
-  ours.each { |design, rows| Report.exactly("#{seed}, #{design}: unstable", rows.unstable, 0) }
-  Report.at_least("#{seed}, PI safe: Ms within 1.2 to 1.8", ours['PI safe'].robust_percent, 99.0, '%')
-  Report.at_least("#{seed}, PID safe: Ms within 1.2 to 1.8", ours['PID safe'].robust_percent, 95.0, '%')
-  check_conduct(seed, ours['PI safe'])
+  loops = Study::DESIGNS.to_h { |design| [design, all.of(design)] }
+  loops.each { |design, rows| Report.exactly("#{seed}, #{design}: unstable", rows.unstable, 0) }
+  Report.at_least("#{seed}, PI safe: Ms within 1.2 to 1.8", loops['PI safe'].robust_percent, 99.0, '%')
+  Report.at_least("#{seed}, PID safe: Ms within 1.2 to 1.8", loops['PID safe'].robust_percent, 95.0, '%')
+  check_conduct(seed, loops['PI safe'])
 end
 
 # A tuner that refuses all is safe and useless.
@@ -74,14 +73,14 @@ end
 
 # Too few for each seed alone.
 def check_robust(all)
-  safe = all.of(Study::OURS, 'PI safe') + all.of(Study::OURS, 'PID safe')
+  safe = all.of('PI safe') + all.of('PID safe')
   Report.at_most('safe, of the loops: Ms above 2.2', safe.thin_percent, 0.02, '%')
 end
 
 # What nobody requires.
 def keep_study(all)
   Study::DESIGNS.each do |design|
-    rows = all.of(Study::OURS, design)
+    rows = all.of(design)
     Report.unchanged("#{design}: plants with gains", rows.gains)
     Report.unchanged("#{design}: Ms above 2.2", rows.thin)
     Report.unchanged("#{design}: Ms in the middle, in 0.01", (100.0 * rows.ms(0.5)).round)
@@ -89,18 +88,16 @@ def keep_study(all)
 end
 
 # The rows of the tables in docs/tuning.md.
-def tell_study(ours, peers)
-  Report.number('plants', ours.of(Study::OURS, 'PI safe').count)
-  Report.number('designs', design_rows(ours, Study::OURS, Study::DESIGNS) +
-                           Study::PEERS.flat_map { |peer, rules| design_rows(peers, peer, rules) })
-  Report.number('families', Study::FAMILIES.map { |name, title| family_numbers(ours, name, title) })
-  Report.number('peers', Study::FAMILIES.map { |name, title| peer_numbers(peers, name, title) })
+def tell_study(all)
+  Report.number('plants', all.of('PI safe').count)
+  Report.number('designs', design_rows(all))
+  Report.number('families', Study::FAMILIES.map { |name, title| family_numbers(all, name, title) })
 end
 
-def design_rows(all, tuner, rules)
-  rules.map do |rule|
-    rows = all.of(tuner, rule)
-    { 'tuner' => tuner, 'rule' => rule, 'gains' => rows.gains, 'ms' => shown_ms(rows, 0.05, 0.5, 0.95, 1.0),
+def design_rows(all)
+  Study::DESIGNS.map do |rule|
+    rows = all.of(rule)
+    { 'rule' => rule, 'gains' => rows.gains, 'ms' => shown_ms(rows, 0.05, 0.5, 0.95, 1.0),
       'robust' => rows.robust_percent, 'thin' => rows.thin, 'unstable' => rows.unstable,
       'slower' => rows.slower(0.5), 'lasts' => [0.5, 0.9].map { |share| rows.lasts(share) } }
   end
@@ -110,8 +107,8 @@ def shown_ms(rows, *shares)
   shares.map { |share| Study.shown(rows.ms(share)) }
 end
 
-def family_numbers(ours, name, title)
-  designs = Study::DESIGNS.to_h { |design| [design, ours.of(Study::OURS, design).family(name)] }
+def family_numbers(all, name, title)
+  designs = Study::DESIGNS.to_h { |design| [design, all.of(design).family(name)] }
   safe = designs['PI safe']
   { 'family' => title, 'plants' => safe.count, 'gains' => safe.gains, 'lasts' => safe.lasts(0.5),
     'statuses' => Study::STATUSES.to_h { |status| [status, safe.ended(status)] },
@@ -123,39 +120,24 @@ def loop_numbers(rows)
   { 'ms' => shown_ms(rows, 0.5, 1.0), 'thin' => rows.thin, 'unstable' => rows.unstable }
 end
 
-def peer_numbers(peers, name, title)
-  { 'family' => title,
-    'peers' => PEER_RULES.map do |peer, rule|
-      rows = peers.of(peer, rule).family(name)
-      { 'gains' => rows.gains, **loop_numbers(rows) }
-    end }
-end
-
 def tell_at_once
-  all = study_rows('ours', STUDY_SEEDS[0], AT_ONCE_PLANTS, Study::DESIGNS.size, AT_ONCE)
-  Report.number('at_once', design_rows(all, Study::OURS, Study::DESIGNS))
+  Report.number('at_once', design_rows(study_rows(STUDY_SEEDS[0], AT_ONCE_PLANTS, AT_ONCE)))
 end
 
-# What the picture has beside PI safe: the calmest rule of each.
-PEER_RULES = { 'Arduino PID AutoTune' => 'PI', 'QuickPID' => 'Tyreus-Luyben PI',
-               'sTune' => 'Ziegler-Nichols PI' }.freeze
-PEER_TITLES = { 'Arduino PID AutoTune' => ['Arduino PID', 'AutoTune, PI'], 'QuickPID' => %w[QuickPID Tyreus-Luyben],
-                'sTune' => %w[sTune Ziegler-Nichols] }.freeze
+# What the picture has.
+DRAWN_RULES = ['PI safe', 'PI quick', 'PID safe'].freeze
 MS_DRAWN = 10.0 # what is beyond is drawn there
 MS_EDGE = 26.0  # of the panel: room for a number
 NO_GAINS = { 'the experiment failed' => Plot::LIMIT, 'refused after it' => Plot::OUTPUT }.freeze
 
-def draw_random_plants(ours, peers)
-  safe = ours.of(Study::OURS, 'PI safe')
+def draw_random_plants(all)
+  safe = all.of('PI safe')
   plot = Plot.new('random_plants', "#{safe.count} random plants of #{Study::FAMILIES.size} families, " \
-                                   'and the gains that four autotuners find',
-                  width: 960, height: 860, columns: [0.72, 1.0, 1.0, 1.0, 1.0], gap_x: 0.012,
+                                   'and the gains that fixpid\\\\_autotune finds',
+                  width: 960, height: 860, columns: [0.72, 1.0, 1.0, 1.0], gap_x: 0.012,
                   margins: { left: 0.262, right: 0.99, top: 0.845, bottom: 0.14 })
   refusal_panel(plot, safe)
-  sensitivity_panel(plot, 1, safe, ['fixpid\\\\_autotune', 'PI safe'], Plot::MEASUREMENT)
-  PEER_RULES.each_with_index do |(peer, rule), i|
-    sensitivity_panel(plot, i + 2, peers.of(peer, rule), PEER_TITLES.fetch(peer), Plot::WITHOUT)
-  end
+  DRAWN_RULES.each_with_index { |rule, i| sensitivity_panel(plot, i + 1, all.of(rule), rule) }
   plot.draw
 end
 
@@ -196,7 +178,7 @@ def refusal_panel(plot, safe)
   plot.panel(0, 0, [study_bar(path, '(0)', 2, 7, failed), study_bar(path, 2, '($3-$2)', 7, refused),
                     study_numbers(path, '$3+2', "sprintf('%.0f', $3)", 'left')],
              [*study_rows_axis(true), 'set xrange [0:125]', 'set xtics (0, 50, 100)', "set xlabel 'of the plants, %'",
-              "set title \"{/:Bold fixpid\\\\_autotune}\\nno gains for\\n \\n \"", *study_legend])
+              "set title \"{/:Bold fixpid\\\\_autotune}\\nno gains for\\n \"", *study_legend])
 end
 
 # Below the panels.
@@ -213,16 +195,16 @@ def legend(title, x, line, color = Plot::TEXT)
   "set label '#{title}' at screen #{x}, screen #{(0.066 - 0.022 * line).round(3)} textcolor '#{color}'"
 end
 
-def sensitivity_panel(plot, column, all, title, color)
+def sensitivity_panel(plot, column, all, title)
   rows = Study::FAMILIES.keys.each_with_index.map { |name, i| [i, *sensitivity_row(all.family(name))] }
   path = study_csv("ms-#{column}", rows)
-  curves = [study_bar(path, 2, '($4-$2)', 6, color.sub('#', '#90')),
+  curves = [study_bar(path, 2, '($4-$2)', 6, Plot::MEASUREMENT.sub('#', '#90')),
             study_dots(path, 3, 'pointtype 5 pointsize 0.7'), study_dots(path, 5, 'pointtype 6 pointsize 0.6'),
             study_numbers(path, MS_EDGE * 0.93, "$6 > 0 ? sprintf('%.0f %%', $6) : ''",
                           "right textcolor '#{Plot::WITHOUT}'")]
   lasts = format('%.1f', all.lasts(0.5)).sub(/\A(\d\d)\.\d\z/, '\1')
   gains = (100.0 * all.gains / all.count).round
-  heading = "set title \"{/:Bold #{title[0]}}\\n#{title[1]}\\ngains for #{gains} %\\nlasts #{lasts} (L + T)\""
+  heading = "set title \"{/:Bold #{title}}\\ngains for #{gains} %\\nlasts #{lasts} (L + T)\""
   plot.panel(0, column, curves, [*study_rows_axis(false), *sensitivity_marks, heading])
 end
 

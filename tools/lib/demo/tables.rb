@@ -4,6 +4,8 @@
 # The tables of the documents, from the numbers that the loops reported.
 module Tables
   LONG_STUDY = 'random_plants long'
+  LOOPS_HEAD = ['plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable', 'errors',
+                'lasts: 50, 90 %'].freeze
   TRACKED = %w[without with].to_h { |which| [which, "#{which} `fixpid_pid_track`"] }.freeze
 
   class << self
@@ -33,11 +35,8 @@ module Tables
             'settled after', rows)
     end
 
-    # All tuners and rules.
     def random_plants(loop = 'random_plants')
-      rows = Report.numbers[loop]['designs'].map { |row| design_row(row) }
-      table('tuner', 'rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable',
-            'errors', 'lasts: 50, 90 %', rows)
+      table('tuner', 'rule', *LOOPS_HEAD, Report.numbers[loop]['designs'].map { |row| ['`fixpid_autotune`', *design_row(row)] })
     end
 
     # The same of more plants, when they were asked for.
@@ -46,15 +45,12 @@ module Tables
     end
 
     def at_once
-      rows = Report.numbers['random_plants']['at_once'].map { |row| design_row(row).drop(1) }
-      table('rule', 'plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable', 'errors',
-            'lasts: 50, 90 %', rows)
+      table('rule', *LOOPS_HEAD, Report.numbers['random_plants']['at_once'].map { |row| design_row(row) })
     end
 
     # By PI and by PID.
     def study_words
-      rows = Report.numbers[LONG_STUDY]['designs'].first(Study::DESIGNS.size)
-      cells = rows.to_h do |row|
+      cells = Report.numbers[LONG_STUDY]['designs'].to_h do |row|
         [row['rule'], [row['ms'].values_at(0, 2).join(' to '), row['thin'], format('%.2f', row['slower'])]]
       end
       table('word', 'PI: Ms, 5 to 95 %', 'above 2.2', 'errors', 'PID: Ms, 5 to 95 %', 'above 2.2', 'errors',
@@ -79,16 +75,6 @@ module Tables
                 .select { |kind, name| families.sum { |row| row[kind][name] }.positive? }
       rows = families.map { |row| [row['family'], row['gains'], *columns.map { |kind, name| row[kind][name] }] }
       table('family', 'gains', *columns.map { |_, name| name }, [*rows, totals('all', rows)])
-    end
-
-    def study_peers
-      numbers = Report.numbers[LONG_STUDY]
-      rows = numbers['peers'].zip(numbers['families']).map do |row, ours|
-        peers = row['peers'].map { |peer| peer_cell(peer['gains'], peer) }
-        safe = ours['loops']['PI safe']
-        [row['family'], peer_cell(ours['gains'], safe), *peers]
-      end
-      table('family', '`fixpid_autotune`, PI safe', *PEER_RULES.map { |peer, rule| "#{peer}, #{rule}" }, rows)
     end
 
     # What came of the faults, a row for each kind and its numbers for each loop.
@@ -238,52 +224,7 @@ module Tables
             recipe_rows('%.0f', %w[retune_NAME_far], 'narrow' => 'a fifth to each side', 'whole' => 'all'))
     end
 
-    def comparison
-      numbers = Report.numbers['others']
-      rows = SETTLED_LIMITS.keys.flat_map do |plant|
-        numbers[plant].map { |row| loop_row(row) }
-      end
-      loops(rows)
-    end
-
-    # Where another rule does better.
-    def slow
-      loops(Report.numbers['others']['slow'].map { |row| loop_row(row) })
-    end
-
-    # Each rule beside the next, a column for each setpoint.
-    def recovery
-      rows = Report.numbers['others']['recovery'].group_by { |row| row['controller'] }
-      backs = rows.values.first.map { |row| "back to #{row['back']}" }
-      table('controller', *backs, rows.map do |name, own|
-        [controller_of(name), *own.map { |row| "#{row['settled']} / #{row['iae'].to_f.round}" }]
-      end)
-    end
-
-    def bumps
-      rows = Report.numbers['others']['bumps']
-                   .select { |row| BUMP_LIMITS.key?(row['event']) }
-                   .map { |row| row.values_at('event', 'before', 'first', 'largest') }
-      table('event', 'output before', 'first after', 'largest step of 20', rows)
-    end
-
-    def drift
-      rows = Report.numbers['others']['drift'].map do |row|
-        there, exact, back = %w[after_q16 exact_q16 back_q16]
-                             .map { |name| row[name].to_i / 65_536.0 }
-        [row['ki_q24'], row['error'], format('%.4f', there),
-         format('%.4f', exact), format('%.4f', back)]
-      end
-      table('ki, 1/2^24', 'error', 'integral after 10^6 steps', 'exact',
-            'and after as many back', rows)
-    end
-
     private
-
-    def loops(rows)
-      table('plant', 'controller', 'overshoot', 'settled after',
-            'sum of errors', 'and after the large setpoint', rows)
-    end
 
     def table(*head, rows)
       lines = [head, head.map { '---' }, *rows]
@@ -292,15 +233,9 @@ module Tables
     end
 
     def design_row(row)
-      ours = row['tuner'] == Study::OURS
-      [ours ? "`#{row['tuner']}`" : row['tuner'], row['rule'], row['gains'],
-       row['ms'].first(3).join(', '), row['ms'].last, format('%.1f %%', row['robust']), row['thin'], row['unstable'],
-       row['slower'] ? format('%.2f', row['slower']) : '',
+      [row['rule'], row['gains'], row['ms'].first(3).join(', '), row['ms'].last, format('%.1f %%', row['robust']), row['thin'],
+       row['unstable'], row['slower'] ? format('%.2f', row['slower']) : '',
        row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }.join(', ')]
-    end
-
-    def peer_cell(gains, loops)
-      "#{gains}; #{loops['ms'][0]}, #{loops['thin']}, #{loops['unstable']}"
     end
 
     def totals(title, rows)
@@ -337,15 +272,6 @@ module Tables
     # What the experiment found of a plant.
     def process(row)
       [row['t'].to_f.zero? ? '-' : format('%.1f', row['t']), format('%.1f', row['l'])]
-    end
-
-    def loop_row(row)
-      [row['plant'], controller_of(row['controller']), format('%.1f %%', row['overshoot']),
-       row['settled'], row['iae'].to_f.round, row['iae_after'].to_f.round]
-    end
-
-    def controller_of(name)
-      { 'fixpid_pid' => '`fixpid_pid`', 'double' => 'double precision' }.fetch(name, "double, #{name}")
     end
 
     def stage_row(stage, numbers)

@@ -151,7 +151,7 @@ module Assurance
      Claim.new('tested', 'with a fault the drive stays inside its limits, and the loop is back in time or off',
                "#{here} faults here, #{there} on simulated chips: flips in the controller's object, resets, hangs, inputs and ticks; " \
                "#{long} here in [faults.md](faults.md#many-more), with an older version of the motor and the oven",
-               '`tools/demo faults faults_chip`'),
+               '`tools/demo --whole faults faults_chip`'),
      Claim.new('measured', "what a flip elsewhere in a chip does: in the port's variables, the others, the registers, the stack in RAM",
                "#{FaultPlaces::LONG_RUNS} flips in each place of #{FaultPlaces::CHIPS.size} firmwares; those where the simulator stops show nothing: " \
                '[faults.md](faults.md#elsewhere-in-a-chip)', '`tools/demo --long faults_places`')]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What sim/random_plants prints, summed up: how good the gains are that autotuners
-# find on plants of many families. `study.rb PROGRAM SEED PLANTS` prints tables.
+# What sim/random_plants prints, summed up: how good the gains are that the autotuner finds
+# on plants of many families.
 module Study
   class Failure < StandardError; end
 
@@ -17,11 +17,7 @@ module Study
   STATUSES = names('fixpid_autotune_state').freeze
   REASONS = names('fixpid_autotune_cause').freeze
 
-  OURS = 'fixpid_autotune'
   DESIGNS = ['PI quick', 'PI safe', 'PI calm', 'PID quick', 'PID safe', 'PID calm'].freeze
-  PEERS = { 'Arduino PID AutoTune' => %w[PI PID],
-            'QuickPID' => ['Tyreus-Luyben PI', 'Ziegler-Nichols PID', 'AMIGO PID'],
-            'sTune' => ['Ziegler-Nichols PI', 'Ziegler-Nichols PID'] }.freeze
 
   # What is drawn: L is the dead time, T the lag.
   FAMILIES = {
@@ -40,7 +36,7 @@ module Study
   ROBUST = (1.2..1.8).freeze # Ms of a loop with a margin that is not too calm
   THIN = 2.2                 # Ms of one with too little
 
-  Row = Struct.new(:family, :tuner, :rule, :status, :reason, :lasts, :outside, :ms, :slower) do
+  Row = Struct.new(:family, :rule, :status, :reason, :lasts, :outside, :ms, :slower) do
     def found?
       !ms.zero?
     end
@@ -50,7 +46,7 @@ module Study
     end
   end
 
-  # Some rows, of one tuner and rule or of several.
+  # Some rows, of one rule or of several.
   class Rows
     include Enumerable
     attr_reader :rows
@@ -67,9 +63,9 @@ module Study
       rows.each(&block)
     end
 
-    def of(tuner, rule)
-      found = rows.select { |row| row.tuner == tuner && row.rule == rule }
-      found.empty? and raise Failure, "no plant tuned by #{tuner}, #{rule}"
+    def of(rule)
+      found = rows.select { |row| row.rule == rule }
+      found.empty? and raise Failure, "no plant tuned by #{rule}"
       Rows.new(found)
     end
 
@@ -149,15 +145,14 @@ module Study
     end
   end
 
-  COLUMNS = 11
+  COLUMNS = 10
 
   # Of the program's lines, without their first one.
   def self.rows(lines)
     Rows.new(lines.map do |line|
       line.count(';') == COLUMNS - 1 or raise Failure, "not a row: #{line.chomp}"
-      _, family, tuner, rule, status, reason, _, lasts, outside, ms, slower = line.chomp.split(';')
-      Row.new(family, tuner, rule, Integer(status), Integer(reason), Float(lasts), Integer(outside), Float(ms),
-              Float(slower))
+      _, family, rule, status, reason, _, lasts, outside, ms, slower = line.chomp.split(';')
+      Row.new(family, rule, Integer(status), Integer(reason), Float(lasts), Integer(outside), Float(ms), Float(slower))
     end)
   rescue ArgumentError => e
     raise Failure, e.message
@@ -169,49 +164,4 @@ module Study
 
     sensitivity.finite? ? format('%.2f', sensitivity) : 'unstable'
   end
-
-  # What the tables of a terminal say.
-  module Tables
-    LINE = '%-38s %6s %6s %8s %8s %8s %8s %9s %6s %8s %6s'
-
-    module_function
-
-    def designs(all)
-      DESIGNS.each do |design|
-        puts design, format(LINE, '', 'plants', 'gains', 'Ms 5 %', '50 %', '95 %', 'max', '1.2..1.8', '> 2.2',
-                            'unstable', 'lasts')
-        FAMILIES.each { |name, title| line(title, all.of(OURS, design).family(name)) }
-        line('all', all.of(OURS, design))
-        puts ''
-      end
-    end
-
-    def line(title, rows)
-      sensitivities = [0.05, 0.5, 0.95, 1.0].map { |share| Study.shown(rows.ms(share)) }
-      puts format(LINE, title, rows.count, rows.gains, *sensitivities, format('%.1f %%', rows.robust_percent), rows.thin, rows.unstable, rows.lasts(0.5)&.round || '-')
-    end
-
-    # Of the plants without gains: what the experiment said, or else the result.
-    def refusals(all)
-      safe = all.of(OURS, 'PI safe')
-      columns = STATUSES.drop(3) + REASONS.drop(3)
-      puts format("%-38s#{' %9s' * (columns.size + 1)}", 'PI safe', 'gains', *columns.map { |name| name[0, 9] })
-      FAMILIES.merge(nil => 'all').each do |name, title|
-        rows = name ? safe.family(name) : safe
-        puts format("%-38s#{' %9d' * (columns.size + 1)}", title, rows.gains,
-                    *STATUSES.drop(3).map { |status| rows.ended(status) },
-                    *REASONS.drop(3).map { |reason| rows.refused(reason) })
-      end
-    end
-  end
-
-  def self.main(program, seed, plants)
-    lines = IO.popen([program, 'ours', seed, plants], &:readlines)
-    $?.success? or abort "study: #{program} failed"
-    all = rows(lines.drop(1))
-    Tables.designs(all)
-    Tables.refusals(all)
-  end
 end
-
-Study.main(*ARGV) if $PROGRAM_NAME == __FILE__
