@@ -81,16 +81,20 @@ runner() {
     }
 }
 
-# run_ceedling NAME TASK TEXT [MIXIN]: a run with its own build folder, where TEXT is the
+# run_ceedling NAME TASK TEXT [MIXIN]...: a run with its own build folder, where TEXT is the
 # mixin that makes it different. Each unit test counts.
 run_ceedling() {
     name=$1 task=$2
     build_root=build/ceedling-$name
-    mixin=$folder/$name.yml
-    printf ':project:\n  :build_root: %s\n%s\n' "$build_root" "$3" >"$mixin"
+    printf ':project:\n  :build_root: %s\n%s\n' "$build_root" "$3" >"$folder/$name.yml"
+    shift 3
+    set -- "$@" "$folder/$name.yml"
+    for mixin; do
+        shift
+        set -- "$@" "--mixin=$mixin"
+    done
     status=0
-    tools/lib/test/ceedling "$build_root" ${4:+"--mixin=$4"} \
-        "--mixin=$mixin" "$task" >"$log" 2>&1 </dev/null || status=1
+    tools/lib/test/ceedling "$build_root" "$@" "$task" >"$log" 2>&1 </dev/null || status=1
     tests=$(sed -n 's/^tests //p' "$log" | tail -n 1)
     failures=$(sed -n 's/^failures //p' "$log" | tail -n 1)
     tests=${tests:-0} failures=${failures:-0}

@@ -9,54 +9,21 @@ forms='wide narrow'
 first_form=${forms%% *}
 
 # The mixin text for a mode (pointer or object) and a form, in Ceedling's context
-# test or gcov.
+# test or gcov; object.yml has the rest of the mode without pointers.
 mode_and_form() {
-    defines="      - UNITY_SUPPORT_64"
-    [ "$2" = wide ] || defines="$defines
-      - _PIC14
-      - FIXPID_NO_ASSEMBLY"
-    objects=
-    if [ "$1" = object ]; then
-        objects="    '/test_fixpid_(?!bits|.*_arith)/':
-$(ruby -r./tools/lib/modules -e 'puts Modules.with_object.map { |name|
-    "      - FIXPID_#{name.upcase}_OBJECT=#{name}_controller" }')
-    '/test_pendulum\\.c/':
-      - FIXPID_AN964_OBJECT=pendulum
-    'test_pendulum_8bit':
-      - FIXPID_AN964_8BIT_OBJECT=pendulum
-    'test_motor':
-      - FIXPID_AN937_OBJECT=motor
-      - FIXPID_GUARD_OBJECT=guard
-    'test_oven':
-      - FIXPID_AN937_OBJECT=oven
-      - FIXPID_GUARD_OBJECT=guard
-    'test_thermostat':
-      - FIXPID_PID_OBJECT=thermostat
-      - FIXPID_GUARD_OBJECT=guard
-    'test_watched':
-      - FIXPID_PID_OBJECT=motor
-      - FIXPID_LINK_OBJECT=wire
-    'test_kept':
-      - FIXPID_PID_OBJECT=oven
-    'test_autotune_example':
-      - FIXPID_PID_OBJECT=oven
-      - FIXPID_AUTOTUNE_OBJECT=tuner
-    'test_experiment_example':
-      - FIXPID_AUTOTUNE_OBJECT=tuner
-:files:
-  :test:
-    - -:test/unit/test_fixpid_instances.c
-    - -:test/unit/test_fixpid_link_twin.c # two controllers"
-        defines="$defines
-      - TEST_WITHOUT_POINTERS"
-    fi
-    printf ':defines:\n  :%s:\n    "*":\n%s\n%s\n' "$3" "$defines" "$objects"
+    printf ':defines:\n  :%s:\n    "*":\n      - UNITY_SUPPORT_64\n' "$3"
+    [ "$2" = wide ] || printf '      - %s\n' _PIC14 FIXPID_NO_ASSEMBLY
+    [ "$1" = pointer ] || ruby -r./tools/lib/modules -e \
+        'puts "    /test_fixpid_(?!bits|.*_arith)/:", Modules.with_object.map { |name|
+            "      - FIXPID_#{name.upcase}_OBJECT=#{name}_controller" }'
 }
 
 # run_mode NAME MODE FORM [MIXIN]: all unit tests so.
 run_mode() {
-    run_ceedling "$1-$2-$3" test:all "$(mode_and_form "$2" "$3" test)" \
-        ${4:+"$4"}
+    name=$1-$2-$3 text=$(mode_and_form "$2" "$3" test)
+    [ "$2" = pointer ] || set -- "$@" test/unit/object.yml
+    shift 3
+    run_ceedling "$name" test:all "$text" "$@"
 }
 
 part_quick() {
