@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative '../named_figures'
 require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
@@ -39,6 +40,7 @@ module Docs
       parts = mode == 'long' ? long_parts(loops) : parts_of(loops)
       stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
+      NamedFigures.keep(Tables.study_figures, root) if mode == 'long' && loops.include?('random_plants')
       stale.none?
     end
 

@@ -67,6 +67,12 @@ module Tables
       table('family', 'gains', 'lasts', *Study::DESIGNS, rows)
     end
 
+    # What README.md says of it: gains by the rule and the word to take first.
+    def study_figures
+      ours = Report.numbers[LONG_STUDY]['designs'].select { |row| row['tuner'] == Study::OURS }
+      { 'tuned' => ours.find { |row| row['rule'] == 'PI safe' }['gains'], 'unstable' => ours.sum { |row| row['unstable'] } }
+    end
+
     # What never happened has no column.
     def study_refusals
       families = Report.numbers[LONG_STUDY]['families']

@@ -5,6 +5,7 @@
 # cost.rb MODE ROOT WORD...
 require 'etc'
 
+require_relative '../named_figures'
 require_relative 'host'
 require_relative 'subjects'
 require_relative 'meters'
@@ -53,6 +54,8 @@ class Cost
       changes = Document.new(document).replace(name, rows)
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
+    stale = NamedFigures.stale(Tables.named(measured, called), Host.root)
+    good << tell(stale.empty?, 'figures that sentences say', *stale)
     warn 'cost: tools/cost --update renews the tables, --tighten and --loosen the limits' unless good.all?
     good.all?
   end
@@ -81,6 +84,7 @@ class Cost
       parts.each { |_, name, rows| puts document.replace(name, rows) }
       document.write
     end
+    NamedFigures.keep(Tables.named(measured, called), Host.root)
     Picture.new(measured).draw
     FileUtils.cp("#{Host.folder}/cost.png", "#{Host.root}/docs/images/cost.png")
     limits.all.reject(&:good?).each { |limit| tell(false, limit.what, limit.wrong) }.empty?

@@ -83,6 +83,14 @@ module Tables
       [head] + rows + NOTES.map { |note| [note.title, *BEST.keys.map { |chip| note.costs.fetch(chip, '') }] }
     end
 
+    # What sentences of the documents say, by the names of docs/figures.json.
+    def named(measured, called)
+      on_avr = { 'typical' => 'pid_typical', 'full' => 'pid' }.transform_values { |id| find(measured, id, 'atmega328p', '-O2').bound }
+      stream = called.find { |subject, _| subject.called.functions.value?('stream only, step') && subject.chip.name == 'pic18f4520' }
+      { **on_avr, 'fastpid' => PEERS.find { |peer| peer.title.start_with?('FastPID') }.worst('atmega328p-O2'),
+        'link_stream_flash' => stream.last.fetch('fixpid_link_step').flash }
+    end
+
     def markdown(rows)
       lines = [rows.first, rows.first.map { '---' }] + rows.drop(1)
       lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join

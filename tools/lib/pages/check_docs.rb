@@ -7,6 +7,7 @@
 # parts first.
 require 'fileutils'
 require 'open3'
+require_relative '../named_figures'
 require_relative 'docs/assurance'
 require_relative 'docs/bounds'
 require_relative 'docs/chip_choices'
@@ -51,23 +52,6 @@ def quick_start_output
   output
 end
 
-# What tools/test runs and how long each part takes.
-def parts_table
-  rows = File.readlines('test/parts.txt', chomp: true).grep(/^[a-z]/).map { |line| line.split(' ', 4) }
-  lines = rows.map do |name, checks, seconds, what|
-    seconds = seconds.to_i
-    time = seconds < 100 ? "#{seconds} s" : "#{(seconds + 30) / 60} minutes"
-    "| `#{name}` | #{checks} | #{time} | #{what} |\n"
-  end
-  "| part | checks | about | what |\n|---|---|---|---|\n#{lines.join}"
-end
-
-# The packages as a paragraph.
-def packages
-  words = Packages.wanted.map { |name| "`#{name}`" }.join(', ')
-  "#{words}.".gsub(/(.{1,78})(?: |\z)/, "\\1\n")
-end
-
 def check_packages
   wanted = Packages.wanted
   found = Packages.of_dockerfile(File.read('Dockerfile'))
@@ -82,10 +66,7 @@ def renewed(path, text)
   when 'README.md'
     # Without the line of the licence.
     text = part(text, 'quick_start', "```c\n#{File.readlines('examples/quick_start.c').drop(1).join}```\n")
-    text = part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
-    Numbers.renewed(text)
-  when 'CONTRIBUTING.md'
-    part(part(text, 'parts', parts_table), 'packages', packages)
+    part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
   when 'docs/assurance.md'
     part(part(text, 'claims', Assurance.table), 'theorems', Assurance.theorems)
   when 'docs/misra.md'
@@ -102,7 +83,7 @@ def renewed(path, text)
     @failures.concat(Recipes.missing(text).map { |name| "#{path} does not show #{name}" })
     Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }
   when HOME
-    Numbers.renewed(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')))
+    part(text, 'version', format(Shown.version, '../../CHANGELOG.md'))
   when 'docs/start/download.md'
     text = part(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')), 'release files', Shown.released)
     part(text, 'folders', Shown.folders)
@@ -124,17 +105,20 @@ def check_named_tests(path, text, tests)
   end
 end
 
-documents = Dir['docs/**/*.md', '*.md', HOME] # README.md has numbers of docs/
+documents = Dir['docs/**/*.md', '*.md', HOME]
+NamedFigures.keep(Numbers.counted) if ARGV == ['--update']
+@failures.concat(NamedFigures.stale(Numbers.counted))
 tests = Dir['test/**/*.c'].flat_map { |file| File.read(file).scan(/^void (test_\w+)\(/).flatten }
 documents.each do |path|
   text = File.read(path)
-  new_text, wrong = CodeBlocks.new(path).renewed(Shown.renewed(renewed(path, text)))
+  new_text, wrong = CodeBlocks.new(path).renewed(NamedFigures.renewed(Shown.renewed(renewed(path, text))))
   @failures.concat(wrong + Shown.failures(path, text))
   if ARGV == ['--update']
     File.write(path, new_text)
   elsif new_text != text
     @failures << "#{path} is stale: ruby tools/lib/pages/check_docs.rb --update"
   end
+  @failures.concat(NamedFigures.unknown(text).map { |name| "#{path}: no number is called #{name}" })
   check_links(path, new_text)
   check_named_tests(path, new_text, tests)
   @failures.concat(Sums.failures(path, new_text))
@@ -148,7 +132,7 @@ Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   comments = File.read(path).scan(%r{//(.*)}).join("\n") # a slash would read as a quotient
   @failures.concat(Sums.failures(path, comments))
 end
-@failures.concat(DocumentNames.failures + Assurance.failures + Numbers.failures + ProseNumbers.failures +
+@failures.concat(DocumentNames.failures + Assurance.failures + ProseNumbers.failures +
                  FeatureComments.failures + Commands.failures + ChipChoices.failures + Requirements.failures + Tools.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
