@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# tools/lib/pages/check_docs.rb on a copy of the project with a fault of each kind that it
-# looks for. As they are, the part `docs` looks at them.
+# tools/lib/pages/check_docs.rb and the Markdown linter on a copy of the project with a fault of
+# each kind that they look for. As they are, the part `docs` looks at them.
 require_relative 'gate'
 
 ABSENT = 'not_there' # a whole name would be one that the project has
@@ -14,7 +14,7 @@ FAULTS = [
   ['docs/figures.json', '"rows": ', '"rows": 1', /docs.figures.json: rows is 14000, but 4000 was found$/],
   ['docs/start/zephyr.md', 'CONFIG_FIXPID=y', 'CONFIG_FIXPID=n', /docs.start.zephyr.md is stale/],
   ['docs/start/rtos.md', /\z/, "\n```ini\nnobody = 1\n```\n", /docs.start.rtos.md: a block of ini shows no file/],
-  ['docs/scaling.md', /\z/, "\nSee [what is not there](nowhere.md).\n", /docs.scaling.md: no nowhere.md/],
+  ['docs/scaling.md', /\z/, "\n| a | b |\n|---|---|---|\n", /docs.scaling.md: no table, .*: \| a \| b \|$/],
   ['docs/scaling.md', /\z/, "\nThe product is 117 * 1023 / 16 = 7481.\n", /docs.scaling.md: 117 \* 1023 . 16 = 7481 is wrong/],
   ['docs/scaling.md', /\z/, "\nSo says `test_what_is_not_there_is_missed`.\n", /no test test_what_is_not_there_is_missed/],
   ['docs/scaling.md', /\z/, "\nCall `fixpid_pid_#{ABSENT}`, of `src/fixpid_#{ABSENT}.c`.\n",
@@ -50,12 +50,27 @@ FAULTS = [
   ['tools/lib/pages/docs/assurance.rb', '`tools/demo random_plants`', '`tools/demo sky`', /no tools.demo sky/]
 ].freeze
 
+# For the linter.
+MARKDOWN = [
+  ['docs/start/cmake.md', "\n| a | b |\n|---|---|\n| 1 |\n", /cmake.md.* MD056.*Too few cells/],
+  ['docs/start/esp32.md', "\n| a | b |\n|---|---|\n| 1 | 2\n", /esp32.md.* MD055.*missing trailing pipe/i],
+  ['docs/start/stm32.md', "\nSee [what is not there](nowhere.md).\n", /stm32.md.*"nowhere.md" should exist/],
+  ['docs/start/rtos.md', "\nSee [what is not there](stm32.md#nowhere).\n", /rtos.md.*"stm32.md#nowhere" should have a valid fragment/],
+  ['docs/start/glossary.md', "\n##### Nothing above it\n", /glossary.md.* MD001/]
+].freeze
+
 Dir.mktmpdir do |folder|
   Gate.copy(folder)
   Dir.chdir(folder) do
     FAULTS.each { |path, text, instead| Gate.seed(path, text, instead) }
     result = Gate.run('ruby', 'tools/lib/pages/check_docs.rb')
     FAULTS.each { |path, text, instead, *said| Gate.refused("#{path} with #{instead.empty? ? "no #{text}" : instead}".inspect, result, *said) }
+
+    MARKDOWN.each { |path, text| Gate.seed(path, /\z/, text) }
+    linted = Gate.run('sh', '-c', "root=#{PROJECT}; cd $root; . tools/lib/setup.sh; . tools/lib/build/browser.sh; need_node_modules; " \
+                                  "mkdir -p '#{folder}/build'; ln -s \"$browser\" '#{folder}/build/browser'; " \
+                                  "cd '#{folder}'; node \"$browser/node_modules/.bin/markdownlint-cli2\"")
+    MARKDOWN.each { |path, text, said| Gate.refused("#{path} with #{text.inspect}", linted, said) }
   end
 end
 Gate.finish

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Checks what the documents say: parts that are made from the code, code blocks, in C
-# and in C++, and what they print, files, functions and tests that they name, links, sums that
-# are written out, in comments of the code too; the Dockerfile's packages; and that the
+# and in C++, and what they print, files, functions and tests that they name, sums that
+# are written out, in comments of the code too; the Dockerfile's packages; that the
 # manifests are those that tools/lib/manifests.rb writes; and that docs/requirements.csv says what
-# is there. With --update it renews the
-# parts first.
+# is there. With --update it renews the parts first. Tables, links and headings are for the
+# Markdown linter of the part `docs`.
 require 'fileutils'
 require 'open3'
 require_relative '../named_figures'
@@ -92,10 +92,11 @@ def renewed(path, text)
   end
 end
 
-def check_links(path, text)
-  text.scan(/\]\(([^)#\s]+)[^)]*\)/).flatten.grep_v(/\A[a-z]+:/).each do |link|
-    target = File.expand_path(link, File.dirname(path))
-    @failures << "#{path}: no #{link}" unless File.exist?(target)
+# Where the head of a table has another number of cells than the rule below it, no renderer makes
+# one, and the linter sees no table to judge.
+def check_heads(path, text)
+  text.scan(/^(\|.*\|)\n(\|[-:| ]+\|)$/).each do |head, rule|
+    @failures << "#{path}: no table, as its head is not as wide as its rule: #{head}" if head.scan(/(?<!\\)\|/).size != rule.count('|')
   end
 end
 
@@ -119,7 +120,7 @@ documents.each do |path|
     @failures << "#{path} is stale: ruby tools/lib/pages/check_docs.rb --update"
   end
   @failures.concat(NamedFigures.unknown(text).map { |name| "#{path}: no number is called #{name}" })
-  check_links(path, new_text)
+  check_heads(path, new_text)
   check_named_tests(path, new_text, tests)
   @failures.concat(Sums.failures(path, new_text))
 end

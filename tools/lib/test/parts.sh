@@ -37,7 +37,7 @@ part_quick() {
     check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
     check 'seeded faults' ruby tools/lib/faults/seed.rb
     check 'each unit test asserts' ruby tools/lib/test/asserts.rb
-    part_docs
+    check_documents
 }
 
 # The modules that are another text in the narrow form, as a pattern. What is not is tested in
@@ -217,9 +217,17 @@ part_tuner() {
     runner test/web/tuner/run daily
 }
 
-part_docs() {
+check_documents() {
     need ruby gpasm:gputils cc:gcc :libc6-dev g++ avr-g++:gcc-avr :avr-libc
     check 'documentation' ruby tools/lib/pages/check_docs.rb
+}
+
+part_docs() {
+    check_documents
+    # shellcheck source=tools/lib/build/browser.sh
+    . tools/lib/build/browser.sh
+    need_node_modules
+    check 'tables, links and headings' node "$browser/node_modules/.bin/markdownlint-cli2"
     check 'without dpkg' without_packages \
         sh -c '. tools/lib/setup.sh && need ruby cc:gcc :libc6-dev'
 }
