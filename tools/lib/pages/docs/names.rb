@@ -23,11 +23,6 @@ module DocumentNames
     'report_tests_pretty_stdout' => 'of Ceedling'
   }.freeze
 
-  # Names that CHANGELOG.md says are gone.
-  GONE = %w[fixpid_pid_status fixpid_an937_status fixpid_an937_status2 fixpid_arith.h src/fixpid_..._access.c
-            src/fixpid_x.c src/pic14/ src/pic18/ src/avr/ src/arm/ src/sdcc/
-            output_low output_high fixpid_relay].freeze
-
   class << self
     def failures
       manifests + DOCUMENTS.flat_map { |path| names(path) }
@@ -45,7 +40,6 @@ module DocumentNames
       text = File.read(path).gsub(/^```.*?^```$/m, '')
       words = path.end_with?('.yml') ? text : text.scan(/`([^`]+)`/).join("\n")
       words.split(/[\s"',;()]+/).uniq.map { |word| name(word.sub(/[.:]+\z/, '')) }.compact
-           .reject { |word| path == 'CHANGELOG.md' && GONE.include?(word) }
            .map { |word| "#{path}: no #{word}" }
     end
 
