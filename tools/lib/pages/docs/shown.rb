@@ -9,6 +9,7 @@ module Shown
   LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini',
                 '.asm' => 'nasm' }.freeze
   BEGINNERS = %r{\A(?:docs/start/|web/site/)}.freeze
+  OF_THE_PROJECT = %w[python sim test tools web].freeze # folders that no archive for users has
   RELEASED = /^  (\S+) {2,}(.*(?:\n {33}.*)*)/.freeze # in the usage of tools/release
 
   class << self
@@ -34,13 +35,12 @@ module Shown
       "| file | what it is |\n|---|---|\n#{rows.map { |name, what| "| `#{name}` | #{what.split.join(' ')} |\n" }.join}"
     end
 
-    # Which archive has which folder: those of users, and those of CONTRIBUTING.md's house.
+    # Which archive has which folder: those of users, and the others of the project.
     def folders
       small = directories(Project::SMALL_FILES)
       users = directories(Project::USER_FILES) - small
-      house = File.read('CONTRIBUTING.md')[/^## The house\n.*?^Nothing includes/m].scan(%r{^\| `(\w+)/`}).flatten
       rows = { small => 'the .tar.xz, the .zip and the archive of the source', users => 'the .zip and the archive of the source',
-               house - small - users => 'the archive of the source' }
+               OF_THE_PROJECT => 'the archive of the source' }
       "| folders | are in |\n|---|---|\n#{rows.map { |names, where| "| #{names.sort.map { |name| "`#{name}/`" }.join(', ')} | #{where} |\n" }.join}"
     end
 

@@ -22,12 +22,12 @@ module Tools
     ['QEMU', 'qemu-system-arm', 'simulates Cortex-M; its like, RISC-V', 'test/chips/target/run seeded'],
     ['ucsim', 'sdcc-ucsim', 'simulates STM8, 8051 and Z80', 'test/chips/families/run'],
     ['mspdebug', 'mspdebug', 'simulates an MSP430', 'test/chips/families/run'],
-    ['CBMC', nil, 'proofs; CONTRIBUTING.md says which package is fetched', 'test/proof/run'],
+    ['CBMC', nil, 'proofs; `tools/lib/build/fetch_cbmc` fetches it', 'test/proof/run'],
     ['cppcheck', 'cppcheck', "MISRA's rules", 'tools/test gates'],
     ['clang-tidy', 'clang-tidy', 'patterns that are known to be wrong', 'tools/test gates'],
     ["Frama-C's Eva", nil, 'memory that is read before it was written', nil],
     ['pmccabe', 'pmccabe', 'length and complexity of functions', 'tools/test gates'],
-    ['Ceedling', nil, 'unit tests; CONTRIBUTING.md says which gem is fetched', 'tools/test mutants'],
+    ['Ceedling', nil, 'unit tests; `tools/lib/setup.sh` installs the gem', 'tools/test mutants'],
     ['gcovr', 'gcovr', 'lines and branches that unit tests reach', nil]
   ].freeze
   # target, compiler, where it ran, command.
