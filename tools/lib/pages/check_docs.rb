@@ -13,7 +13,6 @@ require_relative 'docs/bounds'
 require_relative 'docs/chip_choices'
 require_relative 'docs/code_blocks'
 require_relative 'docs/commands'
-require_relative 'docs/feature_comments'
 require_relative 'docs/levels'
 require_relative 'docs/misra'
 require_relative 'docs/names'
@@ -26,7 +25,6 @@ require_relative 'docs/recipes'
 require_relative 'docs/requirements'
 require_relative 'docs/shown'
 require_relative 'docs/sums'
-require_relative 'docs/tools'
 
 Encoding.default_external = 'UTF-8'
 
@@ -69,10 +67,6 @@ def renewed(path, text)
     part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
   when 'docs/assurance.md'
     part(part(text, 'claims', Assurance.table), 'theorems', Assurance.theorems)
-  when 'docs/misra.md'
-    part(text, 'misra', Misra.table)
-  when Tools::PAGE
-    Tools.renewed(text)
   when Requirements::PAGE
     Requirements.renewed(text)
   when 'docs/arithmetic.md'
@@ -124,17 +118,16 @@ documents.each do |path|
   check_named_tests(path, new_text, tests)
   @failures.concat(Sums.failures(path, new_text))
 end
-if ARGV == ['--update']
-  File.write(Requirements::FILE, Requirements.csv)
-elsif Requirements.csv != File.read(Requirements::FILE)
-  @failures << "#{Requirements::FILE} is stale: ruby tools/lib/pages/check_docs.rb --update"
+{ Requirements::FILE => Requirements.csv, Misra::FILE => Misra.csv }.each do |path, csv|
+  File.write(path, csv) if ARGV == ['--update']
+  @failures << "#{path} is stale: ruby tools/lib/pages/check_docs.rb --update" if csv != File.read(path)
 end
 Dir['{src,include,port,sim,examples,test}/**/*.[ch]'].each do |path|
   comments = File.read(path).scan(%r{//(.*)}).join("\n") # a slash would read as a quotient
   @failures.concat(Sums.failures(path, comments))
 end
 @failures.concat(DocumentNames.failures + Assurance.failures + ProseNumbers.failures +
-                 FeatureComments.failures + Commands.failures + ChipChoices.failures + Requirements.failures + Tools.failures)
+                 Commands.failures + ChipChoices.failures + Requirements.failures)
 check_packages
 lines = File.readlines('examples/quick_start.c').size
 @failures << "the quick start has #{lines} lines" if lines > 24

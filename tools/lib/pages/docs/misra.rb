@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-# The rules of MISRA C:2012 for docs/misra.md: the category of each, what looks for it, and
+# docs/misra.csv: the rules of MISRA C:2012, the category of each, what looks for it, and
 # where the library deviates from it, with the reason that stands there. UNSEEN has those that
 # cppcheck's addon has no code for, with what looks for them instead, and nothing if nobody
 # does. Called as a program it holds them against the addon that is installed.
+require 'csv'
+
 module Misra
-  RULES = 143
+  FILE = 'docs/misra.csv'.freeze
   CPPCHECK = 'cppcheck itself'.freeze
   WARNINGS = 'gcc and clang, -Wall -Wextra -Wpedantic'.freeze
   CBMC = 'CBMC, in what is proved'.freeze
@@ -33,9 +35,9 @@ module Misra
   AGAIN = /\A(?:as above|likewise)/.freeze # the reason is the one before
 
   class << self
-    def table
-      rows = RULES_OF_2012.map { |rule| "| #{[rule, category(rule), UNSEEN.fetch(rule, "cppcheck's addon") || 'nobody', deviations(rule).join('; ')].join(' | ')} |\n" }
-      "| rule | category | looked for by | deviations |\n|---|---|---|---|\n#{rows.join}"
+    def csv
+      rows = RULES_OF_2012.map { |rule| [rule, category(rule), UNSEEN.fetch(rule, "cppcheck's addon") || 'nobody', deviations(rule).join('; ').tr('`', '')] }
+      CSV.generate { |lines| [['rule', 'category', 'looked for by', 'deviations'], *rows].each { |cells| lines << cells } }
     end
 
     def category(rule)
