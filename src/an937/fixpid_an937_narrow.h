@@ -94,35 +94,21 @@ FIXPID_INLINE int32_t fixpid_number_term(
     return ((number->parts.negative & 1u) != 0u) ? -product : product;
 }
 
-// sum + gain * number. pre: the result is within +-2^26
+// sum + gain * number. pre: the result is within +-2^26. An 8051 and a Z80 lack
+// the registers for a choice between two sums.
+#if !defined(__SDCC_mcs51) && !defined(__SDCC_z80)
+#define FIXPID_AN937_NARROW_SUM
 FIXPID_INLINE int32_t
 fixpid_sum_with_term(int32_t sum, uint8_t gain,
                      FIXPID_DATA const union fixpid_an937_number *number)
 {
-// An 8051 and a Z80 lack the registers for a choice between two sums.
-#if defined(__SDCC_mcs51) || defined(__SDCC_z80)
-    return fixpid_add32(sum, fixpid_number_term(gain, number));
-#else
     const int32_t product = (int32_t)fixpid_number_product(gain, number);
 
     if ((number->parts.negative & 1u) != 0u) {
         return fixpid_sub32(sum, product);
     }
     return fixpid_add32(sum, product);
+}
 #endif
-}
-
-// gain * error
-FIXPID_INLINE int32_t fixpid_error_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
-{
-    return fixpid_number_term(gain, error);
-}
-
-// floor(x / 16). pre: x < 2^24
-FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
-{
-    return x >> 4;
-}
 
 #endif

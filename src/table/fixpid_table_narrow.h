@@ -7,12 +7,34 @@
 
 #include "../common/fixpid_bits.h"
 
-#if FIXPID_MULTIPLIER_BITS != 0
-#if defined(__AVR__)
-#include "fixpid_table_words_avr.h"
-#else
-#include "fixpid_table_bytes.h"
-#endif
+#if defined(__AVR_HAVE_MUL__) // whose compiler has the four products of bytes
+
+TABLE_INLINE uint32_t product(uint16_t a, uint16_t b)
+{
+    return (uint32_t)a * b;
+}
+
+#elif FIXPID_MULTIPLIER_BITS != 0
+
+// a * b, from four products of bytes. `left` is at most 255 * 255 + 254, and
+// `right` and what makes `high` at most 255 * 255 + 255 + 255 = 65535.
+TABLE_INLINE uint32_t product(uint16_t a, uint16_t b)
+{
+    const uint8_t a_low = (uint8_t)(a & 0xFFu);
+    const uint8_t a_high = (uint8_t)(a >> 8);
+    const uint8_t b_low = (uint8_t)(b & 0xFFu);
+    const uint8_t b_high = (uint8_t)(b >> 8);
+    const uint16_t low = fixpid_8x8(a_low, b_low);
+    const uint16_t left = (uint16_t)(fixpid_8x8(a_high, b_low) + (low >> 8));
+    const uint16_t right =
+        (uint16_t)(fixpid_8x8(a_low, b_high) + (left & 0xFFu));
+    const uint16_t high =
+        (uint16_t)(fixpid_8x8(a_high, b_high) + (left >> 8) + (right >> 8));
+
+    return ((uint32_t)high << 16) |
+           (uint16_t)(((right & 0xFFu) << 8) | (low & 0xFFu));
+}
+
 #else
 
 // a * b. The product moves right into the place of b, whose bits leave; what a

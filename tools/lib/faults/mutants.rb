@@ -130,7 +130,7 @@ def runs_by_name(file)
   when 'fixpid_put' then [*runs_of('src/common/fixpid_bytes.h'), *link_runs(%w[src/link/fixpid_link.c src/link/fixpid_link_tracked.c])]
   when 'fixpid_bytes' then [*runs_of('src/common/fixpid_check.h'), *state_runs(%w[src/pid/fixpid_pid_state.c])]
   when 'fixpid_check' then [Run.new('test_fixpid_record', %w[src/record/fixpid_record.c]), *autotune_runs(%w[src/autotune/fixpid_autotune_record.c])]
-  when 'fixpid_an937_turns' then [run_of('test_fixpid_an937_arith', %w[-D__riscv])]
+  when 'fixpid_an937_arith' then [run_of('test_fixpid_an937_arith'), run_of('test_fixpid_an937_arith', %w[-D__riscv])]
   when 'fixpid_signed_riscv'
     [run_of('test_fixpid_pid_arith', %w[-D__riscv]), run_of('test_fixpid_pid_arith', %w[-D__riscv -D__riscv_mul])]
   when /\Afixpid_signed/
