@@ -99,59 +99,6 @@ struct fixpid_an937 {
 #define FIXPID_AN937_ERR_ZERO 0x01u
 #define FIXPID_AN937_D_ERR_Z 0x04u // stat2: delta is zero
 
-// Object mode, for firmware with one controller: compile the application and
-// fixpid_an937*.c with -DFIXPID_AN937_OBJECT=name, and define that object at
-// file scope, not static. Calls stay as they are; the pointer is ignored.
-//
-// Sources that disagree about the object or its place do not link: see
-// FIXPID_MARKED.
-#ifdef FIXPID_AN937_PLACE
-#define FIXPID_AN937_NAMED                                                     \
-    FIXPID_JOINED(FIXPID_AN937_OBJECT, FIXPID_PLACE_MARK(FIXPID_AN937_PLACE))
-#else
-#define FIXPID_AN937_NAMED FIXPID_AN937_OBJECT
-#define FIXPID_AN937_PLACE
-#endif
-#ifdef FIXPID_AN937_OBJECT
-extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
-#define fixpid_an937_mark FIXPID_JOINED(, FIXPID_AN937_NAMED)
-#else
-#define fixpid_an937_mark
-#endif
-#define fixpid_an937_init FIXPID_MARKED(an937, init)
-#define fixpid_an937_reset FIXPID_MARKED(an937, reset)
-#define fixpid_an937_set_gains FIXPID_MARKED(an937, set_gains)
-#define fixpid_an937_set_accumulated_error_limit                               \
-    FIXPID_MARKED(an937, set_accumulated_error_limit)
-#define fixpid_an937_set_derivative_period                                     \
-    FIXPID_MARKED(an937, set_derivative_period)
-#define fixpid_an937_tick FIXPID_MARKED(an937, tick)
-#define fixpid_an937_step FIXPID_MARKED(an937, step)
-#define fixpid_an937_step_percent FIXPID_MARKED(an937, step_percent)
-#define fixpid_an937_proportional FIXPID_MARKED(an937, proportional)
-#define fixpid_an937_integral FIXPID_MARKED(an937, integral)
-#define fixpid_an937_derivative FIXPID_MARKED(an937, derivative)
-#define fixpid_an937_accumulated_error FIXPID_MARKED(an937, accumulated_error)
-#define fixpid_an937_stat1 FIXPID_MARKED(an937, stat1)
-#define fixpid_an937_stat2 FIXPID_MARKED(an937, stat2)
-#define fixpid_an937_flags FIXPID_MARKED(an937, flags)
-#define fixpid_an937_clear_flags FIXPID_MARKED(an937, clear_flags)
-
-// Addresses for SDCC, where the application has the room: in a PIC18's access
-// RAM a step is a seventh faster. Compile the application and fixpid_an937*.c
-// with
-//   -DFIXPID_AN937_PLACE='__at(0x20)'          the object, 24 bytes
-//   -DFIXPID_AN937_SIGNALS_PLACE='__at(0x38)'  what a step works on, 2 bytes
-// or one of them, and define the object as
-// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`. At 0x48 or below
-// it also has faster products. What a step works on has a place in pointer
-// mode, too.
-#ifdef FIXPID_AN937_SIGNALS_PLACE
-#define FIXPID_AN937_SIGNALS_PLACED
-#else
-#define FIXPID_AN937_SIGNALS_PLACE
-#endif
-
 // Starts from rest: no accumulated error, no pending tick, and the first tick
 // takes a derivative sample. A limit or a period of 0 is refused: the result is
 // false and the controller outputs 0 on every step, and its setters return
@@ -217,6 +164,24 @@ uint8_t fixpid_an937_stat2(FIXPID_DATA const struct fixpid_an937 *self);
 // What was limited and whether ticks were lost; clear_flags sets all to 0.
 uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self);
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self);
+
+// Object mode, for firmware with one controller: compile the application and
+// fixpid_an937*.c with -DFIXPID_AN937_OBJECT=name, and define that object at
+// file scope, not static. Calls stay as they are; the pointer is ignored.
+// Sources that disagree about the object or its place do not link.
+//
+// Addresses for SDCC, where the application has the room: in a PIC18's access
+// RAM a step is a seventh faster. Compile the application and fixpid_an937*.c
+// with
+//   -DFIXPID_AN937_PLACE='__at(0x20)'          the object, 24 bytes
+//   -DFIXPID_AN937_SIGNALS_PLACE='__at(0x38)'  what a step works on, 2 bytes
+// or one of them, and define the object as
+// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`. At 0x48 or below
+// it also has faster products. What a step works on has a place in pointer
+// mode, too.
+#ifdef FIXPID_AN937_OBJECT
+extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
+#endif
 
 FIXPID_C_END
 

@@ -34,12 +34,6 @@ struct fixpid_gains_milli {
     uint32_t kd; // the same times seconds
 };
 
-// Sources that disagree about FIXPID_PID_FEATURES do not link: see
-// FIXPID_MARKED.
-#define fixpid_gains_mark FIXPID_PID_FEATURES_MARK
-#define fixpid_gains_from_milli FIXPID_MARKED(gains, from_milli)
-#define fixpid_gains_to_milli FIXPID_MARKED(gains, to_milli)
-
 // Gains for fixpid_pid_init and fixpid_pid_set_gains, which accept them all.
 // `rate_milli` is in thousandths of steps per second, 1..FIXPID_GAINS_RATE_MAX;
 // `filter` is derivative_filter, 0..7. With q = rate_milli / 1000:

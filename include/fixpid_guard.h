@@ -132,33 +132,6 @@ struct fixpid_guard {
     uint8_t strikes;
 };
 
-// Object mode, for firmware with one guard: compile the application and
-// fixpid_guard.c with -DFIXPID_GUARD_OBJECT=name, and define that object at
-// file scope, not static. Calls stay as they are; the pointer is ignored.
-// FIXPID_GUARD_PLACE may put it at an address. docs/cost.md has what that
-// saves.
-//
-// Sources that disagree about the object or its place do not link: see
-// FIXPID_MARKED.
-#ifdef FIXPID_GUARD_PLACE
-#define FIXPID_GUARD_NAMED                                                     \
-    FIXPID_JOINED(FIXPID_GUARD_OBJECT, FIXPID_PLACE_MARK(FIXPID_GUARD_PLACE))
-#else
-#define FIXPID_GUARD_NAMED FIXPID_GUARD_OBJECT
-#define FIXPID_GUARD_PLACE
-#endif
-#ifdef FIXPID_GUARD_OBJECT
-extern FIXPID_DATA struct fixpid_guard FIXPID_GUARD_PLACE FIXPID_GUARD_OBJECT;
-#define fixpid_guard_mark FIXPID_JOINED(, FIXPID_GUARD_NAMED)
-#else
-#define fixpid_guard_mark
-#endif
-#define fixpid_guard_init FIXPID_MARKED(guard, init)
-#define fixpid_guard_reset FIXPID_MARKED(guard, reset)
-#define fixpid_guard_acknowledge FIXPID_MARKED(guard, acknowledge)
-#define fixpid_guard_step FIXPID_MARKED(guard, step)
-#define fixpid_guard_flags FIXPID_MARKED(guard, flags)
-
 // Nothing is known yet, and no flag is set. A value outside its range above is
 // refused: the result is false, and until a good init the flags are
 // FIXPID_GUARD_REFUSED. An all-zero object is refused, too.
@@ -192,6 +165,15 @@ uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
 
 // What the last call left of the flags.
 uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self);
+
+// Object mode, for firmware with one guard: compile the application and
+// fixpid_guard.c with -DFIXPID_GUARD_OBJECT=name, and define that object at
+// file scope, not static. Calls stay as they are; the pointer is ignored.
+// FIXPID_GUARD_PLACE may put it at an address. docs/cost.md has what that
+// saves. Sources that disagree about the object or its place do not link.
+#ifdef FIXPID_GUARD_OBJECT
+extern FIXPID_DATA struct fixpid_guard FIXPID_GUARD_PLACE FIXPID_GUARD_OBJECT;
+#endif
 
 FIXPID_C_END
 

@@ -125,37 +125,6 @@ struct fixpid_link {
     uint8_t frame[FIXPID_LINK_FRAME]; // to be sent
 };
 
-// Object mode, for firmware with one link: compile the application and
-// fixpid_link*.c with -DFIXPID_LINK_OBJECT=name, and define that object at file
-// scope, not static. Calls stay as they are; the pointer is ignored.
-// FIXPID_LINK_PLACE may put it at an address.
-//
-// Sources that disagree about the object or its place do not link: see
-// FIXPID_MARKED.
-#ifdef FIXPID_LINK_PLACE
-#define FIXPID_LINK_NAMED                                                      \
-    FIXPID_JOINED(FIXPID_LINK_OBJECT, FIXPID_PLACE_MARK(FIXPID_LINK_PLACE))
-#else
-#define FIXPID_LINK_NAMED FIXPID_LINK_OBJECT
-#define FIXPID_LINK_PLACE
-#endif
-#ifdef FIXPID_LINK_OBJECT
-extern FIXPID_DATA struct fixpid_link FIXPID_LINK_PLACE FIXPID_LINK_OBJECT;
-#define fixpid_link_mark FIXPID_JOINED(, FIXPID_LINK_NAMED)
-#else
-#define fixpid_link_mark
-#endif
-#define fixpid_link_init FIXPID_MARKED(link, init)
-#define fixpid_link_allow FIXPID_MARKED(link, allow)
-#define fixpid_link_changed FIXPID_MARKED(link, changed)
-#define fixpid_link_lost FIXPID_MARKED(link, lost)
-#define fixpid_link_receive FIXPID_MARKED(link, receive)
-#define fixpid_link_answer FIXPID_MARKED(link, answer)
-#define fixpid_link_answer_stream FIXPID_MARKED(link, answer_stream)
-#define fixpid_link_setpoint FIXPID_MARKED(link, setpoint)
-#define fixpid_link_step FIXPID_MARKED(link, step)
-#define fixpid_link_step_tracked FIXPID_MARKED(link, step_tracked)
-
 // No stream, nothing allowed, the next step is number 0. The setpoint is any
 // int16_t, until a command changes it.
 void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint);
@@ -226,6 +195,15 @@ uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
                                  int16_t setpoint, int16_t measurement,
                                  int16_t output, int16_t applied,
                                  uint8_t shift);
+
+// Object mode, for firmware with one link: compile the application and
+// fixpid_link*.c with -DFIXPID_LINK_OBJECT=name, and define that object at file
+// scope, not static. Calls stay as they are; the pointer is ignored.
+// FIXPID_LINK_PLACE may put it at an address. Sources that disagree about the
+// object or its place do not link.
+#ifdef FIXPID_LINK_OBJECT
+extern FIXPID_DATA struct fixpid_link FIXPID_LINK_PLACE FIXPID_LINK_OBJECT;
+#endif
 
 FIXPID_C_END
 

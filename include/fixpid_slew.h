@@ -69,14 +69,6 @@ struct fixpid_slew {
     uint32_t fall_q16;
 };
 
-#define fixpid_slew_mark
-#define fixpid_slew_init FIXPID_MARKED(slew, init)
-#define fixpid_slew_reset FIXPID_MARKED(slew, reset)
-#define fixpid_slew_set_rates FIXPID_MARKED(slew, set_rates)
-#define fixpid_slew_seed FIXPID_MARKED(slew, seed)
-#define fixpid_slew_step FIXPID_MARKED(slew, step)
-#define fixpid_slew_value FIXPID_MARKED(slew, value)
-
 // The rates upward and downward in counts per step x 65536, any uint32_t each:
 // 0 holds the value in that direction. The value is 0, not the first target: an
 // actuator starts from rest. An all-zero object holds 0.

@@ -80,12 +80,6 @@ struct fixpid_tpo {
     uint8_t whole; // this window has no gap
 };
 
-#define fixpid_tpo_mark
-#define fixpid_tpo_init FIXPID_MARKED(tpo, init)
-#define fixpid_tpo_check FIXPID_MARKED(tpo, check)
-#define fixpid_tpo_reset FIXPID_MARKED(tpo, reset)
-#define fixpid_tpo_step FIXPID_MARKED(tpo, step)
-
 // Nothing is owed, and the next step begins a window. A value outside its range
 // above is refused: the result is false and every step is off until a good
 // init. An all-zero object is off, too.

@@ -474,7 +474,7 @@ unsigned Chip::data(const std::string &name) const
     return found->getAddress();
 }
 
-// A function of the library may have a mark behind its name: FIXPID_MARKED in
+// A function of the library may have a suffix to its name: FIXPID_SUFFIXED in
 // include/fixpid.h. Of several, such as step and step_percent, the shortest is
 // it. (gpsim calls a plain function for each symbol.)
 instruction *Chip::Implementation::routine(const std::string &name) const

@@ -310,7 +310,7 @@ uint32_t Chip::Implementation::symbol(const std::string &wanted,
 {
     auto found = symbols.find(wanted);
 
-    // A function of the library may have a mark behind its name: FIXPID_MARKED
+    // A function of the library may have a suffix to its name: FIXPID_SUFFIXED
     // in include/fixpid.h. Of several, such as step and step_percent, the
     // shortest is it.
     if (found == symbols.end() && !data) {

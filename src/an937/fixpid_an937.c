@@ -3,16 +3,15 @@
 
 #include "fixpid_an937_arith.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN937_OBJECT
-#define OBJECT FIXPID_AN937_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN937_SELF
+#define VALID_SELF FIXPID_AN937_VALID_SELF
 
 bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
                        const struct fixpid_an937_config *config)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     fixpid_an937_reset(self);
     SELF.kp_q4 = config->kp_q4;
@@ -34,7 +33,7 @@ bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
 
 void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.tick_pending = 0;
     SELF.derivative_countdown = 1;
     SELF.tick_overrun = 0;
@@ -48,7 +47,7 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
                             uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.accumulated_error_limit == 0u) {
         return false;
     }
@@ -60,7 +59,7 @@ bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
 
 void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.tick_pending != 0u) {
         SELF.tick_overrun = 1;
     }
@@ -72,7 +71,7 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
     uint8_t flags = 0;
     int32_t output;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     fixpid_number_set(&SELF.error, error);
     if (SELF.tick_pending != 0u) {
         SELF.tick_pending = 0;

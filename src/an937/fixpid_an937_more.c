@@ -6,11 +6,10 @@
 
 #include "fixpid_an937_arith.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN937_OBJECT
-#define OBJECT FIXPID_AN937_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN937_SELF
+#define VALID_SELF FIXPID_AN937_VALID_SELF
 
 #define STEP_FLAGS                                                             \
     (FIXPID_AN937_SUM_SATURATED | FIXPID_AN937_ACCUMULATED_ERROR_LIMITED)
@@ -21,7 +20,7 @@
 bool fixpid_an937_set_accumulated_error_limit(
     FIXPID_DATA struct fixpid_an937 *self, uint16_t limit)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.accumulated_error_limit == 0u) {
         return false;
     }
@@ -35,7 +34,7 @@ bool fixpid_an937_set_accumulated_error_limit(
 bool fixpid_an937_set_derivative_period(FIXPID_DATA struct fixpid_an937 *self,
                                         uint8_t ticks)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.accumulated_error_limit == 0u) {
         return false;
     }
@@ -70,26 +69,26 @@ int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
 
 int32_t fixpid_an937_proportional(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return fixpid_number_term(SELF.kp_q4, &SELF.error);
 }
 
 int32_t fixpid_an937_integral(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return fixpid_number_term(SELF.ki_q4, &SELF.accumulated_error);
 }
 
 int32_t fixpid_an937_derivative(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return fixpid_number_term(SELF.kd_q4, &SELF.delta);
 }
 
 int32_t fixpid_an937_accumulated_error(
     FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return fixpid_number_value(&SELF.accumulated_error);
 }
 
@@ -98,7 +97,7 @@ int32_t fixpid_an937_accumulated_error(
 
 uint8_t fixpid_an937_stat1(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (uint8_t)(BIT_IF((SELF.step_flags & FIXPID_AN937_SUM_NEGATIVE) == 0u,
                             FIXPID_AN937_PID_SIGN) |
                      BIT_IF(fixpid_an937_derivative(self) >= 0,
@@ -117,13 +116,13 @@ uint8_t fixpid_an937_stat1(FIXPID_DATA const struct fixpid_an937 *self)
 
 uint8_t fixpid_an937_stat2(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return BIT_IF(fixpid_number_value(&SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
 }
 
 uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (
         uint8_t)((SELF.step_flags & STEP_FLAGS) |
                  BIT_IF(SELF.tick_overrun != 0u, FIXPID_AN937_TICK_OVERRUN));
@@ -131,7 +130,7 @@ uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self)
 
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.step_flags &= FIXPID_AN937_SUM_NEGATIVE; // for stat1
     SELF.tick_overrun = 0;
 }

@@ -8,7 +8,7 @@
 #include "fixpid_an937_arith.h"
 
 FIXPID_DATA struct fixpid_an937_operands fixpid_an937_operands;
-#ifdef FIXPID_AN937_SIGNALS_PLACED
+#ifdef FIXPID_AN937_SIGNALS_PLACE
 FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
 #endif
 

@@ -15,10 +15,10 @@
 
 // What a step works on: a local variable, or one that has a place, which SDCC
 // need not save.
-#ifdef FIXPID_AN937_SIGNALS_PLACED
+#ifdef FIXPID_AN937_SIGNALS_PLACE
 #define fixpid_an937_word                                                      \
     FIXPID_JOINED(fixpid_an937_word,                                           \
-                  FIXPID_PLACE_MARK(FIXPID_AN937_SIGNALS_PLACE))
+                  FIXPID_PLACE_SUFFIX(FIXPID_AN937_SIGNALS_PLACE))
 extern FIXPID_DATA uint16_t FIXPID_AN937_SIGNALS_PLACE fixpid_an937_word;
 #define FIXPID_AN937_WORD fixpid_an937_word
 #else

@@ -3,11 +3,10 @@
 
 #include "fixpid_an964_arith.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN964_OBJECT
-#define OBJECT FIXPID_AN964_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN964_SELF
+#define VALID_SELF FIXPID_AN964_VALID_SELF
 
 // Values with a sign are two's complement patterns in unsigned words, as
 // fixpid_bits.h says, because a PIC16 would spend most of the step on signed
@@ -36,7 +35,7 @@
 bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
                        const struct fixpid_an964_gains *gains)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(gains != 0);
     fixpid_an964_reset(self);
     SELF.ready = 1;
@@ -52,7 +51,7 @@ bool fixpid_an964_init(FIXPID_DATA struct fixpid_an964 *self,
 
 void fixpid_an964_reset(FIXPID_DATA struct fixpid_an964 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.sum = 0;
     SELF.error[0] = 0;
     SELF.error[1] = 0;
@@ -66,7 +65,7 @@ void fixpid_an964_reset(FIXPID_DATA struct fixpid_an964 *self)
 bool fixpid_an964_set_gains(FIXPID_DATA struct fixpid_an964 *self, uint16_t kp,
                             uint16_t ki, uint16_t kd)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.ready == 0u) {
         return false;
     }
@@ -144,7 +143,7 @@ int16_t fixpid_an964_step(FIXPID_DATA struct fixpid_an964 *self, int16_t error)
     uint16_t output;
     uint8_t negative = 0;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.sum_limited = 0;
     SELF.output_limited = 0;
     if ((e & FIXPID_SIGN_BIT) != 0u) {

@@ -3,32 +3,31 @@
 // firmware that calls none of them does not pay for them.
 #include "fixpid_an964.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN964_OBJECT
-#define OBJECT FIXPID_AN964_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN964_SELF
+#define VALID_SELF FIXPID_AN964_VALID_SELF
 
 int16_t fixpid_an964_proportional(FIXPID_DATA const struct fixpid_an964 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int16_t)SELF.error[0];
 }
 
 int16_t fixpid_an964_integral(FIXPID_DATA const struct fixpid_an964 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int16_t)SELF.integral;
 }
 
 int16_t fixpid_an964_derivative(FIXPID_DATA const struct fixpid_an964 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int16_t)SELF.derivative;
 }
 
 uint8_t fixpid_an964_flags(FIXPID_DATA const struct fixpid_an964 *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (uint8_t)(SELF.sum_limited | SELF.output_limited);
 }

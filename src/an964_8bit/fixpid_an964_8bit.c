@@ -3,11 +3,10 @@
 
 #include "fixpid_an964_8bit_arith.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN964_8BIT_OBJECT
-#define OBJECT FIXPID_AN964_8BIT_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN964_8BIT_SELF
+#define VALID_SELF FIXPID_AN964_8BIT_VALID_SELF
 
 // Values with a sign are two's complement patterns in unsigned words, as
 // fixpid_bits.h says: a PIC16 would spend most of the step on signed compares.
@@ -28,7 +27,7 @@
 bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
                             const struct fixpid_an964_8bit_gains *gains)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(gains != 0);
     fixpid_an964_8bit_reset(self);
     SELF.ready = 1;
@@ -44,7 +43,7 @@ bool fixpid_an964_8bit_init(FIXPID_DATA struct fixpid_an964_8bit *self,
 
 void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.sum = 0;
     SELF.error[0] = 0;
     SELF.error[1] = 0;
@@ -58,7 +57,7 @@ void fixpid_an964_8bit_reset(FIXPID_DATA struct fixpid_an964_8bit *self)
 bool fixpid_an964_8bit_set_gains(FIXPID_DATA struct fixpid_an964_8bit *self,
                                  uint8_t kp, uint8_t ki, uint8_t kd)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.ready == 0u) {
         return false;
     }
@@ -145,7 +144,7 @@ int16_t fixpid_an964_8bit_step(FIXPID_DATA struct fixpid_an964_8bit *self,
     uint16_t result;
     uint8_t negative = 0;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.sum_limited = 0;
     SELF.output_limited = 0;
     sum_of_terms =

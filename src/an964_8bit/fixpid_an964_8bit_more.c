@@ -3,36 +3,35 @@
 // firmware that calls none of them does not pay for them.
 #include "fixpid_an964_8bit.h"
 
-#undef OBJECT
-#ifdef FIXPID_AN964_8BIT_OBJECT
-#define OBJECT FIXPID_AN964_8BIT_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AN964_8BIT_SELF
+#define VALID_SELF FIXPID_AN964_8BIT_VALID_SELF
 
 int16_t fixpid_an964_8bit_proportional(
     FIXPID_DATA const struct fixpid_an964_8bit *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int8_t)SELF.error[0];
 }
 
 int16_t fixpid_an964_8bit_integral(
     FIXPID_DATA const struct fixpid_an964_8bit *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int8_t)SELF.integral;
 }
 
 int16_t fixpid_an964_8bit_derivative(
     FIXPID_DATA const struct fixpid_an964_8bit *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (int8_t)SELF.derivative;
 }
 
 uint8_t fixpid_an964_8bit_flags(
     FIXPID_DATA const struct fixpid_an964_8bit *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (uint8_t)(SELF.sum_limited | SELF.output_limited);
 }

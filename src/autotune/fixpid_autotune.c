@@ -59,7 +59,7 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
 {
     bool accepted;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     accepted = fixpid_autotune_legal(config);
     // SDCC's pic16 port cannot assign a structure.
@@ -83,7 +83,7 @@ bool fixpid_autotune_init(FIXPID_DATA struct fixpid_autotune *self,
 
 void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.state = FIXPID_AUTOTUNE_REFUSED;
     if (SELF.config.cycles != 0u) {
         SELF.state = PHASE_NOISE;
@@ -108,7 +108,7 @@ void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
 
 uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (SELF.state >= PHASE_NOISE) ? (uint8_t)FIXPID_AUTOTUNE_RUNNING
                                        : SELF.state;
 }
@@ -274,7 +274,7 @@ static int16_t limited_output(FIXPID_DATA const struct fixpid_autotune *self)
 int16_t fixpid_autotune_step(FIXPID_DATA struct fixpid_autotune *self,
                              int16_t setpoint, int16_t measurement)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.state >= PHASE_NOISE) {
         const uint8_t status = watch_ends(self, measurement);
 

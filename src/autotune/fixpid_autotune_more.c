@@ -15,7 +15,7 @@ void fixpid_autotune_progress(FIXPID_DATA const struct fixpid_autotune *self,
     uint8_t phase;
     uint8_t done = 0;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(stage != 0);
     each = (uint8_t)(SELF.config.cycles + 1u);
     phase = SELF.state;

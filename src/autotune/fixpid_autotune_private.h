@@ -3,11 +3,10 @@
 // phases and its relays.
 #include "fixpid_autotune.h"
 
-#undef OBJECT
-#ifdef FIXPID_AUTOTUNE_OBJECT
-#define OBJECT FIXPID_AUTOTUNE_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_AUTOTUNE_SELF
+#define VALID_SELF FIXPID_AUTOTUNE_VALID_SELF
 
 #ifndef FIXPID_AUTOTUNE_PRIVATE_H
 #define FIXPID_AUTOTUNE_PRIVATE_H
@@ -26,17 +25,17 @@
 #define FRESH 255u // `averaged`: a relay's first cycle, which never counts
 
 // These functions have the marks of the others.
-#define fixpid_autotune_sums_of_phase FIXPID_MARKED(autotune, sums_of_phase)
-#define fixpid_autotune_clear FIXPID_MARKED(autotune, clear)
-#define fixpid_autotune_level FIXPID_MARKED(autotune, level)
-#define fixpid_autotune_span FIXPID_MARKED(autotune, span)
-#define fixpid_autotune_legal FIXPID_MARKED(autotune, legal)
-#define fixpid_autotune_noise_band FIXPID_MARKED(autotune, noise_band)
-#define fixpid_autotune_wanted_swing FIXPID_MARKED(autotune, wanted_swing)
-#define fixpid_autotune_drive FIXPID_MARKED(autotune, drive)
-#define fixpid_autotune_finish FIXPID_MARKED(autotune, finish)
-#define fixpid_autotune_end_cycle FIXPID_MARKED(autotune, end_cycle)
-#define fixpid_autotune_find_again FIXPID_MARKED(autotune, find_again)
+#define fixpid_autotune_sums_of_phase FIXPID_SUFFIXED(autotune, sums_of_phase)
+#define fixpid_autotune_clear FIXPID_SUFFIXED(autotune, clear)
+#define fixpid_autotune_level FIXPID_SUFFIXED(autotune, level)
+#define fixpid_autotune_span FIXPID_SUFFIXED(autotune, span)
+#define fixpid_autotune_legal FIXPID_SUFFIXED(autotune, legal)
+#define fixpid_autotune_noise_band FIXPID_SUFFIXED(autotune, noise_band)
+#define fixpid_autotune_wanted_swing FIXPID_SUFFIXED(autotune, wanted_swing)
+#define fixpid_autotune_drive FIXPID_SUFFIXED(autotune, drive)
+#define fixpid_autotune_finish FIXPID_SUFFIXED(autotune, finish)
+#define fixpid_autotune_end_cycle FIXPID_SUFFIXED(autotune, end_cycle)
+#define fixpid_autotune_find_again FIXPID_SUFFIXED(autotune, find_again)
 
 bool fixpid_autotune_legal(const struct fixpid_autotune_config *config);
 

@@ -65,7 +65,7 @@ bool fixpid_autotune_pack(FIXPID_DATA const struct fixpid_autotune *self,
 {
     uint8_t *bytes;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(record != 0);
     if (!is_over(SELF.state)) {
         return false;
@@ -121,7 +121,7 @@ bool fixpid_autotune_unpack(FIXPID_DATA struct fixpid_autotune *self,
     struct fixpid_autotune_config config;
     const uint8_t *bytes;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(record != 0);
     bytes = record->bytes;
     if (bytes[VERSION_AT] != FIXPID_AUTOTUNE_RECORD_VERSION) {

@@ -727,7 +727,7 @@ bool fixpid_autotune_model(FIXPID_DATA const struct fixpid_autotune *self,
 {
     struct sheet sheet;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(process != 0);
     if (SELF.state != (uint8_t)FIXPID_AUTOTUNE_DONE) {
         return false;
@@ -848,7 +848,7 @@ bool fixpid_autotune_result(FIXPID_DATA const struct fixpid_autotune *self,
                             uint8_t rule, uint8_t robustness_q4,
                             struct fixpid_pid_config *config)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     if (find_gains(self, rule, robustness_q4, &config->gains) !=
         (uint8_t)FIXPID_AUTOTUNE_NO_REASON) {
@@ -864,6 +864,6 @@ uint8_t fixpid_autotune_reason(FIXPID_DATA const struct fixpid_autotune *self,
 {
     struct fixpid_pid_gains gains;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return find_gains(self, rule, robustness_q4, &gains);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_guard.h"
 
-#undef OBJECT
-#ifdef FIXPID_GUARD_OBJECT
-#define OBJECT FIXPID_GUARD_OBJECT
-#endif
 #include "../common/fixpid_difference.h"
-#include "../common/fixpid_self.h"
+
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_GUARD_SELF
+#define VALID_SELF FIXPID_GUARD_VALID_SELF
 
 #define BAND_MAX 32767u
 #define PATIENCE_MIN 2u
@@ -93,7 +93,7 @@ bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
 {
     uint8_t state = 0;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     take_ranges(self, config);
     SELF.band = config->band;
@@ -115,7 +115,7 @@ bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
 
 void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.flags = 0;
     fixpid_guard_acknowledge(self);
     SELF.last = 0;
@@ -127,7 +127,7 @@ void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self)
 
 void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.flags &= FIXPID_GUARD_SETTLED;
     SELF.count = 0;
     SELF.run = 0;
@@ -137,7 +137,7 @@ void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self)
 
 uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return (SELF.patience == 0u) ? FIXPID_GUARD_REFUSED : SELF.flags;
 }
 
@@ -397,7 +397,7 @@ uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
     uint8_t zone;
     uint8_t end;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.patience == 0u) {
         return FIXPID_GUARD_REFUSED;
     }

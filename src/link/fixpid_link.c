@@ -65,7 +65,7 @@ void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint)
 {
     uint8_t at;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.steps = 0;
     SELF.setpoint = setpoint;
     SELF.told = setpoint;
@@ -87,25 +87,25 @@ void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint)
 
 void fixpid_link_allow(FIXPID_DATA struct fixpid_link *self, uint8_t allowed)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.allowed = allowed;
 }
 
 void fixpid_link_changed(FIXPID_DATA struct fixpid_link *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.why |= CHANGED;
 }
 
 void fixpid_link_lost(FIXPID_DATA struct fixpid_link *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.why |= LOST;
 }
 
 int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return SELF.setpoint;
 }
 
@@ -189,7 +189,7 @@ bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte)
 {
     uint8_t count;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     count = SELF.count;
     if (count == WAITS) {
         return false;
@@ -274,7 +274,7 @@ uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
                                   const struct fixpid_link_board *board,
                                   const struct fixpid_pid_config *config)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(board != 0);
     FIXPID_ASSERT(config != 0);
     if (SELF.count != WAITS) {
@@ -356,7 +356,7 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
 {
     uint8_t bytes = 0;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(VALID_PID(pid_self));
     if (is_due(self)) {
         bytes = KEY_BYTES;

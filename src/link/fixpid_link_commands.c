@@ -173,7 +173,7 @@ uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            FIXPID_DATA struct fixpid_pid *pid_self,
                            struct fixpid_pid_config *config)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(VALID_PID(pid_self));
     if (SELF.count == WAITS) {
         if (SELF.bytes[COMMAND_AT] > SET_STREAM) {

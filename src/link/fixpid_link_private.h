@@ -2,11 +2,10 @@
 // What the sources of fixpid_link share.
 #include "fixpid_link.h"
 
-#undef OBJECT
-#ifdef FIXPID_LINK_OBJECT
-#define OBJECT FIXPID_LINK_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_LINK_SELF
+#define VALID_SELF FIXPID_LINK_VALID_SELF
 
 #ifndef FIXPID_LINK_PRIVATE_H
 #define FIXPID_LINK_PRIVATE_H
@@ -56,10 +55,10 @@
 // Where an answer's record is in `frame`.
 #define RECORD_AT 4u
 
-#define fixpid_link_is_new FIXPID_MARKED(link, is_new)
-#define fixpid_link_reply FIXPID_MARKED(link, reply)
-#define fixpid_link_begin FIXPID_MARKED(link, begin)
-#define fixpid_link_framed FIXPID_MARKED(link, framed)
+#define fixpid_link_is_new FIXPID_SUFFIXED(link, is_new)
+#define fixpid_link_reply FIXPID_SUFFIXED(link, reply)
+#define fixpid_link_begin FIXPID_SUFFIXED(link, begin)
+#define fixpid_link_framed FIXPID_SUFFIXED(link, framed)
 
 // True if the command that waits has not been carried out yet; it then is the
 // last one.

@@ -38,6 +38,9 @@ struct signals {
 };
 
 #if defined(__SDCC_pic14) || defined(__SDCC_pic16) || defined(__SDCC_mcs51)
+#ifndef FIXPID_PID_SIGNALS_PLACE
+#define FIXPID_PID_SIGNALS_PLACE
+#endif
 FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
 #define NAMED_SIGNALS
 #define SIGNALS fixpid_pid_signals
@@ -172,7 +175,7 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
 {
     bool accepted;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     accepted = accept_config(self, config);
     if (!accepted) {
@@ -186,7 +189,7 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
 {
     int16_t start = 0; // or the nearest count within the integral's limits
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.integral_min > 0) {
         start = SELF.integral_min;
     }
@@ -206,7 +209,7 @@ void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
 bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
                           const struct fixpid_pid_gains *gains)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(gains != 0);
     if (REFUSED) {
         return false;
@@ -219,9 +222,9 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
 #if !defined(NAMED_SIGNALS)
 #define GIVEN FIXPID_DATA struct fixpid_pid *self, struct signals *signals
 #define PASSED self, signals
-#elif defined(OBJECT)
+#elif defined(FIXPID_PID_OBJECT)
 #undef SELF
-#define SELF OBJECT
+#define SELF FIXPID_PID_OBJECT
 #define GIVEN void
 #define PASSED
 #else
@@ -443,7 +446,7 @@ int16_t fixpid_pid_step(FIXPID_DATA struct fixpid_pid *self, int16_t setpoint,
     signal_word p_error;
     int16_t output;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SIGNALS.derivative_input = measurement;
     if ((SELF.options & SPECIAL) == 0u) {
         SIGNALS.error = sub16_sat(setpoint, measurement);

@@ -29,7 +29,7 @@ int16_t fixpid_pid_step_error(FIXPID_DATA struct fixpid_pid *self,
     uint16_t seen;
     int16_t output;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     options = SELF.options;
     mirror = ((options & REVERSE) != 0u) ? 0xFFFFu : 0u;
     seen = (uint16_t)SELF.previous ^ mirror;

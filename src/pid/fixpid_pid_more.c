@@ -52,7 +52,7 @@ static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
 bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
                            int16_t output_min, int16_t output_max)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (REFUSED) {
         return false;
     }
@@ -72,7 +72,7 @@ bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
 bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
                                     int16_t integral_min, int16_t integral_max)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (REFUSED) {
         return false;
     }
@@ -89,7 +89,7 @@ bool fixpid_pid_set_integral_limits(FIXPID_DATA struct fixpid_pid *self,
 void fixpid_pid_set_feedforward(FIXPID_DATA struct fixpid_pid *self,
                                 int16_t feedforward)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (!REFUSED) {
         SELF.feedforward = feedforward;
     }
@@ -99,14 +99,14 @@ void fixpid_pid_set_feedforward(FIXPID_DATA struct fixpid_pid *self,
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 void fixpid_pid_set_manual(FIXPID_DATA struct fixpid_pid *self, int16_t output)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     hold(self, output);
     SELF.status = (uint8_t)((SELF.status & (uint8_t)~HELD) | FIXPID_PID_MANUAL);
 }
 
 void fixpid_pid_set_auto(FIXPID_DATA struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if ((SELF.status & FIXPID_PID_MANUAL) != 0u) {
         SELF.status =
             (uint8_t)((SELF.status & (uint8_t)~HELD) | FIXPID_PID_SEEDED);
@@ -115,7 +115,7 @@ void fixpid_pid_set_auto(FIXPID_DATA struct fixpid_pid *self)
 
 void fixpid_pid_seed(FIXPID_DATA struct fixpid_pid *self, int16_t output)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     hold(self, output);
     if ((SELF.status & FIXPID_PID_MANUAL) == 0u) {
         SELF.status |= FIXPID_PID_SEEDED;
@@ -125,25 +125,25 @@ void fixpid_pid_seed(FIXPID_DATA struct fixpid_pid *self, int16_t output)
 
 int32_t fixpid_pid_proportional(FIXPID_DATA const struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return mul16(SELF.kp, SELF.proportional_error);
 }
 
 int32_t fixpid_pid_integral(FIXPID_DATA const struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return SELF.integral;
 }
 
 int32_t fixpid_pid_derivative(FIXPID_DATA const struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return SELF.derivative;
 }
 
 uint8_t fixpid_pid_flags(FIXPID_DATA const struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (REFUSED) {
         return SELF.status | FIXPID_PID_REFUSED;
     }
@@ -153,7 +153,7 @@ uint8_t fixpid_pid_flags(FIXPID_DATA const struct fixpid_pid *self)
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_TRACK) != 0
 int16_t fixpid_pid_output(FIXPID_DATA const struct fixpid_pid *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return SELF.output;
 }
 #endif

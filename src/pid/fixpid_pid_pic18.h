@@ -11,10 +11,12 @@
 #include "../common/fixpid_bits.h"
 #include "fixpid_pid.h"
 
-#ifdef FIXPID_PID_OPERANDS_PLACED // sources that disagree do not link
+#ifdef FIXPID_PID_OPERANDS_PLACE // sources that disagree do not link
 #define fixpid_pid_operands                                                    \
     FIXPID_JOINED(fixpid_pid_operands,                                         \
-                  FIXPID_PLACE_MARK(FIXPID_PID_OPERANDS_PLACE))
+                  FIXPID_PLACE_SUFFIX(FIXPID_PID_OPERANDS_PLACE))
+#else
+#define FIXPID_PID_OPERANDS_PLACE
 #endif
 union fixpid_pid_operand { // a cast would copy it
     int16_t value;

@@ -3,11 +3,10 @@
 // private bits.
 #include "fixpid_pid.h"
 
-#undef OBJECT
-#ifdef FIXPID_PID_OBJECT
-#define OBJECT FIXPID_PID_OBJECT
-#endif
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF FIXPID_PID_SELF
+#define VALID_SELF FIXPID_PID_VALID_SELF
 
 #ifndef FIXPID_PID_PRIVATE_H
 #define FIXPID_PID_PRIVATE_H

@@ -28,7 +28,7 @@ void fixpid_pid_state(FIXPID_DATA const struct fixpid_pid *self,
     uint8_t flags;
     uint16_t previous;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(state != 0);
     flags = SELF.status;
     previous = (uint16_t)SELF.previous;
@@ -104,7 +104,7 @@ static bool is_possible(FIXPID_DATA const struct fixpid_pid *self,
 bool fixpid_pid_restore(FIXPID_DATA struct fixpid_pid *self,
                         const uint8_t state[])
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(state != 0);
     if (REFUSED) {
         return false;

@@ -15,7 +15,7 @@ void fixpid_pid_track(FIXPID_DATA struct fixpid_pid *self, int16_t applied,
     const uint8_t places = (shift > SHIFT_MAX) ? (uint8_t)SHIFT_MAX : shift;
     int32_t change;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (REFUSED) {
         return;
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_slew.h"
 
-#undef OBJECT
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF (*self)
+#define VALID_SELF (self != 0)
 
 // Offset binary: a Q16.16 plus 2^31. Values in it compare without a sign, and
 // the greater minus the less is their distance, below 2^32.
@@ -33,21 +35,21 @@ void fixpid_slew_init(FIXPID_DATA struct fixpid_slew *self, uint32_t rise_q16,
 
 void fixpid_slew_reset(FIXPID_DATA struct fixpid_slew *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.value = 0;
 }
 
 void fixpid_slew_set_rates(FIXPID_DATA struct fixpid_slew *self,
                            uint32_t rise_q16, uint32_t fall_q16)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.rise_q16 = rise_q16;
     SELF.fall_q16 = fall_q16;
 }
 
 void fixpid_slew_seed(FIXPID_DATA struct fixpid_slew *self, int16_t value)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.value = value_of(offset_q16(value));
 }
 
@@ -57,7 +59,7 @@ int16_t fixpid_slew_step(FIXPID_DATA struct fixpid_slew *self, int16_t target)
     uint32_t value;
     uint16_t counts;
 
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     value = (uint32_t)SELF.value ^ OFFSET;
     // A rate is added or subtracted only if the goal is farther away than the
     // rate, so the sum stays below the goal and the difference above it.
@@ -78,6 +80,6 @@ int16_t fixpid_slew_step(FIXPID_DATA struct fixpid_slew *self, int16_t target)
 
 int32_t fixpid_slew_value(FIXPID_DATA const struct fixpid_slew *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     return SELF.value;
 }

@@ -3,8 +3,10 @@
 
 #include "../common/fixpid_bits.h"
 
-#undef OBJECT
-#include "../common/fixpid_self.h"
+#undef SELF
+#undef VALID_SELF
+#define SELF (*self)
+#define VALID_SELF (self != 0)
 
 #define WINDOW_MAX 32767u
 
@@ -29,7 +31,7 @@ static bool window_legal(const struct fixpid_tpo_config *config)
 bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
                      const struct fixpid_tpo_config *config)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(config != 0);
     SELF.pulse_least = 0;
     SELF.whole_least = 0;
@@ -52,7 +54,7 @@ bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
 
 void fixpid_tpo_reset(FIXPID_DATA struct fixpid_tpo *self)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     SELF.credit = 0;
     SELF.left = 0;
     SELF.on = 0;
@@ -91,7 +93,7 @@ static void open_window(FIXPID_DATA struct fixpid_tpo *self, int16_t duty)
 
 bool fixpid_tpo_step(FIXPID_DATA struct fixpid_tpo *self, int16_t duty)
 {
-    FIXPID_ASSERT(VALID(self));
+    FIXPID_ASSERT(VALID_SELF);
     if (SELF.full == 0) {
         return false;
     }

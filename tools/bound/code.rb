@@ -30,7 +30,7 @@ class Code
     @decoded[address] ||= decode(address)
   end
 
-  # A function of the library may have a mark behind its name: FIXPID_MARKED in
+  # A function of the library may have a suffix to its name: FIXPID_SUFFIXED in
   # include/fixpid.h. Of several, such as step and step_percent, the shortest is it.
   def entry(function)
     @functions[function] || @functions.select { |name, _| name.start_with?("#{function}_") }.min_by { |name, _| name.size }&.last or

@@ -14,9 +14,9 @@ SOURCES = %r{\A(?:examples|port|sim|src|test|tools|include)/.*(?<!\.h)\.html\z}.
 
 # Macros that are private, and what their comments say.
 PRIVATE = %w[FIXPID_CAST FIXPID_REAL FIXPID_FOLDED FIXPID_CHECKED FIXPID_PID_KP_Q8 FIXPID_SLEW_Q16 FIXPID_TABLE_COUNT
-             fixpid_tpo_mark].freeze
+             FIXPID_SUFFIXED fixpid_tpo_suffix].freeze
 INNER = ['A real constant, rounded half up', 'to become an integer.', 'Gives value as', 'false or not a constant condition',
-         'Makes one name, a_b', 'What a mark says', 'number and not a sum, 0x20', 'Deviation 20.'].freeze
+         'Deviation 20.'].freeze
 
 @failed = false
 
@@ -116,15 +116,14 @@ end
 
 # Lines of a comment that are not on the page.
 def lost(file, text, page)
-  comments = text.scan(%r{(?:^//.*\n)+}).map { |lines| lines.gsub(%r{^// ?}, '') }.reject { |comment| comment.match?(/\A.{0,60}\bprivate\b/i) }
+  comments = text.sub(%r{^// The rest is private.*}m, '').scan(%r{(?:^//.*\n)+}).map { |lines| lines.gsub(%r{^// ?}, '') }.reject { |comment| comment.match?(/\A.{0,60}\bprivate\b/i) }
   comments.flat_map(&:lines).map { |line| line.sub(/\A *(?:- |\d+\. )/, '').delete('`').split.join(' ') }
           .reject { |line| page.include?(line) || INNER.any? { |inner| line.include?(inner) } }.map { |line| "#{file} lacks \"#{line}\"" }
 end
 
 def shown(file, html)
   text = words(html)
-  found = PRIVATE.select { |name| text.match?(/# *define #{name}\b/) } + (text.include?(' FIXPID_MARKED(') && file != 'fixpid.h' ? ['FIXPID_MARKED'] : [])
-  found.map { |name| "#{file} shows #{name}" }
+  PRIVATE.select { |name| text.match?(/# *define #{name}\b/) }.map { |name| "#{file} shows #{name}" }
 end
 
 # Some pages of the same site for an address.

@@ -129,7 +129,7 @@ Subject = Struct.new(:controller, :chip, :build, :variant, :form) do
     plain_c? ? "plain_c_#{controller.name}_step" : "#{controller.function('step')}#{features}"
   end
 
-  # The mark of the step's name: FIXPID_MARKED in include/fixpid.h.
+  # The suffix of the step's name: FIXPID_SUFFIXED in include/fixpid.h.
   def features
     controller.defines.to_a.join(' ')[/FIXPID_PID_FEATURES=(?!0xFF)(0x\h+)/, 1]&.prepend('_')
   end

@@ -132,7 +132,7 @@ class Cbmc
     said if said.match?(/^\*\* \d+ of \d+ covered/)
   end
 
-  # What stands behind the names of a module's functions: FIXPID_MARKED in
+  # What stands behind the names of a module's functions: FIXPID_SUFFIXED in
   # include/fixpid.h.
   def mark(name)
     @proof.object && name.start_with?("fixpid_#{@proof.object}_") ? '_c' : ''

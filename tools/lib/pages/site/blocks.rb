@@ -5,20 +5,19 @@
 module Blocks
   # What only the compiler needs.
   SKIPPED = %r{^(?:#include (?!"fixpid_config).*|FIXPID_C_(?:BEGIN|END)|#ifndef FIXPID\w*_H|#define FIXPID\w*_H)$}.freeze
-  # Names that functions have for the linker.
-  MARKS = /^# *define fixpid_\w+(?:_mark\z|[\s\\]+FIXPID_MARKED\()/.freeze
+  # Where fixpid.h comes to what only the linker and the sources need.
+  PRIVATE_END = %r{^// The rest is private.*}m.freeze
   # A comment that says so speaks of all its macros; a structure is private inside, and has a name.
   PRIVATE = /\A.{0,60}\bprivate\b/i.freeze
   # In fixpid.h one comment speaks of these.
-  INNER = /\AFIXPID_(?:CAST|UNSIGNED|REAL|FOLDED|CHECKED|EXTENSION|JOINED|PASTED_?|PLACE_MARK\w*|C_BEGIN|C_END)\z/.freeze
+  INNER = /\AFIXPID_(?:CAST|UNSIGNED|REAL|FOLDED|CHECKED|EXTENSION|C_BEGIN|C_END)\z/.freeze
   MACRO = /^# *define (\w+)/.freeze
   TYPE = /^(?:struct|union|enum) \w+ \{/.freeze
 
   class << self
     def of(path)
-      text = File.read(path).sub(%r{\A/\*.*?(?=^//)}m, '').delete_suffix("#endif\n")
-      all(logical_lines(text)).map { |comment, code| [comment, code.grep_v(MARKS)] }
-                              .reject { |comment, code| (comment + code).empty? || hidden?(comment, code) }
+      text = File.read(path).sub(%r{\A/\*.*?(?=^//)}m, '').sub(PRIVATE_END, '').delete_suffix("#endif\n")
+      all(logical_lines(text)).reject { |comment, code| (comment + code).empty? || hidden?(comment, code) }
     end
 
     def comment(lines)
