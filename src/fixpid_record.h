@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 // For Arduino, which looks for headers in src/ only.
-#ifdef __has_include
-#if !__has_include("../include/fixpid_record.h")
-#error "fixpid: to have both in one folder copy src first, then include"
-#endif
-#endif
+#include "fixpid.h"
+
 #include "../include/fixpid_record.h"

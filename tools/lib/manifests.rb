@@ -14,18 +14,18 @@ Encoding.default_external = 'UTF-8'
 
 # The text of each manifest.
 module Manifests
-  # Arduino looks for headers in src/ only.
+  # Arduino looks for headers in src/ only. The first of them asks whether the others are there.
+  ASKED = <<~TEXT.freeze
+    #ifdef __has_include
+    #if !__has_include("../include/fixpid.h")
+    #error "fixpid: to have both in one folder copy src first, then include"
+    #endif
+    #endif
+  TEXT
   FORWARDS = Project::HEADERS.to_h do |header|
-    ["src/#{File.basename(header)}", <<~TEXT]
-      // SPDX-License-Identifier: MIT
-      // For Arduino, which looks for headers in src/ only.
-      #ifdef __has_include
-      #if !__has_include("../#{header}")
-      #error "fixpid: to have both in one folder copy src first, then include"
-      #endif
-      #endif
-      #include "../#{header}"
-    TEXT
+    first = header == 'include/fixpid.h' ? ASKED : "#include \"fixpid.h\"\n\n"
+    ["src/#{File.basename(header)}",
+     "// SPDX-License-Identifier: MIT\n// For Arduino, which looks for headers in src/ only.\n#{first}#include \"../#{header}\"\n"]
   end.freeze
 
   module_function
