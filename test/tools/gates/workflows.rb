@@ -55,6 +55,10 @@ end
 
 Gate.expect('the tests run the daily parts', -> { [listed('test'), run_each('test').size] }, [PARTS['daily'], 1])
 Gate.expect('the week runs all, and keeps the logs', -> { [listed('weekly'), run_each('weekly').grep(/\A#{KEPT} /).size] }, [PARTS['daily'] + PARTS['weekly'], 1])
+Gate.expect('the commands of all are there', lambda do
+  %w[release test weekly].flat_map { |name| jobs(name).values.select { |job| job['steps'] }.flat_map { |job| commands(job) } }.flat_map { |command| command.scan(%r{\b(?:tools|test)/[\w/]+}) }
+                         .reject { |path| File.executable?("#{PROJECT}/#{path}") }
+end, [])
 Gate.expect('a release waits for the week',
             -> { [jobs('release').dig('weekly', 'uses'), jobs('release').dig('archives', 'needs')] }, ['./.github/workflows/weekly.yml', 'weekly'])
 Gate.expect('the week may be called', -> { workflow('weekly')[true].key?('workflow_call') }, true)
