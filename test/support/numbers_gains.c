@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_gains.h"
+#include "numbers_control.h"
 
 #include "numbers.h"
-#include "numbers_control.h"
 
 void numbers_gains_milli(struct fixpid_gains_milli *milli)
 {

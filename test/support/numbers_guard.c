@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_guard.h"
+#include "numbers_control.h"
 
 #include "numbers.h"
-#include "numbers_control.h"
 
 // low..high, both any int16_t; low if they are the wrong way round
 static int16_t between(int16_t low, int16_t high)

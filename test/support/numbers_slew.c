@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_slew.h"
+#include "numbers_control.h"
 
 #include "numbers.h"
-#include "numbers_control.h"
 
 uint32_t numbers_slew_rate(void)
 {

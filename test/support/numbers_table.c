@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_table.h"
+#include "numbers_control.h"
 
 #include "numbers.h"
-#include "numbers_control.h"
 
 // Near or far above x, and no more than 32767.
 static int16_t some_x_above(int16_t x)

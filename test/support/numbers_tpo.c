@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "numbers_tpo.h"
+#include "numbers_control.h"
 
 #include "numbers.h"
-#include "numbers_control.h"
 
 // 1..32767, small ones as often as large ones.
 static uint16_t some_steps(void)

@@ -4,12 +4,12 @@
 #include "fixpid_gains.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_gains.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
 
+TEST_SOURCE_FILE("test/support/numbers_gains.c")
 TEST_SOURCE_FILE("src/gains/fixpid_gains.c")
 
 #ifndef TEST_RANDOM_STEPS

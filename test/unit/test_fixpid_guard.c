@@ -4,13 +4,13 @@
 #include "fixpid_guard.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_guard.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
 
+TEST_SOURCE_FILE("test/support/numbers_guard.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 
 #ifndef TEST_RANDOM_STEPS

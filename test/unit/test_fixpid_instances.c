@@ -9,13 +9,13 @@
 #include "fixpid_pid.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_guard.h"
 #include "numbers_pid.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "reference_pid.h"
 #include "unity.h"
 
+TEST_SOURCE_FILE("test/support/numbers_guard.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
 TEST_SOURCE_FILE("src/an964/fixpid_an964.c")

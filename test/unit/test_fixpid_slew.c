@@ -4,13 +4,13 @@
 #include "fixpid_slew.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_slew.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
 
+TEST_SOURCE_FILE("test/support/numbers_slew.c")
 TEST_SOURCE_FILE("src/slew/fixpid_slew.c")
 
 #ifndef TEST_RANDOM_STEPS

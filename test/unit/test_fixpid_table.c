@@ -2,12 +2,12 @@
 #include "fixpid_table.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_table.h"
 #include "reference_control.h"
 #include "table_in_flash.h"
 #include "unity.h"
 #include "vectors.h"
 
+TEST_SOURCE_FILE("test/support/numbers_table.c")
 TEST_SOURCE_FILE("src/table/fixpid_table.c")
 TEST_SOURCE_FILE("src/table/fixpid_table_avr.c")
 TEST_SOURCE_FILE("test/support/reference.c")

@@ -4,13 +4,13 @@
 #include "fixpid_tpo.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_tpo.h"
 #include "poison.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
 
+TEST_SOURCE_FILE("test/support/numbers_tpo.c")
 TEST_SOURCE_FILE("src/tpo/fixpid_tpo.c")
 TEST_SOURCE_FILE("src/tpo/fixpid_tpo_check.c")
 

@@ -3,7 +3,6 @@
 #include "fixpid_gains.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_gains.h"
 #include "rows_gains.h"
 
 #ifdef CALLS_DEFINED

@@ -3,7 +3,6 @@
 #include "fixpid_guard.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_guard.h"
 #include "rows_guard.h"
 
 #ifdef CALLS_DEFINED

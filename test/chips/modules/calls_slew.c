@@ -3,7 +3,6 @@
 #include "fixpid_slew.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_slew.h"
 #include "rows_slew.h"
 
 #ifdef CALLS_DEFINED

@@ -3,7 +3,6 @@
 #include "fixpid_table.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_table.h"
 #include "rows_table.h"
 #include "table_in_flash.h"
 

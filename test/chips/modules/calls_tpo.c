@@ -3,7 +3,6 @@
 #include "fixpid_tpo.h"
 #include "numbers.h"
 #include "numbers_control.h"
-#include "numbers_tpo.h"
 #include "rows_tpo.h"
 
 #ifdef CALLS_DEFINED
