@@ -5,20 +5,16 @@ require_relative 'prove/assembly'
 require_relative 'prove/assembly/breaks'
 require_relative 'prove/cbmc'
 require_relative 'prove/choice'
-require_relative 'prove/claims'
 require_relative 'prove/coverage'
-require_relative 'prove/equivalents'
 require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
 require_relative 'prove/proofs'
 require_relative 'prove/reach'
 require_relative 'prove/seeded'
-require_relative 'remembered'
 
 Encoding.default_external = 'UTF-8' # CBMC's, whatever the locale
 
 BUILD = 'build/prove'.freeze
-INPUTS = %w[include/**/* src/**/* test/proof/**/*].freeze
 
 # Does the work of a list, so many things at a time; prints what each says, in a line
 # or several, and gives whether all were good.
@@ -51,29 +47,6 @@ rescue ThreadError
   nil # it is empty
 end
 
-# With what an answer is found: CBMC, of which a private one starts what is in its `root`, the
-# compiler whose preprocessor it takes, and what a block gives. Where nothing is remembered,
-# no compiler is asked for its parts.
-def remembered(files = INPUTS)
-  return Remembered.new('proofs') unless Remembered.in_tests?
-
-  programs = %w[cbmc goto-cc goto-instrument].map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
-  private_ones = Dir.glob('root/**/*', base: ENV.fetch('CBMC')).sort.map { |name| "#{ENV.fetch('CBMC')}/#{name}" }
-  others = block_given? ? yield : []
-  Remembered.new('proofs', files: files, what: 'proofs', tools: [*programs, *private_ones, *%w[gcc cc g++].flat_map { |name| Inputs.tool(name) }, *Inputs.c_library, *others])
-end
-
-# Whether it is good, and its line, of a proof or a break by its name: remembered if it
-# was good.
-def answer_of(name, words)
-  said = nil
-  line = REMEMBERED.of(name, words: words, checks: ->(lines) { Array(lines).size }) do
-    fine, said = yield
-    said if fine
-  end
-  [!line.nil?, line || said]
-end
-
 # Whether a proof holds, and its line.
 def prove(proof)
   answer = judge_of(proof).new(proof, BUILD).run
@@ -89,16 +62,6 @@ def refute(broken)
   return [true, "#{broken.name}: noticed, #{answer.seconds.round(1)} s"] if answer.verdict == :refuted
 
   [false, "#{broken.name}: #{answer.verdict == :proved ? 'nobody noticed' : answer.why}"]
-end
-
-# Whether what is said to change nothing is proved to, or argued.
-def equivalent?(proofs, words)
-  equivalents = Equivalents.new(proofs, BUILD)
-  chosen = equivalents.chosen(words)
-  complaints = equivalents.complaints
-  complaints << "#{Equivalents::FILE} has no line with #{words.join(' and ')}" if chosen.empty?
-  complaints.each { |complaint| puts "FAILED #{complaint}" }
-  all_good?(chosen) { |key| answer_of(key, []) { equivalents.judge(key) } } && complaints.empty?
 end
 
 # Whether Eva has no alarm but those that are pinned, and those.
@@ -123,16 +86,7 @@ end
 
 # Whether these proofs come to their ends and their claims.
 def reached?(proofs)
-  all_good?(Reach.chosen(proofs)) { |reach| answer_of(reach.name, reach.options) { reach.judge(BUILD) } }
-end
-
-# Whether some break needs each claim of what these words choose.
-def needed?(proofs, words)
-  chosen = Claims.chosen(proofs, words, Seeded.all(proofs))
-  complaints = Claims.complaints(proofs)
-  complaints << "no proof that is asked has these words in its name: #{words.join(' ')}" if chosen.empty?
-  complaints.each { |complaint| puts "FAILED #{complaint}" }
-  all_good?(chosen) { |claims| answer_of(claims.name, claims.words) { claims.judge(BUILD) } } && complaints.empty?
+  all_good?(Reach.chosen(proofs)) { |reach| reach.judge(BUILD) }
 end
 
 # Whether the claims about assembly hold, what they are made by does what the chips'
@@ -147,36 +101,25 @@ def assembly_proved?(words)
   good = all_good?(sets.map { |set| TableRun.new(set, BUILD) }, &:run)
   good &= all_good?(chosen) { |claim| claim_answer(claim, ClaimText.new(claim, images.fetch(claim.image))) }
   breaks = AssemblyBreaks.new(chosen, BUILD)
-  good &= all_good?(breaks.drawn) do |mutant, key|
-    answer_of(key, [chosen.map(&:name), mutant.source]) { breaks.judge(mutant, key) }
-  end
-  puts "#{chosen.size} claims about assembly, #{breaks.drawn.size} breaks"
+  good &= all_good?(breaks.functions) { |function, drawn| breaks.judge(function, drawn) }
+  puts "#{chosen.size} claims about assembly, and breaks of #{breaks.functions.size} functions"
   good && outside.empty? && !chosen.empty?
 end
 
+# Whether a claim about assembly holds, and its line.
 def claim_answer(claim, text)
-  answer_of(claim.name, [text.to_solve, text.to_try]) do
-    answer = ClaimRun.new(claim, text, "#{BUILD}/claim_#{claim.name.tr(' ', '_')}").run
-    figures = claim.how == 'trying' ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s'
-    good = answer.verdict == :proved
-    [good, "#{claim.name}: #{good ? format(figures, answer.to_h) : answer.why}"]
-  end
+  answer = ClaimRun.new(claim, text, "#{BUILD}/claim_#{claim.name.tr(' ', '_')}").run
+  return [false, "#{claim.name}: #{answer.why}"] unless answer.verdict == :proved
+
+  figures = claim.how == 'trying' ? '%<properties>d cases' : '%<properties>d properties, %<seconds>.1f s'
+  [true, "#{claim.name}: #{format(figures, answer.to_h)}"]
 end
 
 mode, *words = ARGV
 proofs = Proofs.all
 $stdout.sync = true
 exit(no_alarms?(words) ? 0 : 1) if mode == 'eva'
-if mode == 'assembly'
-  REMEMBERED = remembered(Assembly::INPUTS) do
-    [*%w[avr-gcc avr-objdump arm-none-eabi-gcc arm-none-eabi-objdump gpdasm].flat_map { |name| Inputs.tool(name) }, *Inputs.sdcc]
-  end
-  exit(assembly_proved?(words) ? 0 : 1)
-end
-if mode == 'equivalents'
-  REMEMBERED = remembered([*INPUTS, Equivalents::FILE])
-  exit(equivalent?(proofs, words) ? 0 : 1)
-end
+exit(assembly_proved?(words) ? 0 : 1) if mode == 'assembly'
 chosen = mode == 'quick' ? proofs.select(&:quick?) : proofs.select { |proof| proof.matches?(words) }
 if chosen.empty?
   warn "prove: no proof has all of these in its name: #{words.join(' ')} (see --list)"
@@ -187,8 +130,6 @@ if mode == 'list'
   exit 0
 end
 
-REMEMBERED = remembered
-exit(needed?(proofs, words) ? 0 : 1) if mode == 'claims'
 if mode == 'coverage'
   chosen = proofs.select { |proof| (words - [proof.group, proof.form]).empty? }
   abort "FAILED no form has these words in its name: #{words.join(' ')}" if chosen.empty?
@@ -200,8 +141,8 @@ breaks = seeded.select { |broken| chosen.include?(broken.proof) }
 breaks = breaks.uniq(&:proof) if mode == 'quick'
 complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded) + Reach.complaints(proofs)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
-proved = all_good?(chosen) { |proof| answer_of(proof.name, proof.options) { prove(proof) } }
-noticed = all_good?(breaks) { |broken| answer_of(broken.name, [broken.proof.options, broken.file, broken.source]) { refute(broken) } }
+proved = all_good?(chosen) { |proof| prove(proof) }
+noticed = all_good?(breaks) { |broken| refute(broken) }
 choice = Choice.new(proofs, chosen, BUILD)
 drawn = all_good?(choice.places) { |place| choice.judge(place) }
 reached = reached?(mode == 'quick' ? chosen.select(&:theorem?) : chosen)

@@ -4,17 +4,15 @@
 # notices each break: build/test/mutants.txt. A break that no test notices must stand in
 # test/tools/mutants/equivalent.txt with the reason why it changes nothing. What the
 # compiler refuses, what crashes and what does not end counts as neither. With
-# names of files only those are broken; within tools/test only those whose mutants
-# it does not remember.
+# names of files only those are broken.
 # The chips' own folders of src/ are not broken here: their files compile to
 # nothing on this machine. test/chips/target breaks each once (`seeded`), and
-# tools/lib/faults/assembly.rb each instruction.
+# tools/prove --assembly leaves instructions out.
 require 'fileutils'
 require 'open3'
 require_relative 'breaks'
 require_relative 'equivalents'
 require_relative 'faults'
-require_relative '../remembered'
 
 Encoding.default_external = 'UTF-8' # of what Ceedling prints
 
@@ -40,10 +38,6 @@ def noun(name)
   words = name.split('_')
   words.size.downto(1).map { |count| words.first(count).join('_') }.find { |begun| File.exist?("include/#{begun}.h") } || name
 end
-
-# What the tests of the mutants are made from.
-POOL = Dir['{include,src,port,sim,examples,test/unit,test/support,test/tools/cost,test/model}/**/*.[ch]'].sort.freeze
-NAMED = /^[ \t]*#[ \t]*include[ \t]+["<](?:.*\/)?(?:mock_)?([^">\/]+)[">]|^TEST_SOURCE_FILE\(".*?([^"\/]+)"\)/.freeze
 
 # A test, what is compiled anew for it, and how: tcc takes a tenth of gcc's time.
 Run = Struct.new(:test, :sources, :options, :compiler) do
@@ -141,20 +135,8 @@ def runs_by_name(file)
   end
 end
 
-# All that a program of these files may be made from: whatever has a name that they
-# include, the source of a header, and their folder of src/.
-def made_from(files)
-  found = files.dup
-  found.each do |file|
-    names = File.read(file).scan(NAMED).flatten.compact
-    names << "#{File.basename(file, '.h')}.c" if file.end_with?('.h')
-    folder = file.start_with?('src/') ? "#{File.dirname(file)}/" : nil
-    found.concat(POOL.select { |path| names.include?(File.basename(path)) || (folder && path.start_with?(folder)) } - found)
-  end
-end
-
 def program_of(test)
-  POOL.find { |path| path.start_with?('test/unit/') && File.basename(path) == "#{test}.c" }
+  Dir["test/unit/**/#{test}.c"].first
 end
 
 def build_objects
@@ -324,46 +306,29 @@ def judged(file, results, keys, equivalents)
           *stale.map { |key| "No longer true in #{EQUIVALENT}: #{key}" }]]
 end
 
-# What breaking a file came to: its lines, the report's, and by what the mutants ended.
-# What is not good is told, and nil.
-def verdict_of(file, equivalents)
-  prepare
+# Whether all mutants of a file are noticed. Their lines are printed and noted, and so is by
+# what the mutants ended.
+def good?(file, equivalents)
   RUNS[file].each { |run| try_unbroken(run) }
   UNBROKEN[file] = preprocessed(file, "#{ROOT}/0")
   RUNS[file].each { |run| REACHED[[file, run]] = reached_lines(file, run, "#{ROOT}/0") }
   RUNS[file].any? { |run| REACHED[[file, run]].any? } or abort "FAILED no test of #{file} reads it"
   mutants = Breaks.of(file)
   results = results_of(mutants)
-  ends = results.map(&:last).group_by { |caught| caught.is_a?(String) ? :named : caught || :nobody }.transform_values(&:size)
   good, lines = judged(file, results, EquivalentMutants.keys(mutants, File.read(file)), equivalents)
-  tell('lines' => lines, 'report' => results.map { |mutant, caught| "#{mutant}: #{caught || 'nobody'}" },
-       'ends' => ends.transform_keys(&:to_s))
-  good ? TOLD.last : nil
-end
-
-def tell(verdict)
-  TOLD << verdict
-  puts verdict['lines']
+  puts lines
+  RESULTS.concat(results)
+  good
 end
 
 # What a compiler or an operating system ends is no test's merit.
 def tell_all
-  ends = TOLD.map { |verdict| verdict['ends'] }.reduce({}) { |sum, more| sum.merge(more) { |_, one, other| one + other } }
+  ends = RESULTS.map { |_, caught| caught.is_a?(String) ? :named : caught || :nobody }.tally
   ends.default = 0
-  File.write(REPORT, TOLD.flat_map { |verdict| verdict['report'] }.map { |line| "#{line}\n" }.join)
-  puts "#{ends.values.sum} mutants: #{ends['named']} noticed by a test, #{ends['nobody']} by none; see #{REPORT}"
-  puts "apart: #{ends['refused']} refused by the compiler, #{ends['crashed']} crashed, " \
-       "#{ends['endless']} endless, #{ends['not_compiled']} not compiled on this machine"
-end
-
-# Whether all mutants of a file are noticed, now or when they were tried.
-def good?(file, equivalents)
-  tests = runs_of(file).map { |run| [run.test, run.options] }.uniq
-  inputs = made_from([file, *tests.map { |test, _| program_of(test) }.compact])
-  told = TOLD.size
-  verdict = REMEMBERED.of(file, files: inputs, words: [tests, equivalents.of(file)]) { verdict_of(file, equivalents) }
-  tell(verdict) if verdict && TOLD.size == told
-  !verdict.nil?
+  File.write(REPORT, RESULTS.map { |mutant, caught| "#{mutant}: #{caught || 'nobody'}\n" }.join)
+  puts "#{RESULTS.size} mutants: #{ends[:named]} noticed by a test, #{ends[:nobody]} by none; see #{REPORT}"
+  puts "apart: #{ends[:refused]} refused by the compiler, #{ends[:crashed]} crashed, " \
+       "#{ends[:endless]} endless, #{ends[:not_compiled]} not compiled on this machine"
 end
 
 # Whether a fault of the table is noticed by the test that it names.
@@ -371,31 +336,14 @@ def noticed_by_name?(fault)
   test = fault.words(1).first
   program = Dir['test/unit/*.c'].find { |path| File.read(path).include?("void #{test}(") } or
     abort "FAILED #{Faults::FILE}: no #{test}"
-  line = REMEMBERED.of("#{test} #{fault}", files: made_from([program, fault.file])) { line_of(fault, test, program) }
-  puts line if line
-  !line.nil?
-rescue Faults::Gone => e
-  puts "FAILED #{e.message}"
-end
-
-# Its line, or nil if it is not noticed.
-def line_of(fault, test, program)
-  prepare
   run = whole_run_of(File.basename(program, '.c'))
   tree = "#{ROOT}/0"
   caught = broken(tree, fault.file, fault.sources.fetch(fault.file)) { notice_in(run, tree, all: true) }
-  return "ok #{test} notices #{fault}" if caught.is_a?(Array) && caught.include?(test)
-
-  puts "FAILED #{test} notices #{fault}: #{caught.inspect}"
-end
-
-# Once, before something is broken.
-def prepare
-  return unless PASSED.empty?
-
-  build_objects
-  plant_trees
-  PASSED << :objects
+  good = caught.is_a?(Array) && caught.include?(test)
+  puts good ? "ok #{test} notices #{fault}" : "FAILED #{test} notices #{fault}: #{caught.inspect}"
+  good
+rescue Faults::Gone => e
+  puts "FAILED #{e.message}"
 end
 
 def try_unbroken(run)
@@ -408,10 +356,8 @@ def try_unbroken(run)
   PASSED << run
 end
 
-REMEMBERED = Remembered.new('mutants', files: %w[project.yml test/support/vectors/**/*],
-                                       tools: [*%w[tcc gcc ld ceedling].flat_map { |name| Inputs.tool(name) }, *Inputs.gem('ceedling'), *Inputs.c_library])
-PASSED = [] # without a break, and :objects once they are made
-TOLD = []
+PASSED = [] # without a break
+RESULTS = [] # [mutant, what noticed it]
 UNBROKEN = {}
 REACHED = {} # by file and run
 RUNS = Hash.new { |runs, file| runs[file] = runs_of(file) }
@@ -419,6 +365,8 @@ equivalents = EquivalentMutants.new(EQUIVALENT)
 FileUtils.mkdir_p(File.dirname(REPORT))
 only = ARGV # files
 files = (Dir['src/*/*.[ch]', 'include/*.h'] - Dir[OF_CHIPS]).sort.reject { |file| Breaks.of(file).empty? }
+build_objects
+plant_trees
 chosen = files.select { |file| only.empty? || only.include?(file) }
 good = chosen.map { |file| good?(file, equivalents) }
 faults = Faults.of('unit').select { |fault| only.empty? || only.include?(fault.file) }

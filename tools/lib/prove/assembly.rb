@@ -47,7 +47,6 @@ end
 # The claims about assembly, and the programs that show them.
 module Assembly
   CLAIMS = "#{FOLDER}/assembly/claims.txt"
-  INPUTS = %w[include/**/* src/**/* test/proof/assembly/* port/pic/**/* tools/lib/build/*].freeze
   ROW = /\A(\w+) (\w+) by (solver|products|trying): (.*?)(?: where (.*))? -> (.*)\z/.freeze
   OPERAND = /\A(u?int(?:8|16|32)_t) (\w+)(?: within (\w+))? in (\S+)\z/.freeze
   RESULT = /\A(u?int(?:8|16|32)_t) in (\S+) = (.+)\z/.freeze

@@ -31,44 +31,11 @@ class Cbmc
     ask(program)
   end
 
-  # The names of two properties that fail, of one if no other does, or none; nil without an
-  # answer. It stops at the first, and is asked again without that.
-  def failing
-    program = compile or return
-    places = shown(program, *CHECKS).to_h { |name, *place| [name, place] }
-    found = []
-    2.times do
-      others = (places.keys - found).flat_map { |name| ['--property', name] }
-      verdict = ask(program, *others).verdict
-      return if verdict == :none
-      break if verdict == :proved
-
-      found << violated(places)
-    end
-    found
-  end
-
-  # name => text of each assertion of its harness.
-  def properties
-    program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
-    shown(program, '--no-standard-checks', '--drop-unused-functions')
-      .select { |name, file, *| name.match?(/\.assertion\.\d+\z/) && Pathname(file).cleanpath.to_s.start_with?("#{FOLDER}/") }
-      .to_h { |name, *, text| [name, text] }
-  end
-
   # The functions that the proof comes to.
   def functions
     program = compile or abort "prove: #{@proof.name} does not compile\n#{@said}"
     tool('goto-instrument', '--reachable-call-graph', program) or abort "prove: #{@proof.name}: #{@said}"
     @said.scan(/^\w+ -> (\w+)$/).flatten.map { |name| name.delete_suffix(mark(name)) }.uniq
-  end
-
-  # What it does, without the places of its lines and of its file.
-  def instructions
-    program = compile or return @said
-    tool('goto-instrument', '--drop-unused-functions', program, "#{program}-used") or abort "prove: #{@proof.name}: #{@said}"
-    tool('goto-instrument', '--show-goto-functions', "#{program}-used")
-    @said.lines.grep_v(%r{^\s*//|^Reading GOTO program}).join
   end
 
   # [place, condition] of each claim of its harness, and ITS_END => whether some values
@@ -95,18 +62,6 @@ class Cbmc
   end
 
   private
-
-  # [name, file, line, function, text] of each property.
-  def shown(program, *options)
-    tool('cbmc', program, '--show-properties', *options) or abort "prove: #{@proof.name}: #{@said}"
-    @said.scan(/^Property (\S+):\n  file (\S+) line (\d+) function (\w+)\n  (.*)$/)
-  end
-
-  # The name of the one at which the last run stopped; of an unwinding there is its place.
-  def violated(places)
-    file, function, line, text = @said.match(/^Violated property:\n  file (\S+) function (\w+) line (\d+) .*\n  (.*)$/).captures
-    places.key([file, line, function, text]) || "#{file}:#{line}: #{text}"
-  end
 
   # The harness, with a claim behind its end.
   def ended

@@ -3,7 +3,6 @@
 require 'open3'
 require_relative '../faults/breaks'
 require_relative '../faults/equivalents'
-require_relative 'equivalents'
 require_relative 'exhaustion'
 require_relative 'seeded'
 
@@ -13,6 +12,9 @@ require_relative 'seeded'
 # shown to the proofs that come to the function, first to those that come to the fewest
 # others.
 class Choice
+  EQUIVALENT = 'test/tools/mutants/equivalent.txt'.freeze
+  # They say that nothing bad follows, and not what must.
+  WEAK = %w[total total_rest refused errors_rise derivative_rises candidate_rises limit_rises held_rises].freeze
   MISSED_MOST = 15
   SECONDS = [2, 12].freeze # who notices, does so soon: all proofs have a short time before one has a long one
   FAILURES = 3 # as often a proof may notice nothing, unless it is the only one
@@ -26,7 +28,7 @@ class Choice
     asked = files.empty? ? [] : @proofs.select { |proof| Proofs.from_any?(proof, files) }
     @reached = Hash[asked.each_slice([asked.size / 2, 1].max).map { |some| Thread.new { some.map { |proof| [proof, reaches(proof)] } } }
                          .flat_map(&:value)]
-    @equivalents = EquivalentMutants.new(Equivalents::FILE)
+    @equivalents = EquivalentMutants.new(EQUIVALENT)
   end
 
   attr_reader :places
@@ -56,7 +58,7 @@ class Choice
   # allowed were missed, and how many there are.
   def draw(file, function, missed_most)
     proofs = proofs_of(file, function)
-    proofs = proofs.reject { |proof| Equivalents::WEAK.include?(proof.what) } if missed_most.zero?
+    proofs = proofs.reject { |proof| WEAK.include?(proof.what) } if missed_most.zero?
     failures = Hash.new(0)
     noticed = []
     drawn = proofs.empty? ? [] : candidates(file, function)
@@ -99,7 +101,7 @@ class Choice
   def proofs_of(file, function)
     reached = @reached.select { |proof, functions| Proofs.from_any?(proof, [file]) && functions.include?(function) }.keys
     reached.uniq { |proof| [proof.group, proof.what, proof.exhausted? && proof.form] }.sort_by do |proof|
-      last = [Equivalents::WEAK.include?(proof.what), SLOW.include?(proof.what), proof.exhausted?].count(true)
+      last = [WEAK.include?(proof.what), SLOW.include?(proof.what), proof.exhausted?].count(true)
       [last, @reached[proof].size]
     end
   end

@@ -26,11 +26,6 @@ class Exhaustion
     File.delete(@program) if File.exist?(@program)
   end
 
-  # What is tried, with the sources of the tree.
-  def instructions
-    Open3.capture2(*@proof.compiler, '-E', '-P', *@proof.options, "-I#{@tree}/include", "-I#{@tree}/src", @proof.harness).first
-  end
-
   private
 
   def judge(said, status, seconds)

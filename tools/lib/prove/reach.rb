@@ -1,23 +1,38 @@
 # SPDX-License-Identifier: MIT
 # Whether a proof comes to its end, and to each of its claims.
-require_relative 'about_claims'
 require_relative 'cbmc'
+require_relative 'proofs'
 
 # A proof whose assumptions exclude each other holds of everything, and so does a claim
-# behind them. The claims that a form lacks the feature for stand in unreached.txt.
-class Reach < AboutClaims
+# behind them. It is asked in the shortest words. The claims that a form lacks the feature for
+# stand in unreached.txt below the reason, as PROOF: CLAIM; a line that begins with a folder
+# is no claim's.
+class Reach
   FILE = "#{FOLDER}/unreached.txt".freeze
+  WORD = WORDS.first
 
   def self.chosen(proofs)
-    asked(proofs).map { |proof| new(proof) }
+    proofs.select { |proof| proof.word == WORD && !proof.exhausted? }.map { |proof| new(proof) }
   end
 
-  def name
-    "#{@proof.name} reaches its claims"
+  # [proof, claim] of each line.
+  def self.pinned
+    @pinned ||= File.readlines(FILE, chomp: true).grep_v(%r{\A(?:#|src/|\s*\z)}).map { |line| line.split(': ', 2) }
   end
 
-  def options
-    @proof.options
+  # The lines that name none of all proofs.
+  def self.complaints(proofs)
+    names = chosen(proofs).map(&:pinned_name)
+    pinned.reject { |name, _| names.include?(name) }.map { |name, _| "#{FILE}: no proof is named #{name}" }
+  end
+
+  def initialize(proof)
+    @proof = proof
+  end
+
+  # In a line.
+  def pinned_name
+    @proof.name.delete_suffix(" #{WORD}")
   end
 
   # Whether it does, and what to print.
@@ -29,9 +44,15 @@ class Reach < AboutClaims
     strange = missed.reject { |_, claim| pinned.include?(claim) }.map { |place, claim| "#{place}: #{claim}" }
     return [false, "#{@proof.name}: nothing comes to #{strange.join(', nor to ')}"] unless strange.empty?
 
-    wrong = stale(missed.map(&:last))
-    return [false, *wrong.map { |line| "#{pinned_name}: #{line}" }] unless wrong.empty?
+    stale = pinned - missed.map(&:last)
+    return [false, *stale.map { |claim| "#{pinned_name}: #{FILE}: no longer true: #{claim}" }] unless stale.empty?
 
-    [true, "#{name}: its end and #{found.size - 1 - missed.size}"]
+    [true, "#{@proof.name} reaches its claims: its end and #{found.size - 1 - missed.size}"]
+  end
+
+  private
+
+  def pinned
+    self.class.pinned.select { |name, _| name == pinned_name }.map(&:last)
   end
 end

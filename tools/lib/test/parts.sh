@@ -307,6 +307,7 @@ part_proofs() {
 
 part_prove() {
     need ruby cc:gcc
+    runner test/proof/run weekly
     count 'tools/prove' '^ok ' '^FAILED ' tools/prove
     count 'tools/prove --eva' '^ok ' '^FAILED ' tools/prove --eva
     count 'tools/prove --assembly' '^ok ' '^FAILED ' tools/prove --assembly

@@ -2,14 +2,11 @@
 # The table of docs/assurance.md: what is claimed, how it is known, of how much, and
 # the command that shows it. What can be counted is counted here.
 require_relative '../../prove/assembly'
-require_relative '../../prove/claims'
-require_relative '../../prove/equivalents'
 require_relative '../../prove/seeded'
 require_relative '../../demo/plot'
 require_relative '../../demo/random_plants'
 require_relative '../../demo/faults'
 require_relative '../../demo/fault_places'
-require_relative '../../faults/instructions'
 require_relative 'commands'
 
 # A claim; `how` is one of Assurance::HOW.
@@ -68,12 +65,6 @@ module Assurance
   def beside_the_proofs
     [Claim.new('proved', 'no assumption of a proof leaves out a place of what is proved, a claim or an end', 'each form with all features; claims and ends in all',
                '`tools/prove --coverage`'),
-     Claim.new('tested', 'each claim of a proof is needed: some break makes it fail, and nothing else',
-               "in the first form of each; but for #{Claims.pinned.size} claims that are listed with their reasons",
-               '`tools/prove --claims`'),
-     Claim.new('proved', 'breaks that are said to change nothing change nothing that is proved',
-               "of #{rows_of(Equivalents::FILE)} all but those of what is not proved, and #{rows_of(Equivalents::ARGUED)} that are argued",
-               '`tools/prove --equivalents`'),
      Claim.new('proved', 'no memory is read before it was written', "but for the #{rows_of('test/proof/eva/alarms.txt')} " \
                'alarms that are listed with their reasons', '`tools/prove --eva`'),
      by_model]
@@ -114,24 +105,24 @@ module Assurance
      Claim.new('tested', 'the same as the definition', "#{rows('*') - rows('*_firmware') - rows('autotune')} recorded rows, " \
                'and a million random calls', '`test/chips/target/run host`'),
      Claim.new('tested', 'the same as the definition, on inputs that look for new ways through the code',
-               "#{Faults.of('fuzz').size} defects found", '`tools/test fuzz variants`'),
+               "#{Faults.of('fuzz').size} defects found", '`tools/test fuzz long`'),
      Claim.new('tested', 'the autotuner does what its model in another language does',
                "#{rows('autotune')} recorded experiments, and thousands of random ones", '`tools/test autotune`'),
      Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
-               "#{parts['unit']} and #{parts['avr']} checks, every line and branch", '`tools/test unit avr`'),
+               'every line and branch', '`tools/test unit avr`'),
      Claim.new('tested', 'nothing that C leaves undefined',
-               "all targets of the fuzzer under clang's sanitizers, and each week #{parts['sanitize']} unit tests of the mode without pointers and those of the other",
-               '`tools/test fuzz sanitize variants`'),
+               "all targets of the fuzzer and the unit tests, under clang's sanitizers",
+               '`tools/test fuzz sanitize long variants`'),
      Claim.new('tested', 'no warning and nothing of clang-tidy; of the rules of MISRA C:2012 that cppcheck has, only named deviations',
-               "#{parts['lint']} checks", '`tools/test lint`'),
+               'the library, the ports and the examples', '`tools/test lint`'),
      Claim.new('tested', 'the same as a program for Windows, under Wine, and by the newest gcc and clang', 'all recorded rows; ' \
                'the newest SDCC only compiles', '`tools/test windows newest`'),
-     Claim.new('tested', 'it builds as users build it', "#{parts['consumers']} checks", '`tools/test consumers`')]
+     Claim.new('tested', 'it builds as users build it', 'with CMake, by plain C and C++ compilers, for other chips', '`tools/test consumers variants`')]
   end
 
   def of_the_chips
     [Claim.new('tested', 'the compiled library, and its assembly, the same on every chip as here',
-               "#{parts['target'] + parts['families']} checks on simulated chips", '`tools/test target families`'),
+               'recorded rows and unit tests on simulated chips', '`tools/test target avr families variants`'),
      Claim.new('tested', 'an interrupt before every instruction changes nothing',
                'every instruction of a turn on a PIC16, a PIC18 and an AVR',
                '`test/chips/target/run interrupts`'),
@@ -147,7 +138,7 @@ module Assurance
     there = CHIP_FAULTS.values.sum(&:runs)
     long = FAULT_LOOPS.values.sum(&:long_runs)
     [Claim.new('tested', 'the firmware controls its plant, each step the same as the definition',
-               "#{parts['chip']} checks on simulated chips", '`tools/test chip`'),
+               'closed loops on simulated chips', '`tools/test chip`'),
      Claim.new('tested', 'with a fault the drive stays inside its limits, and the loop is back in time or off',
                "#{here} faults here, #{there} on simulated chips: flips in the controller's object, resets, hangs, inputs and ticks; " \
                "#{long} here in [faults.md](faults.md#many-more), with an older version of the motor and the oven",
@@ -161,29 +152,19 @@ module Assurance
     [Claim.new('tested', 'a small break of the portable C or of a macro is noticed by a named test',
                "all breaks but #{rows_of('test/tools/mutants/equivalent.txt')} that change nothing; " \
                "#{Faults.of('unit').size} faults of other kinds", '`tools/test mutants`'),
-     of_the_assembly,
-     Claim.new('tested', 'every checker reports an error that is seeded for it', "#{parts['gates']} checks",
+     Claim.new('tested', 'every checker reports an error that is seeded for it', 'one error each',
                '`tools/test gates`')]
-  end
-
-  def of_the_assembly
-    files = Instructions.files
-    instructions = files.sum { |file| Instructions.places(File.read(file)).size }
-    breaks = files.sum { |file| Instructions.breaks(file).size }
-    Claim.new('tested', 'a small break of an instruction of the assembly is noticed on simulated chips',
-              "all #{breaks} breaks of the #{instructions} instructions of #{files.size} files, but " \
-              "#{rows_of('test/tools/mutants/assembly.txt')} that change nothing", '`tools/test assembly`')
   end
 
   def measured
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
-               "#{parts['cost']} checks: a bound of the linked code, and the worst that a search finds",
+               'a bound of the linked code, and the worst that a search finds',
                '`tools/test cost`'),
      Claim.new('measured', 'how good the gains of the autotuner are',
                "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants " \
                'in [tuning.md](tuning.md#which-autotuner)',
                '`tools/demo random_plants`'),
-     Claim.new('measured', 'how the loops settle, and beside double precision', "#{parts['demo']} checks",
+     Claim.new('measured', 'how the loops settle, and beside double precision', 'all loops of `tools/demo`',
                '`tools/demo`')]
   end
 
@@ -200,11 +181,6 @@ module Assurance
 
   def groups
     @groups ||= Proofs.all.group_by(&:group)
-  end
-
-  # The checks of each part of tools/test.
-  def parts
-    @parts ||= File.readlines('test/parts.txt').grep(/^[a-z]/).to_h { |line| [line.split[0], line.split[1].to_i] }
   end
 
   # Recorded ones, without the head of each file.
