@@ -17,33 +17,30 @@ class Matrix
   TABLE = 'test/matrix.txt'
   WHEN = %w[daily weekly].freeze
   CHOICE = /(?<!\$)\{(?! )([^{}]*;[^{}]*)\}/.freeze
-  PRELUDE = %w[tools/lib/setup.sh tools/lib/build/sdcc.sh tools/lib/test/runs.sh tools/lib/test/compilers.sh].freeze
+  PRELUDE = %w[tools/lib/setup.sh tools/lib/build/sdcc.sh tools/lib/build/gpsim.sh tools/lib/test/runs.sh
+               tools/lib/test/compilers.sh].freeze
 
-  Row = Struct.new(:runner, :name, :when, :compilers, :steps)
+  Row = Struct.new(:name, :when, :compilers, :steps)
 
-  # All rows of the table; what it says twice or in another way ends the run.
-  def self.rows(lines = File.readlines(TABLE, chomp: true))
-    runner = nil
-    sets = {}
-    lines.each_with_object([]) do |line, rows|
-      case line
-      when /\A(#|\z)/ then next
-      when /\A +/ then rows.last.last.steps.concat(choices(line.strip))
-      when /\Alet (\S+) (.*)/ then sets[Regexp.last_match(1)] = Regexp.last_match(2).split
-      when %r{\A\S+/\S+\z} then runner = line
-      else rows << row_of(runner, *line.split.flat_map { |word| sets.fetch(word, [word]) })
-      end
-    end.flatten.each { |row| row.steps.empty? and abort "#{TABLE}: #{row.name} has no step" }
+  # [what comes before all tests of the runner, its rows]
+  def self.read(runner)
+    text = File.read(TABLE)
+    sets = text.scan(/^let (\S+) (.*)/).to_h { |name, words| [name, words.split] }
+    section = text[%r{^#{runner}$.*?(?=^\S+/\S+$|\z)}m] or abort "#{TABLE}: nothing of #{runner}"
+    lines = section.lines(chomp: true).drop(1).grep_v(/\A(#|\z)/)
+    before = lines.take_while { |line| line.start_with?(' ') }
+    [before, lines.drop(before.size).slice_before(/\A\S/).flat_map do |head, *steps|
+      rows_of(steps.flat_map { |line| choices(line.strip) }, *head.split.flat_map { |word| sets.fetch(word, [word]) })
+    end]
   end
 
-  # Of `NAME_* daily A B weekly C` a row for each of A, B and C, which share their steps.
-  def self.row_of(runner, name, *words)
-    WHEN.include?(words.first) or abort "#{TABLE}: #{name}: daily or weekly?"
-    steps = []
+  # Of `NAME_* daily A B weekly C` a row for each of A, B and C.
+  def self.rows_of(steps, name, *words)
+    WHEN.include?(words.first) && !steps.empty? or abort "#{TABLE}: #{name}: when, and what?"
     words.slice_before { |word| WHEN.include?(word) }.flat_map do |time, *compilers|
-      next [Row.new(runner, name, time, compilers, steps)] unless name.end_with?('*')
+      next [Row.new(name, time, compilers, steps)] unless name.end_with?('*')
 
-      compilers.map { |compiler| Row.new(runner, name.sub('*', compiler), time, [compiler], steps) }
+      compilers.map { |compiler| Row.new(name.sub('*', compiler), time, [compiler], steps) }
     end
   end
 
@@ -54,16 +51,20 @@ class Matrix
   end
 
   def initialize(runner)
+    @runner = runner
     @folder = File.dirname(runner)
     @work = "#{Dir.pwd}/build/#{File.basename(@folder)}"
-    @tests = NamedTests.new(runner)
-    Matrix.rows.select { |row| row.runner == runner }.each do |row|
-      @tests.add(row.name, *row.compilers, row.when) { attempt(row) }
-    end
+    @before, rows = Matrix.read(runner)
+    @tests = NamedTests.new(runner, *ENV['AT_A_TIME']&.to_i)
+    rows.each { |row| @tests.add(row.name, *row.compilers, row.when) { attempt(row) } }
   end
 
+  # What comes before all tests has exported what they need when this runs again.
   def run(arguments)
-    @tests.run(arguments)
+    return @tests.run(arguments) if ENV['MATRIX_READY'] || %w[--list --help -h].include?(arguments.first)
+
+    script = [*prelude, "rm -rf '#{@work}'", "work_folder '#{@work}' 200", *@before.map(&:strip), 'export MATRIX_READY=yes', 'exec ruby "$0" "$@"']
+    exec('sh', '-c', script.join("\n"), $PROGRAM_NAME, @runner, *arguments)
   end
 
   private
@@ -72,16 +73,19 @@ class Matrix
     folder = "#{@work}/#{row.name}"
     FileUtils.rm_rf(folder)
     FileUtils.mkdir_p(folder)
-    File.write("#{folder}.sh", script(row))
-    output, status = Open3.capture2e('sh', "#{folder}.sh", chdir: folder, stdin_data: '')
+    File.write("#{folder}.sh", [*prelude, "test=#{row.name}", *steps(row), ''].join("\n"))
+    output, status = Open3.capture2e({ 'MATRIX_READY' => nil }, 'sh', "#{folder}.sh", chdir: folder, stdin_data: '')
     File.write("#{folder}.log", output)
     raise output unless status.success?
   end
 
-  def script(row)
-    sources = (PRELUDE + ["#{@folder}/steps.sh"]).map { |path| ". '#{Dir.pwd}/#{path}'" }
-    steps = row.compilers.empty? ? row.steps : row.compilers.flat_map { |compiler| ["CC=#{compiler}", *row.steps] }
-    ['set -e', "root='#{Dir.pwd}' here='#{Dir.pwd}/#{@folder}' work='#{@work}' test=#{row.name}", *sources, *steps, ''].join("\n")
+  def prelude
+    sources = [*PRELUDE, *Dir["#{@folder}/steps.sh"]].map { |path| ". '#{Dir.pwd}/#{path}'" }
+    ['set -e', "root='#{Dir.pwd}' here='#{Dir.pwd}/#{@folder}' work='#{@work}'", *sources]
+  end
+
+  def steps(row)
+    row.compilers.empty? ? row.steps : row.compilers.flat_map { |compiler| ["CC=#{compiler}", *row.steps] }
   end
 end
 
