@@ -14,7 +14,6 @@ require_relative 'limits'
 require_relative 'documents'
 require_relative 'picture'
 require_relative 'firmware'
-require_relative 'remembered'
 require_relative 'modules'
 require_relative 'features'
 require_relative 'daily'
@@ -29,7 +28,6 @@ class Cost
     @subjects = subjects
     @modules = modules
     @left_out = left_out
-    @remembered = RememberedFigures.new
     @done = 0
     @mutex = Mutex.new
   end
@@ -113,7 +111,7 @@ class Cost
 
   # The figures of the modules' functions.
   def called
-    @called ||= known(@modules, :called) { |some| Host.in_parallel(some) { |one| calls_of(one) } }
+    @called ||= known(@modules, :called) { |some| Host.in_parallel(some) { |one| ModuleMeter.of(one).figures } }
   end
 
   # In their order: what the block measures, and what is documented of those that are left out.
@@ -127,22 +125,17 @@ class Cost
     @documented ||= Documented.new(File.read(page))
   end
 
-  def calls_of(one)
-    found = @remembered.of(one) { ModuleMeter.of(one).figures }
-    found.transform_values { |figures| ModuleFigures.new(**figures.transform_keys(&:to_sym)) }
-  end
-
   # What each feature of fixpid_pid costs.
   def prices
     @prices ||= begin
       all = Features.all
-      all.zip(Host.in_parallel(all) { |one| @remembered.of(one) { Meter.of(one.subject).of_code } }).to_h
+      all.zip(Host.in_parallel(all) { |one| Meter.of(one.subject).of_code }).to_h
     end
   end
 
   # Of each firmware with controller, guard and table.
   def together
-    @together ||= Together.all.to_h { |one| [one, @remembered.of(one) { one.sizes }] }
+    @together ||= Together.all.to_h { |one| [one, one.sizes] }
   end
 
   def plain_c
@@ -151,7 +144,7 @@ class Cost
 
   def in_parallel(subjects)
     Host.in_parallel(subjects) do |subject|
-      found = @remembered.of(subject) { yield(Meter.of(subject)) }
+      found = yield(Meter.of(subject))
       @mutex.synchronize { progress }
       found
     end

@@ -4,35 +4,33 @@
 require_relative 'subjects'
 require_relative 'modules'
 
-# What `tools/cost --daily` leaves out, in the words of docs/cost.md: each is a form of what
-# it measures, on the same core, by the same compiler. Their figures are then those that
-# stand in the documents, which `tools/cost --check` judges.
+# What `tools/cost --daily` measures, in the words of docs/cost.md: each controller on a chip
+# of each kind, as one would build it, and what stands beside a controller on one chip. The
+# figures of what it leaves out are then those that stand in the documents, which
+# `tools/cost --check` judges each week.
 module Daily
-  STEPS = {
-    "on #{CHIPS.select(&:weekly).map(&:title).join(', ')}" => ->(one) { one.chip.weekly },
-    'through a pointer on a PIC' => ->(one) { one.build == 'pointer' },
-    'in access-RAM' => ->(one) { one.variant&.name == 'access-RAM' },
-    'of PID, plain' => ->(one) { one.controller.id == 'pid_plain' },
-    'at -Os elsewhere than on an AVR' => ->(one) { one.build == '-Os' && one.chip.kind != :avr }
-  }.freeze
-  MODULES = {
-    'on Cortex-M4' => ->(one) { one.chip.name == 'cortex-m4' },
-    'at -Os' => ->(one) { one.build == '-Os' },
-    'in the second mode of a PIC' => ->(one) { one.chip.kind == :pic && one.build != ModuleSubject.builds_of(one.called, one.chip).first }
-  }.freeze
+  # A chip and its build.
+  STEPS = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2', 'rv32imc' => '-O2' }.freeze
+  MODULES = { 'atmega328p' => '-O2' }.freeze
+  PLAIN = 'pid_plain' # a form of PID
 
   class << self
     def left_out
-      Subject.all.select { |one| STEPS.values.any? { |form| form.call(one) } }
+      Subject.all.reject { |one| one.variant.nil? && one.controller.id != PLAIN && STEPS[one.chip.name] == one.build }
     end
 
     def modules_left_out
-      ModuleSubject.all.select { |one| MODULES.values.any? { |form| form.call(one) } }
+      ModuleSubject.all.reject { |one| MODULES[one.chip.name] == one.build }
     end
 
     def sentence
-      "leaves out only the steps #{STEPS.keys.join('; ')}; and of what stands beside a controller what is #{MODULES.keys.join('; ')}; " \
-        'and the price of each feature of fixpid_pid.'
+      "measures each controller but PID, plain, on #{named(STEPS)}; and what stands beside a controller on #{named(MODULES)}."
+    end
+
+    private
+
+    def named(builds)
+      builds.map { |chip, build| "#{CHIPS.find { |one| one.name == chip }.title} (#{build})" }.join(', ')
     end
   end
 end

@@ -120,7 +120,7 @@ class ModuleMeter
     end
     build
     text = run
-    @called.functions.keys.to_h { |name| [name, figures_of(name, text).to_h] }
+    @called.functions.keys.to_h { |name| [name, figures_of(name, text)] }
   end
 
   private

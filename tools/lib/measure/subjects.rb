@@ -68,9 +68,8 @@ VARIANTS = [
 ].freeze
 
 # `builds` are modes on a PIC, options elsewhere; `cost` is what is counted. A PIC
-# that is `like` one which `pics` name has its controllers and needs no port. The steps on one
-# that is `weekly` are measured daily on its like, or on another of its kind.
-Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, :like, :weekly, keyword_init: true) do
+# that is `like` one which `pics` name has its controllers and needs no port.
+Chip = Struct.new(:name, :title, :kind, :builds, :cost, :flash, :like, keyword_init: true) do
   # Where its configuration.h and its support/ are.
   def board
     like ? 'test/tools/cost/pic' : "port/pic/#{name}"
@@ -88,13 +87,11 @@ OPTIONS = %w[-O2 -Os].freeze
 CHIPS = [
   Chip.new(name: 'pic16f684', title: 'PIC16F684', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words'),
   Chip.new(name: 'pic18f4520', title: 'PIC18F4520', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes'),
-  Chip.new(name: 'pic16f887', title: 'PIC16F887', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684', weekly: true),
-  Chip.new(name: 'pic16f1788', title: 'PIC16F1788', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684',
-           weekly: true),
-  Chip.new(name: 'pic18f26k22', title: 'PIC18F26K22', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes', like: 'pic18f4520',
-           weekly: true),
+  Chip.new(name: 'pic16f887', title: 'PIC16F887', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684'),
+  Chip.new(name: 'pic16f1788', title: 'PIC16F1788', kind: :pic, builds: MODES, cost: 'cycles', flash: 'words', like: 'pic16f684'),
+  Chip.new(name: 'pic18f26k22', title: 'PIC18F26K22', kind: :pic, builds: MODES, cost: 'cycles', flash: 'bytes', like: 'pic18f4520'),
   Chip.new(name: 'atmega328p', title: 'ATmega328P', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
-  Chip.new(name: 'attiny85', title: 'ATtiny85', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes', weekly: true),
+  Chip.new(name: 'attiny85', title: 'ATtiny85', kind: :avr, builds: OPTIONS, cost: 'cycles', flash: 'bytes'),
   Chip.new(name: 'cortex-m0', title: 'Cortex-M0', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
   Chip.new(name: 'cortex-m4', title: 'Cortex-M4', kind: :arm, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),
   Chip.new(name: 'rv32imc', title: 'RV32IMC', kind: :riscv, builds: OPTIONS, cost: 'instructions', flash: 'bytes'),

@@ -193,8 +193,6 @@ part_cost() {
     build_gpsim
     count 'bounds of known routines' '^ok ' '^FAILED ' ruby tools/bound/test/bounds.rb
     count 'stacks of known routines' '^ok ' '^FAILED ' ruby tools/bound/test/stacks.rb
-    count 'bounds of random loops' '^ok ' '^FAILED ' ruby tools/bound/test/random_loops.rb
-    count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
     count 'what tools/cost tells' '^ok ' '^FAILED ' ruby test/tools/cost/changes.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --daily
 }
@@ -293,8 +291,10 @@ part_long() {
     need_sdcc
     build_gpsim
     runner test/fuzz/run
+    count 'bounds of random loops' '^ok ' '^FAILED ' ruby tools/bound/test/random_loops.rb
+    count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
-    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --long faults faults_places faults_chip
+    count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --whole --check-docs chip faults faults_chip faults_places guard
 }
 
 # The runner, and what it runs in a few minutes.
