@@ -22,7 +22,6 @@ void twin_begin(struct twin *self)
     const unsigned options = (unsigned)param(PARAM_OPTIONS);
     const int on_measurement =
         (options & TUNER_OPTION_PROPORTIONAL_ON_MEASUREMENT) != 0u;
-    const int on_error = (options & TUNER_OPTION_DERIVATIVE_ON_ERROR) != 0u;
     const double rate = param(PARAM_RATE);
     const struct pid_double_gains gains = {
         param(PARAM_KP), param(PARAM_KI) / rate, param(PARAM_KD) * rate,
@@ -32,11 +31,11 @@ void twin_begin(struct twin *self)
     if ((options & TUNER_OPTION_REVERSE) != 0u) {
         self->sign = -1.0;
     }
-    pid_double_init(&self->exact,
-                    on_error ? PID_DOUBLE_DERIVATIVE_ON_ERROR
-                             : PID_DOUBLE_WHOLE,
-                    &gains, on_measurement ? 0.0 : param(PARAM_WEIGHT),
+    pid_double_init(&self->exact, &gains,
+                    on_measurement ? 0.0 : param(PARAM_WEIGHT),
                     param(PARAM_OUTPUT_MIN), param(PARAM_OUTPUT_MAX));
+    self->exact.derivative_on_error =
+        (options & TUNER_OPTION_DERIVATIVE_ON_ERROR) != 0u;
     self->exact.integral_min = param(PARAM_INTEGRAL_MIN);
     self->exact.integral_max = param(PARAM_INTEGRAL_MAX);
 }
