@@ -52,8 +52,8 @@ class Cost
       changes = Document.new(document).replace(name, rows)
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
-    stale = NamedFigures.stale(Tables.named(measured, called), Host.root)
-    good << tell(stale.empty?, 'figures that sentences say', *stale)
+    stale = NamedFigures.stale(named, Host.root)
+    good << tell(stale.empty?, NamedFigures::FILE, *stale)
     warn 'cost: tools/cost --update renews the tables, --tighten and --loosen the limits' unless good.all?
     good.all?
   end
@@ -82,7 +82,7 @@ class Cost
       parts.each { |_, name, rows| puts document.replace(name, rows) }
       document.write
     end
-    NamedFigures.keep(Tables.named(measured, called), Host.root)
+    NamedFigures.keep(named, Host.root)
     Picture.new(measured).draw
     FileUtils.cp("#{Host.folder}/cost.png", "#{Host.root}/docs/images/cost.png")
     limits.all.reject(&:good?).each { |limit| tell(false, limit.what, limit.wrong) }.empty?
@@ -166,6 +166,12 @@ class Cost
   # Daily none and all of them are measured, as PID, typical and PID.
   def features
     @left_out.empty? ? [["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)]] : []
+  end
+
+  # What docs/figures.json has of it.
+  def named
+    tables = { 'steps' => Tables.steps(measured), 'modules' => Tables.modules(called) }
+    Tables.named(measured, called).merge(tables, features.to_h { |_, name, rows| [name, rows] })
   end
 
   def all_parts

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 require 'cgi'
-require_relative '../docs/numbers'
+require_relative '../../named_figures'
 
 # What a page tells of a function beside its comment: arguments, result, what a call costs, and
 # five lines of a program that calls it.
@@ -9,7 +9,7 @@ class Functions
   RANGES = { 'int16_t' => '-32768 to 32767', 'uint16_t' => '0 to 65535', 'uint8_t' => '0 to 255', 'int32_t' => '-2147483648 to 2147483647',
              'uint32_t' => '0 to 4294967295', 'bool' => 'true or false' }.freeze
   RESULT = /\b(?:returns?|result|False|True|refused?)\b/.freeze
-  # Its row in a table of docs/cost.md.
+  # Its row in a table of tools/cost.
   STEPS = { 'fixpid_pid_step' => 'PID', 'fixpid_an937_step' => 'AN937', 'fixpid_an964_step' => 'AN964',
             'fixpid_an964_8bit_step' => 'AN964 8-bit' }.freeze
   MODULES = { 'fixpid_slew_step' => 'slew', 'fixpid_tpo_step' => 'tpo', 'fixpid_guard_step' => 'guard', 'fixpid_table_at' => 'table, at',
@@ -82,8 +82,8 @@ class Functions
     table, row_name = STEPS.key?(name) ? ['steps', STEPS[name]] : ['modules', MODULES[name]]
     return [] unless row_name
 
-    rows = Numbers.table('docs/cost.md', table).select { |row| row[''] == row_name }
-    rows.empty? ? abort("docs/cost.md has no row of #{row_name}") : rows
+    rows = NamedFigures.table(table).select { |row| row[''] == row_name }
+    rows.empty? ? abort("#{NamedFigures::FILE} has no row of #{row_name}") : rows
   end
 
   # The lines about its first call.

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What a step costs on each chip, from the tables that the documents have: they
-# are measured, and checked by tools/cost.
+require_relative '../../named_figures'
+
+# What a step costs on each chip, from the tables that tools/cost writes and checks.
 module Costs
   BUILDS = %w[object -O2].freeze # what one would take; the others are variants of it
 
   class << self
     # Rows [controller, chip, bound, flash with init, its unit, RAM each].
     def steps
-      table('docs/cost.md', 'steps').filter_map do |row|
+      NamedFigures.table('steps').filter_map do |row|
         next unless BUILDS.include?(row['built'])
 
         number, unit = row['flash of the step'].split
@@ -21,21 +22,11 @@ module Costs
 
     # { chip => rows [bit, steps more, bytes more] }, the first row with none.
     def features
-      rows = table('docs/choosing.md', 'features').reject { |row| row['feature'] == 'all' }
+      rows = NamedFigures.table('features').reject { |row| row['feature'] == 'all' }
       head = rows.first.keys
       head.each_index.select { |at| head[at].match?(/ (cycles|instructions)\z/) }.to_h do |at|
         [head[at][/\A[^,\s]+/], rows.map { |row| [row['bit'][/0x\h+/].hex, row.values[at].to_i, row.values[at + 1].to_i] }]
       end
-    end
-
-    private
-
-    # A table between two markers: its rows by the names of the head.
-    def table(path, name)
-      text = File.read(path)[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1] || raise("#{path}: no #{name}")
-      head, _, *rows = text.lines(chomp: true).map { |line| line.delete_prefix('|').delete_suffix('|').split('|').map(&:strip) }
-      head = head.each_with_index.map { |title, at| head.index(title) == at ? title : "#{title} #{at}" }
-      rows.map { |row| head.zip(row).to_h }
     end
   end
 end
