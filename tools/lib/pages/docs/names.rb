@@ -25,7 +25,7 @@ module DocumentNames
 
   class << self
     def failures
-      manifests + DOCUMENTS.flat_map { |path| names(path) }
+      manifests + DOCUMENTS.flat_map { |path| names(path) + meson(path) }
     end
 
     private
@@ -33,6 +33,12 @@ module DocumentNames
     # The version and the sources are those of the manifests.
     def manifests
       ManifestFaults.all.flat_map { |path, faults| faults.map { |fault| "#{path}: #{fault}" } }
+    end
+
+    # What a project of Meson asks for is what meson.build gives.
+    def meson(path)
+      given = File.read('meson.build')[/override_dependency\('([^']+)'/, 1]
+      (File.read(path).scan(/\bdependency\('([^']+)'/).flatten.uniq - [given]).map { |name| "#{path}: Meson has no dependency #{name}" }
     end
 
     # In a document what stands in backticks, in YAML everything.

@@ -15,13 +15,6 @@ module Sums
           .map { |left, operator, right| "#{path}: #{left} #{operator} #{right} is wrong" }
     end
 
-    # From where to where in the text.
-    def places(text)
-      places = []
-      text.scan(WRITTEN) { places << (Regexp.last_match.begin(1)...Regexp.last_match.end(3)) }
-      places
-    end
-
     private
 
     def right?(left, operator, right)
