@@ -10,7 +10,7 @@ module Commands
   RUNS = %r{\A(?:tools/(?:test|prove|demo|cost|firmware)|test/\S+/run)\b}.freeze
   TARGETS = /\btargets? ((?:`\w+`(?:, | and )?)+)/.freeze
   # Where the names of what a program runs stand, besides in itself.
-  NAMES = { 'tools/demo' => 'tools/lib/demo/*.rb', 'tools/cost' => 'tools/lib/{measure,code}/*', 'tools/firmware' => 'port/*/*/port_board.h' }.freeze
+  NAMES = { 'tools/demo' => 'tools/lib/demo/*.rb', 'tools/cost' => 'tools/lib/measure/*', 'tools/firmware' => 'port/*/*/port_board.h' }.freeze
   PLACE = /\A[A-Z]+\z|[.\/*=<]|\A\d+\z/.freeze # in a command, what the reader puts in
   FUZZ = 'test/fuzz/run'.freeze
 
@@ -30,6 +30,7 @@ module Commands
       case program
       when 'tools/test' then (names - parts).empty?
       when 'tools/prove' then options.any? || proofs.any? { |proof| proof.matches?(names) }
+      when %r{\Atest/use/(?:consumers|packages)/} then (names.grep_v(PLACE) - `#{program} --list`.split).empty?
       else names.all? { |name| name.match?(PLACE) || named?(program, name.delete("'")) }
       end
     end

@@ -68,9 +68,9 @@ module DocumentNames
       FILES.any? { |path| File.fnmatch(pattern, File.basename(path)) }
     end
 
-    # Every identifier of the sources.
+    # Every identifier of the sources, and the tests that a row of test/matrix.txt stands for.
     def identifiers
-      @identifiers ||= SOURCES.flat_map { |path| File.read(path, encoding: 'BINARY').scan(/\w+/) }.to_h { |word| [word, true] }
+      @identifiers ||= (SOURCES.flat_map { |path| File.read(path, encoding: 'BINARY').scan(/\w+/) } + `test/use/consumers/run --list`.split).to_h { |word| [word, true] }
     end
   end
 end
