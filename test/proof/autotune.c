@@ -46,10 +46,10 @@ void prove_init(void)
     claim(fixpid_autotune_init(&c, &config) == legal);
     claim(!legal || same_config(&c.config, &kept));
     claim_started(legal);
-    claim(sound(&c));
+    claim(autotune_is_sound(&c));
     fixpid_autotune_reset(&c);
     claim_started(legal);
-    claim(sound(&c));
+    claim(autotune_is_sound(&c));
 }
 
 // Of any bytes: nothing undefined, it ends, and the output is within the range
@@ -92,13 +92,7 @@ void prove_progress(void)
     number done;
 
     c = nondet_autotune();
-    assume(inside(c.config.cycles, 1, 4) ||
-           ((c.config.cycles == 0u) && (c.state == FIXPID_AUTOTUNE_REFUSED)));
-    assume(inside(c.state, 16, 21) ||
-           inside(c.state, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_TOO_SLOW) ||
-           (c.config.cycles == 0u));
-    assume((c.averaged == 255u) || (c.averaged < c.config.cycles));
-    assume((c.state >= 19u) || (c.averaged == 255u) || (c.averaged == 0u));
+    assume(autotune_is_on_its_way(&c));
     fixpid_autotune_progress(&c, &stage);
     each = c.config.cycles + 1;
     claim(stage.expected ==

@@ -171,8 +171,9 @@ static void output_as_defined(struct fixpid_autotune *x)
     x->output = signed16(output_of(x));
 }
 
-// A relay that has a centre has it in the output range.
-static bool sound_relay(const struct fixpid_autotune *x)
+// Domain: the limits of the output are in order, and a relay that has a centre
+// has it between them, with half an amplitude of 2 to 21759.
+static bool autotune_has_relay(const struct fixpid_autotune *x)
 {
     return (x->config.output_min < x->config.output_max) &&
            ((x->state == IN_FIND) ||
@@ -372,10 +373,9 @@ static void relay_complete(struct fixpid_autotune *x)
 static void some_relay(struct fixpid_autotune *x)
 {
     (void)begin(&centre_part, x, 0);
-    x->centre = nondet_int16();
-    x->half = nondet_uint16();
-    assume(inside(x->centre, x->config.output_min, x->config.output_max));
-    assume(inside(x->half, 2, 21759));
+    x->centre = (int16_t)clamp(nondet_int16(), x->config.output_min,
+                               x->config.output_max);
+    x->half = (uint16_t)clamp(nondet_uint16(), 2, 21759);
     end(&centre_part, x);
 }
 
@@ -558,14 +558,18 @@ static bool sound_while_relay(const struct fixpid_autotune *x)
     const number all_turns = 2 * (number)x->config.cycles;
     const bool second = x->state == IN_SECOND;
 
-    return sound_relay(x) && sound_cycle(x) && (x->lowest <= x->highest) &&
-           (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
-           (x->first_on < 32767u) &&
+    return autotune_has_relay(x) && sound_cycle(x) &&
+           (x->lowest <= x->highest) && (x->noise <= 32736u) &&
+           inside(x->edge, 1, 6912) && (x->first_on < 32767u) &&
            sound_sums(&x->sums[0], second ? all_turns : turns_now(x)) &&
            sound_sums(&x->sums[1], second ? turns_now(x) : all_turns);
 }
 
-static bool ready_for_relay(const struct fixpid_autotune *x, number deviation)
+// Domain: a step of a relay: the configuration is legal, the phase and the side
+// are a relay's, its timeout is not reached, and sums, noise and extremes are
+// what so many steps can make.
+static bool autotune_may_switch(const struct fixpid_autotune *x,
+                                number deviation)
 {
     return is_deviation(deviation) && legal_config(&x->config) &&
            inside(x->state, IN_FIND, IN_THIRD) && (x->side <= HIGH_SIDE) &&
@@ -574,14 +578,16 @@ static bool ready_for_relay(const struct fixpid_autotune *x, number deviation)
            sound_while_relay(x);
 }
 
-// What the end of a cycle relies on: that it switched on both sides.
-static bool ready_to_end(const struct fixpid_autotune *x, number deviation)
+// Domain: the end of a cycle: the configuration is legal, the phase and the
+// side are a relay's, noise, extremes and sums are what they can be, and unless
+// the relay is fresh its cycle has switched on both sides.
+static bool autotune_may_end(const struct fixpid_autotune *x, number deviation)
 {
     const number cycles = x->config.cycles;
     const bool finding = x->state <= IN_CENTRE;
 
     return is_deviation(deviation) && legal_config(&x->config) &&
-           inside(x->state, IN_FIND, IN_THIRD) && sound_relay(x) &&
+           inside(x->state, IN_FIND, IN_THIRD) && autotune_has_relay(x) &&
            (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
            (x->side <= HIGH_SIDE) && inside(x->seen, 0, 55) &&
            is_deviation(x->highest) && is_deviation(x->lowest) &&
@@ -595,7 +601,9 @@ static bool ready_to_end(const struct fixpid_autotune *x, number deviation)
 }
 
 // What init and reset establish from any bytes, and a step keeps.
-static bool sound(const struct fixpid_autotune *x)
+// Domain: it was refused, or it is over, or so many steps can have made it; and
+// its output is that of its phase and side.
+static bool autotune_is_sound(const struct fixpid_autotune *x)
 {
     if (x->config.cycles == 0u) {
         return (x->state == FIXPID_AUTOTUNE_REFUSED) &&
@@ -619,6 +627,99 @@ static bool sound(const struct fixpid_autotune *x)
                sound_sums(&x->sums[0], 0) && sound_sums(&x->sums[1], 0);
     }
     return sound_while_relay(x);
+}
+
+// Domain: such an experiment that runs.
+static bool autotune_is_running(const struct fixpid_autotune *x)
+{
+    return autotune_is_sound(x) && (x->state >= IN_NOISE);
+}
+
+// What the parts rely on. Those before them show it where they are called.
+
+// Domain: a step of the noise: outputs and swing are legal, and noise and
+// readings are what so many steps can make.
+static bool autotune_may_listen(const struct fixpid_autotune *x,
+                                number deviation)
+{
+    return is_deviation(deviation) && (x->state == IN_NOISE) &&
+           (x->config.output_min < x->config.output_max) &&
+           ((x->config.swing == 0u) || inside(x->config.swing, 8, 16383)) &&
+           (x->elapsed < 34u) && (x->highest != INT16_MIN) &&
+           (x->lowest != INT16_MIN) &&
+           (x->noise <= 1023 * greater((number)x->elapsed - 2, 0));
+}
+
+// Domain: the phase and the side are a relay's, and sums are of at most 15 or
+// 16 turns.
+static bool autotune_may_sum(const struct fixpid_autotune *x, number deviation)
+{
+    const struct fixpid_autotune_sums *const sums =
+        &x->sums[(x->state == IN_SECOND) ? 1 : 0];
+
+    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
+           (x->side <= HIGH_SIDE) &&
+           sound_sums(sums, (x->elapsed == 1u) ? 15 : 16);
+}
+
+// Domain: the phase and the side are a relay's, the hysteresis is 1 to 6912,
+// and where a cycle ends the domain of its end holds.
+static bool autotune_may_turn(const struct fixpid_autotune *x, number deviation)
+{
+    const bool ends = (x->side == LOW_SIDE) && (deviation < -(number)x->edge);
+
+    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
+           (x->side <= HIGH_SIDE) && (x->elapsed < 32767u) &&
+           inside(x->edge, 1, 6912) && autotune_has_relay(x) &&
+           (!ends || autotune_may_end(x, deviation));
+}
+
+// Domain: a relay that looks for its centre: the configuration is legal, and
+// the cycle has switched on both sides.
+static bool autotune_may_recentre(const struct fixpid_autotune *x)
+{
+    return legal_config(&x->config) && inside(x->state, IN_FIND, IN_CENTRE) &&
+           autotune_has_relay(x) && (x->noise <= 32736u) &&
+           inside(x->edge, 1, 6912) && is_deviation(x->highest) &&
+           is_deviation(x->lowest) && ((number)x->highest > x->edge) &&
+           (x->lowest < -(number)x->edge);
+}
+
+// Domain: two cycles of a relay with fewer cycles than asked for, of which the
+// last half is within its period.
+static bool autotune_may_compare(const struct fixpid_autotune *x)
+{
+    return inside(x->state, IN_FIRST, IN_THIRD) &&
+           inside(x->config.cycles, 1, 4) && (x->averaged < x->config.cycles) &&
+           (x->last_period >= x->elapsed);
+}
+
+// Domain: a turn of eight of a division by hand: the rest is below the whole.
+static bool autotune_may_share(number rest, number bits, number whole)
+{
+    return inside(bits, 0, 7) && (rest < whole);
+}
+
+// Domain: the part is below the whole.
+static bool autotune_is_part(number part, number whole)
+{
+    return part < whole;
+}
+
+// Domain: it was refused, or 1 to 4 cycles are asked for, the phase or the end
+// exists, and no more cycles are done than its phase has.
+static bool autotune_is_on_its_way(const struct fixpid_autotune *x)
+{
+    const number cycles = x->config.cycles;
+    const number done = x->averaged;
+
+    if (cycles == 0) {
+        return x->state == FIXPID_AUTOTUNE_REFUSED;
+    }
+    return inside(cycles, 1, 4) &&
+           (inside(x->state, IN_NOISE, IN_THIRD) ||
+            inside(x->state, FIXPID_AUTOTUNE_DONE, FIXPID_AUTOTUNE_TOO_SLOW)) &&
+           (fresh(x) || (done < ((x->state >= IN_FIRST) ? cycles : 1)));
 }
 
 #endif

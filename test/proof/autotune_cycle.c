@@ -24,7 +24,7 @@ void prove_level(void)
     c = nondet_autotune();
     assume(inside(phase, IN_FIND, IN_THIRD));
     c.state = phase;
-    assume(sound_relay(&c));
+    assume(autotune_has_relay(&c));
     was = c;
     low = low_output(&c, phase);
     high = high_output(&c, phase);
@@ -69,7 +69,7 @@ static bool share_turn(uint8_t *quotient, uint16_t *rest, uint8_t *bit,
     *quotient = nondet_uint8();
     *rest = nondet_uint16();
     *bit = nondet_uint8();
-    assume((*bit < 8u) && is_shared(*rest, *bit));
+    assume(autotune_may_share(*rest, *bit, whole_of));
     began.bits = *bit;
     began.rest = *rest;
     began.quotient = *quotient & ones(*bit);
@@ -83,7 +83,7 @@ void prove_share(void)
     number found;
 
     whole_of = nondet_uint16();
-    assume(part < whole_of);
+    assume(autotune_is_part(part, whole_of));
     began.rest = part;
     found = share(part, (uint16_t)whole_of);
     claim((began.bits == 7) &&
@@ -112,12 +112,17 @@ uint32_t amplitude_for_contract(uint16_t wanted, uint16_t over, uint16_t relay)
 // D * share / 256, to the nearest: at most D.
 uint16_t __CPROVER_uninterpreted_counts(uint16_t counts, uint8_t part);
 
-uint16_t counts_of_contract(uint16_t counts, uint8_t part)
+static uint16_t assume_counts(uint16_t counts, uint8_t part)
 {
     const uint16_t found = __CPROVER_uninterpreted_counts(counts, part);
 
     assume(found <= counts);
     return found;
+}
+
+uint16_t counts_of_contract(uint16_t counts, uint8_t part)
+{
+    return assume_counts(counts, part);
 }
 
 // At most D with any share. Of a share with one bit it is the equation; a
@@ -154,7 +159,9 @@ void prove_amplitude(void)
     unsigned turns = 0;
     number amplitude;
 
-    assume(inside(wanted, 1, 36864) && inside(over, 2, 65534) && (bit < 8u));
+    assume(inside(wanted, 1, 36864));
+    assume(inside(over, 2, 65534));
+    assume(bit < 8u);
     share_is = 1u << bit;
     while (floor_by(wanted, turns) > over) {
         turns++;
@@ -164,15 +171,6 @@ void prove_amplitude(void)
         amplitude = floor_by(amplitude << bit, 8);
     }
     claim(amplitude_for(wanted, over, relay) == amplitude);
-}
-
-// It has switched on both sides.
-static bool ready_to_recentre(const struct fixpid_autotune *x)
-{
-    return legal_config(&x->config) && inside(x->state, IN_FIND, IN_CENTRE) &&
-           sound_relay(x) && (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
-           is_deviation(x->highest) && is_deviation(x->lowest) &&
-           ((number)x->highest > x->edge) && (x->lowest < -(number)x->edge);
 }
 
 // Where the setpoint cuts the overshoot, the output that holds it cuts the
@@ -189,7 +187,7 @@ void prove_recentre(void)
     number amplitude;
 
     c = nondet_autotune();
-    assume(ready_to_recentre(&c));
+    assume(autotune_may_recentre(&c));
     defined = c;
     low = low_output(&c, c.state);
     relay = high_output(&c, c.state) - low;
@@ -207,21 +205,13 @@ void prove_recentre(void)
     claim_same(&c, &defined);
     claim(inside(over, 2, 65534) && inside(below, 1, over - 1));
     c.state++;
-    claim(sound_relay(&c));
+    claim(autotune_has_relay(&c));
 }
 
 void recentre_contract(struct fixpid_autotune *self)
 {
-    pre(ready_to_recentre(self));
+    pre(autotune_may_recentre(self));
     take_part(&centre_part, self, 0);
-}
-
-// In the third phase the cycle is in the sums, and has a half at high.
-static bool ready_to_compare(const struct fixpid_autotune *x)
-{
-    return inside(x->state, IN_FIRST, IN_THIRD) &&
-           inside(x->config.cycles, 1, 4) && (x->averaged < x->config.cycles) &&
-           (x->last_period >= x->elapsed);
 }
 
 void prove_alike(void)
@@ -229,7 +219,7 @@ void prove_alike(void)
     const uint16_t before = nondet_uint16();
 
     c = nondet_autotune();
-    assume(ready_to_compare(&c));
+    assume(autotune_may_compare(&c));
     claim(regular(&c, before) == is_alike(&c, before));
 }
 
@@ -237,7 +227,7 @@ bool regular_contract(const struct fixpid_autotune *self, uint16_t before)
 {
     struct fixpid_autotune same = *self;
 
-    pre(ready_to_compare(self));
+    pre(autotune_may_compare(self));
     alike_part.after = same;
     take_part(&alike_part, &same, before);
     return alike;
@@ -250,7 +240,7 @@ void prove_cycle(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(ready_to_end(&c, deviation));
+    assume(autotune_may_end(&c, deviation));
     defined = c;
     alike_part.open = true;
     end_as_defined(&defined, deviation);
@@ -261,11 +251,13 @@ void prove_cycle(void)
 
 void prove_lost(void)
 {
+    const uint8_t phase = nondet_uint8();
     struct fixpid_autotune defined;
 
+    assume(inside(phase, IN_CENTRE, IN_THIRD));
     c = nondet_autotune();
-    assume(inside(c.state, IN_CENTRE, IN_THIRD));
-    assume(sound_relay(&c));
+    c.state = phase;
+    assume(autotune_has_relay(&c));
     defined = c;
     lost_as_defined(&defined);
     fixpid_autotune_find_again(&c);

@@ -16,45 +16,13 @@ void prove_deviation(void)
           clamp((number)measurement - setpoint, -32767, 32767));
 }
 
-// What the parts rely on. Those before them show it where they are called.
-
-static bool ready_for_noise(const struct fixpid_autotune *x, number deviation)
-{
-    return is_deviation(deviation) && (x->state == IN_NOISE) &&
-           (x->config.output_min < x->config.output_max) &&
-           ((x->config.swing == 0u) || inside(x->config.swing, 8, 16383)) &&
-           (x->elapsed < 34u) && (x->highest != INT16_MIN) &&
-           (x->lowest != INT16_MIN) &&
-           (x->noise <= 1023 * greater((number)x->elapsed - 2, 0));
-}
-
-static bool ready_to_sum(const struct fixpid_autotune *x, number deviation)
-{
-    const struct fixpid_autotune_sums *const sums =
-        &x->sums[(x->state == IN_SECOND) ? 1 : 0];
-
-    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
-           (x->side <= HIGH_SIDE) &&
-           sound_sums(sums, (x->elapsed == 1u) ? 15 : 16);
-}
-
-static bool ready_to_turn(const struct fixpid_autotune *x, number deviation)
-{
-    const bool ends = (x->side == LOW_SIDE) && (deviation < -(number)x->edge);
-
-    return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
-           (x->side <= HIGH_SIDE) && (x->elapsed < 32767u) &&
-           inside(x->edge, 1, 6912) && sound_relay(x) &&
-           (!ends || ready_to_end(x, deviation));
-}
-
 void prove_noise(void)
 {
     const int16_t deviation = nondet_int16();
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(ready_for_noise(&c, deviation));
+    assume(autotune_may_listen(&c, deviation));
     defined = c;
     noise_as_defined(&defined, deviation);
     measure_noise(&c, deviation);
@@ -68,7 +36,7 @@ void prove_sum(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(ready_to_sum(&c, deviation));
+    assume(autotune_may_sum(&c, deviation));
     defined = c;
     sum_as_defined(&defined, deviation);
     add_deviation(&c, deviation);
@@ -78,7 +46,7 @@ void prove_sum(void)
 void fixpid_autotune_end_cycle_contract(struct fixpid_autotune *self,
                                         int16_t deviation)
 {
-    pre(ready_to_end(self, deviation));
+    pre(autotune_may_end(self, deviation));
     take_part(&end_part, self, deviation);
 }
 
@@ -89,7 +57,7 @@ void prove_turn(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(ready_to_turn(&c, deviation));
+    assume(autotune_may_turn(&c, deviation));
     defined = c;
     turn_as_defined(&defined, deviation);
     turn_relay(&c, deviation);
@@ -99,13 +67,13 @@ void prove_turn(void)
 
 void add_deviation_contract(struct fixpid_autotune *self, int16_t deviation)
 {
-    pre(ready_to_sum(self, deviation));
+    pre(autotune_may_sum(self, deviation));
     take_part(&sum_part, self, deviation);
 }
 
 void turn_relay_contract(struct fixpid_autotune *self, int16_t deviation)
 {
-    pre(ready_to_turn(self, deviation));
+    pre(autotune_may_turn(self, deviation));
     take_part(&turn_part, self, deviation);
 }
 
@@ -121,7 +89,7 @@ void prove_relay(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(ready_for_relay(&c, deviation));
+    assume(autotune_may_switch(&c, deviation));
     defined = c;
     turn_part.open = true;
     relay_as_defined(&defined, deviation);
@@ -132,13 +100,13 @@ void prove_relay(void)
 
 void measure_noise_contract(struct fixpid_autotune *self, int16_t deviation)
 {
-    pre(ready_for_noise(self, deviation));
+    pre(autotune_may_listen(self, deviation));
     take_part(&noise_part, self, deviation);
 }
 
 void step_relay_contract(struct fixpid_autotune *self, int16_t deviation)
 {
-    pre(ready_for_relay(self, deviation));
+    pre(autotune_may_switch(self, deviation));
     take_part(&relay_part, self, deviation);
 }
 
@@ -151,7 +119,7 @@ void prove_step(void)
     number out;
 
     c = nondet_autotune();
-    assume(sound(&c));
+    assume(autotune_is_sound(&c));
     defined = c;
     noise_part.open = true;
     relay_part.open = true;
@@ -172,13 +140,12 @@ void prove_kept(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(sound(&c));
-    assume(c.state >= IN_NOISE);
+    assume(autotune_is_running(&c));
     alike_part.open = true;
     defined = c;
     step_as_defined(&defined, setpoint, measurement);
     (void)fixpid_autotune_step(&c, setpoint, measurement);
-    claim(sound(&c));
+    claim(autotune_is_sound(&c));
 }
 
 // The halves of cycles that are left. Losing the swing costs half a cycle once,
@@ -201,8 +168,7 @@ void prove_ends(void)
     struct fixpid_autotune defined;
 
     c = nondet_autotune();
-    assume(sound(&c));
-    assume(c.state >= IN_NOISE);
+    assume(autotune_is_running(&c));
     alike_part.open = true;
     was = c;
     defined = c;

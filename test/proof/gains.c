@@ -39,7 +39,7 @@ static bool legal_gains(const struct fixpid_pid_gains *gains)
 uint32_t __CPROVER_uninterpreted_quotient(uint32_t a, uint32_t b,
                                           uint32_t divisor);
 
-static uint32_t quotient(uint32_t a, uint32_t b, uint32_t divisor)
+static uint32_t assume_quotient(uint32_t a, uint32_t b, uint32_t divisor)
 {
     const uint32_t q = __CPROVER_uninterpreted_quotient(a, b, divisor);
 
@@ -50,7 +50,7 @@ static uint32_t quotient(uint32_t a, uint32_t b, uint32_t divisor)
 uint32_t scaled_contract(uint32_t a, uint32_t b, uint32_t divisor)
 {
     pre(inside(divisor, 1, (number)1 << 31));
-    return quotient(a, b, divisor);
+    return assume_quotient(a, b, divisor);
 }
 
 static bool in_range(number gain, number milli, number most)
@@ -81,10 +81,10 @@ void prove_from_milli(void)
     } else {
         // kp / 1000 * 256, ki / 1000 / (rate / 1000) * 2^24, and
         // kd / 1000 * (rate / 1000) / 2^filter * 256
-        const number kp = quotient(milli.kp, 32, 125);
-        const number ki = quotient(milli.ki, (uint32_t)1 << 24, rate);
+        const number kp = assume_quotient(milli.kp, 32, 125);
+        const number ki = assume_quotient(milli.ki, (uint32_t)1 << 24, rate);
         const number kd =
-            quotient(milli.kd, rate * 4u, (uint32_t)15625 << filter);
+            assume_quotient(milli.kd, rate * 4u, (uint32_t)15625 << filter);
 
         claim(accepted ==
               (in_range(kp, milli.kp, FIXPID_PID_KP_MAX) &&
@@ -116,8 +116,9 @@ void prove_to_milli(void)
     if (!legal_rate(rate) || !legal_gains(&gains)) {
         claim(!accepted);
     } else {
-        const uint32_t ki = quotient(gains.ki_q24, rate, (uint32_t)1 << 24);
-        const uint32_t kd = quotient(
+        const uint32_t ki =
+            assume_quotient(gains.ki_q24, rate, (uint32_t)1 << 24);
+        const uint32_t kd = assume_quotient(
             gains.kd_q8, (uint32_t)15625 << gains.derivative_filter, rate * 4u);
 
         claim(accepted == ((ki != UINT32_MAX) && (kd != UINT32_MAX)));
@@ -160,6 +161,14 @@ static bool is_divided(const struct wide *rest, number turns, number divisor)
             (dividend.low & ones(turns)));
 }
 
+// Domain: a turn of a division by hand: the rest is below the divisor, and the
+// lower bits are those of the dividend.
+static bool gains_may_divide(const struct wide *rest, number turns,
+                             number divisor)
+{
+    return (turns != 0) && is_divided(rest, turns, divisor);
+}
+
 // Long division: the rest and the next bit of the dividend are the next rest,
 // and the divisor if it goes into them.
 static bool is_next(const struct wide *rest, number turns, number divisor)
@@ -180,7 +189,7 @@ static bool at_turn(struct wide *rest, uint8_t *turn, uint32_t divisor)
     any_turn();
     *rest = nondet_wide();
     *turn = nondet_uint8();
-    assume((*turn != 0u) && is_divided(rest, *turn, divisor));
+    assume(gains_may_divide(rest, *turn, divisor));
     began.turns = *turn;
     began.rest = rest->high;
     began.quotient = rest->low & ones(32 - (number)*turn);

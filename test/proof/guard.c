@@ -79,7 +79,9 @@ static bool legal_guard(const struct fixpid_guard *x)
 }
 
 // What init establishes and every function keeps.
-static bool sound(const struct fixpid_guard *x)
+// Domain: the configuration is legal, the zones exist, and each count is below
+// the end at which it raises a flag or begins again.
+static bool guard_is_sound(const struct fixpid_guard *x)
 {
     const struct rules at = rules_of(x);
     const number patience = x->patience;
@@ -244,7 +246,7 @@ void prove_step(void)
     unsigned flags;
 
     c = nondet_guard();
-    assume(sound(&c));
+    assume(guard_is_sound(&c));
     was = c;
     wanted = rules_of(&c);
     rule_step(&wanted, setpoint, measurement, output);
@@ -254,7 +256,7 @@ void prove_step(void)
     claim(flags == wanted.flags);
     claim(fixpid_guard_flags(&c) == flags);
     claim(same_config(&was, &c));
-    claim(sound(&c));
+    claim(guard_is_sound(&c));
     // An alarm that is set stays.
     claim((was.flags & (uint8_t)~FIXPID_GUARD_SETTLED & ~flags) == 0u);
 }
@@ -297,7 +299,7 @@ void prove_init(void)
     claim(((c.state & 0x40u) != 0u) == config.noisy);
     claim(c.patience == (accepted ? config.patience : 0u));
     if (accepted) {
-        claim(sound(&c));
+        claim(guard_is_sound(&c));
         claim(fixpid_guard_flags(&c) == 0u);
     } else {
         claim(fixpid_guard_step(&c, 0, 0, 0) == FIXPID_GUARD_REFUSED);
@@ -330,7 +332,7 @@ void prove_setters(void)
         claim(same_rules(&wanted, &found));
     }
     claim(same_config(&was, &c));
-    claim(!sound(&was) || sound(&c));
+    claim(!guard_is_sound(&was) || guard_is_sound(&c));
 }
 
 void prove_refused(void)

@@ -427,8 +427,6 @@ void prove_answer(void)
     was = c;
     config_was = config;
     kind = was.bytes[1];
-    assume(kind >= 0x40u);
-    assume(kind <= 0x47u);
     bytes = fixpid_link_answer(&c, &board, &pid, &config);
     claim(bytes <= FIXPID_LINK_FRAME);
     claim((bytes == 0u) == (was.count != 0xFFu));
@@ -683,7 +681,7 @@ void prove_step(void)
     bool due;
 
     begin();
-    assume((flags & 8u) == 0u);
+    flags &= (uint8_t)~8u; // which says that it is a frame of a step
     was = c;
     wanted = c;
     wanted.steps++;

@@ -26,8 +26,8 @@ static struct signals any_signals(void)
 {
     struct signals signals = nondet_signals();
 
-    assume(inside(signals.error, INT16_MIN, INT16_MAX));
-    assume(inside(signals.derivative_input, INT16_MIN, INT16_MAX));
+    signals.error = nondet_int16();
+    signals.derivative_input = nondet_int16();
     return signals;
 }
 
@@ -49,6 +49,8 @@ static struct signals any_signals(void)
 #define PART ((number)256 * COUNT) // and in 1/2^24
 #define D_MAX (((number)1 << 30) - ((number)1 << 24))
 #define TIMES(gain, x) times((gain), (x), (uint32_t)(gain) << 15) // |x| <= 2^15
+// |P| <= 2^30 - 2^15, |D| <= 2^30 - 2^24, 256 |F| <= 2^23
+#define P_D_FF_MAX (((number)1 << 31) - ((number)1 << 23) - 32768)
 
 int32_t mul16_contract(uint16_t gain, signal_word x)
 {
@@ -73,7 +75,9 @@ static number sat16(number x)
     return clamp(x, INT16_MIN, INT16_MAX);
 }
 
-static bool sound_settings(const struct fixpid_pid *x)
+// Domain: the limits of the output and of the integral are in order, and gains
+// and options are legal; or it was refused, and all of them are 0.
+static bool pid_is_set(const struct fixpid_pid *x)
 {
     if ((x->output_min > x->output_max) ||
         (x->integral_min > x->integral_max) || (x->integral_min < -INT16_MAX)) {
@@ -110,10 +114,47 @@ static bool sound_previous(const struct fixpid_pid *x)
 }
 
 // What init establishes from any bytes and every function keeps.
-static bool sound(const struct fixpid_pid *x)
+// Domain: settings as above; the derivative's term is less than 2^30, and what
+// it saw last fits in 16 bits; the integral is within its limits, or it is an
+// output that is held, in whole counts and within the output's limits.
+static bool pid_is_sound(const struct fixpid_pid *x)
 {
-    return sound_settings(x) && inside(x->derivative, -D_MAX, D_MAX) &&
+    return pid_is_set(x) && inside(x->derivative, -D_MAX, D_MAX) &&
            sound_previous(x) && sound_integral(x);
+}
+
+// Domain: of a sound object, what the derivative reads.
+static bool pid_may_differentiate(const struct fixpid_pid *x)
+{
+    return (x->kd <= FIXPID_PID_KD_MAX) &&
+           inside(x->derivative, -D_MAX, D_MAX) && sound_previous(x);
+}
+
+// Domain: settings as above, and an integral within its limits.
+static bool pid_may_integrate(const struct fixpid_pid *x)
+{
+    return pid_is_set(x) &&
+           inside(whole(x), x->integral_min * PART, x->integral_max * PART);
+}
+
+// Domain: settings as above, and a sum of the other terms that legal gains can
+// make.
+static bool pid_may_limit(const struct fixpid_pid *x, number p_d_ff)
+{
+    return pid_is_set(x) && inside(p_d_ff, -P_D_FF_MAX, P_D_FF_MAX);
+}
+
+// Domain: the same, and an output that is held, in whole counts.
+static bool pid_may_take_over(const struct fixpid_pid *x, number p_d_ff)
+{
+    return pid_may_limit(x, p_d_ff) &&
+           (((uint32_t)x->integral & 0xFFFFu) == 0u);
+}
+
+// Domain: the limits of the integral are in order.
+static bool pid_may_reset(const struct fixpid_pid *x)
+{
+    return x->integral_min <= x->integral_max;
 }
 
 static bool same_settings(const struct fixpid_pid *a,
@@ -223,9 +264,6 @@ static number flags_of(const struct fixpid_pid *x, number candidate, number u)
 
 // ---- The parts of a step ----
 
-// |P| <= 2^30 - 2^15, |D| <= 2^30 - 2^24, 256 |F| <= 2^23
-#define P_D_FF_MAX (((number)1 << 31) - ((number)1 << 23) - 32768)
-
 static number candidate_of(const struct signals *signals)
 {
     return ((number)signals->integral * 256) + signals->fraction;
@@ -258,9 +296,7 @@ void prove_differentiate(void)
     number d;
 
     c = nondet_pid();
-    assume(c.kd <= FIXPID_PID_KD_MAX);
-    assume(inside(c.derivative, -D_MAX, D_MAX));
-    assume(sound_previous(&c));
+    assume(pid_may_differentiate(&c));
     was = c;
     differentiate(&c, &signals);
     d = derivative_of(&was, signals_were.derivative_input);
@@ -284,8 +320,7 @@ void prove_integrate(void)
     number candidate;
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(inside(whole(&c), c.integral_min * PART, c.integral_max * PART));
+    assume(pid_may_integrate(&c));
     was = c;
     integrate(&c, &signals);
     candidate = whole(&was) + change_of(&was, signals_were.error);
@@ -300,15 +335,12 @@ void prove_integrate(void)
 void prove_take_over(void)
 {
     struct signals signals = any_signals();
+    const number p_d_ff = signals.p_d_ff;
     struct fixpid_pid was;
     number candidate;
-    number p_d_ff;
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(((uint32_t)c.integral & 0xFFFFu) == 0u);
-    p_d_ff = signals.p_d_ff;
-    assume(inside(p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    assume(pid_may_take_over(&c, p_d_ff));
     was = c;
     take_over(&c, &signals);
     candidate = taken_over(&was, p_d_ff);
@@ -332,8 +364,7 @@ void prove_limit(void)
     number out;
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(inside(p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    assume(pid_may_limit(&c, p_d_ff));
     was = c;
     out = limit_and_remember(&c, &signals);
     integral = limited(&was, candidate);
@@ -360,14 +391,18 @@ signal_word special_errors_contract(struct fixpid_pid *self,
     return (signal_word)error_of(self, weighted(self, setpoint), measurement);
 }
 
+// As `differentiate` claims of the derivative's term, with the product in it.
+static number assume_derivative(const struct fixpid_pid *x, number input)
+{
+    assume(inside(derivative_of(x, input), -D_MAX, D_MAX));
+    return derivative_of(x, input);
+}
+
 void differentiate_contract(struct fixpid_pid *self, struct signals *signals)
 {
-    const number d = derivative_of(self, signals->derivative_input);
+    const number d = assume_derivative(self, signals->derivative_input);
 
-    pre(self->kd <= FIXPID_PID_KD_MAX);
-    pre(inside(self->derivative, -D_MAX, D_MAX));
-    pre(sound_previous(self));
-    assume(inside(d, -D_MAX, D_MAX));
+    pre(pid_may_differentiate(self));
     self->derivative = (int32_t)d;
     self->previous = signals->derivative_input;
 }
@@ -388,17 +423,13 @@ static void leave(const struct fixpid_pid *self, struct signals *signals,
 
 void integrate_contract(struct fixpid_pid *self, struct signals *signals)
 {
-    pre(sound_settings(self));
-    pre(inside(whole(self), self->integral_min * PART,
-               self->integral_max * PART));
+    pre(pid_may_integrate(self));
     leave(self, signals, whole(self) + change_of(self, signals->error));
 }
 
 void take_over_contract(struct fixpid_pid *self, struct signals *signals)
 {
-    pre(sound_settings(self));
-    pre(((uint32_t)self->integral & 0xFFFFu) == 0u);
-    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    pre(pid_may_take_over(self, signals->p_d_ff));
     leave(self, signals, taken_over(self, signals->p_d_ff));
     signals->error = 0;
 }
@@ -410,8 +441,7 @@ int16_t limit_and_remember_contract(struct fixpid_pid *self,
     const number integral = limited(self, candidate);
     const number u = sum_of(signals->p_d_ff, integral);
 
-    pre(sound_settings(self));
-    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    pre(pid_may_limit(self, signals->p_d_ff));
     self->status = (uint8_t)flags_of(self, candidate, u);
     if (!forgets(self, u, signals->error)) {
         self->integral = (int32_t)floor_by(integral, 8);
@@ -438,7 +468,7 @@ void prove_composed(void)
     number out;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     out = fixpid_pid_step(&c, setpoint, measurement);
 
@@ -457,7 +487,7 @@ void prove_composed(void)
     claim(c.output == (HAS(FIXPID_PID_HAS_TRACK, 1u) ? out : was.output));
     claim(inside(out, c.output_min, c.output_max));
     claim(same_settings(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
     if ((was.status & HOLDING & FIXPID_PID_MANUAL) != 0u) {
         claim(out == floor_by(was.integral, 16));
         claim(whole(&c) == whole(&was));
@@ -486,11 +516,38 @@ static void assume_rises(uint16_t gain, number x, number higher)
     assume(TIMES(gain, x) <= TIMES(gain, higher));
 }
 
-// Of signals with the same measurement, those with the lower error first.
-static bool in_order(const struct fixpid_pid *x, number setpoint, number other)
+// Domain: the second setpoint has no lower error, with the same measurement.
+static bool pid_is_in_order(const struct fixpid_pid *x, number setpoint,
+                            number other)
 {
     return ((x->options & MIRRORED) != 0u) ? (setpoint >= other)
                                            : (setpoint <= other);
+}
+
+// Domain: the second step has no lower error, and no higher input of its
+// derivative.
+static bool pid_errors_rise(const struct signals *lower,
+                            const struct signals *higher)
+{
+    return (higher->error >= lower->error) &&
+           (higher->derivative_input <= lower->derivative_input);
+}
+
+// Domain: the second step has no lower integral before its limits.
+static bool pid_candidates_rise(const struct fixpid_pid *x,
+                                const struct signals *lower,
+                                const struct signals *higher)
+{
+    return limited(x, candidate_of(higher)) >= limited(x, candidate_of(lower));
+}
+
+// Domain: the second step has no lower sum of the other terms, and legal gains
+// can make both.
+static bool pid_sums_rise(const struct signals *lower,
+                          const struct signals *higher)
+{
+    return inside(lower->p_d_ff, -P_D_FF_MAX, higher->p_d_ff) &&
+           (higher->p_d_ff <= P_D_FF_MAX);
 }
 
 // By contract: mul16.
@@ -502,7 +559,7 @@ void prove_errors_rise(void)
 
     higher.setpoint = nondet_int16();
     c = nondet_pid();
-    assume(in_order(&c, lower.setpoint, higher.setpoint));
+    assume(pid_is_in_order(&c, lower.setpoint, higher.setpoint));
     if (lower.setpoint <= higher.setpoint) {
         assume_rises(c.setpoint_weight, lower.setpoint, higher.setpoint);
     } else {
@@ -510,8 +567,7 @@ void prove_errors_rise(void)
     }
     p_error = special_errors(&c, &lower);
     claim(special_errors(&c, &higher) >= p_error);
-    claim(higher.error >= lower.error);
-    claim(higher.derivative_input <= lower.derivative_input);
+    claim(pid_errors_rise(&lower, &higher));
 }
 
 // By contract: mul16.
@@ -523,10 +579,8 @@ void prove_derivative_rises(void)
     number previous;
 
     c = nondet_pid();
-    assume(c.kd <= FIXPID_PID_KD_MAX);
-    assume(inside(c.derivative, -D_MAX, D_MAX));
-    assume(sound_previous(&c));
-    assume(higher.derivative_input <= lower.derivative_input);
+    assume(pid_may_differentiate(&c));
+    assume(pid_errors_rise(&lower, &higher));
     other = c;
     if ((c.status & FIXPID_PID_FIRST) == 0u) {
         previous = c.previous;
@@ -545,14 +599,12 @@ void prove_candidate_rises(void)
     struct signals higher = any_signals();
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(inside(whole(&c), c.integral_min * PART, c.integral_max * PART));
-    assume(higher.error >= lower.error);
+    assume(pid_may_integrate(&c));
+    assume(pid_errors_rise(&lower, &higher));
     assume_rises(c.ki, lower.error, higher.error);
     integrate(&c, &lower);
     integrate(&c, &higher);
-    claim(limited(&c, candidate_of(&higher)) >=
-          limited(&c, candidate_of(&lower)));
+    claim(pid_candidates_rise(&c, &lower, &higher));
 }
 
 // Where either the sum or the candidate is the same: what rises with each
@@ -565,18 +617,15 @@ void prove_limit_rises(void)
     number out;
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(inside(lower.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
-    assume(inside(higher.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    assume(pid_is_set(&c));
     if (nondet_bool()) {
         higher.p_d_ff = lower.p_d_ff;
-        assume(limited(&c, candidate_of(&higher)) >=
-               limited(&c, candidate_of(&lower)));
     } else {
         higher.integral = lower.integral;
         higher.fraction = lower.fraction;
-        assume(higher.p_d_ff >= lower.p_d_ff);
     }
+    assume(pid_candidates_rise(&c, &lower, &higher));
+    assume(pid_sums_rise(&lower, &higher));
     other = c;
     out = limit_and_remember(&c, &lower);
     claim(limit_and_remember(&other, &higher) >= out);
@@ -591,10 +640,8 @@ void prove_held_rises(void)
     number out;
 
     c = nondet_pid();
-    assume(sound_settings(&c));
-    assume(((uint32_t)c.integral & 0xFFFFu) == 0u);
-    assume(inside(lower.p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
-    assume(inside(higher.p_d_ff, lower.p_d_ff, P_D_FF_MAX));
+    assume(pid_may_take_over(&c, lower.p_d_ff));
+    assume(pid_sums_rise(&lower, &higher));
     other = c;
     take_over(&c, &lower);
     take_over(&other, &higher);
@@ -687,7 +734,7 @@ void prove_init(void)
     claim(refused(&c) == !legal);
     claim(((fixpid_pid_flags(&c) & FIXPID_PID_REFUSED) != 0u) == !legal);
     claim(at_rest(&c));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
     if (legal) {
         const uint16_t b = config.setpoint_weight_q8;
 
@@ -740,7 +787,7 @@ void prove_set_gains(void)
     bool legal;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     legal = !refused(&was) && legal_gains(&gains);
     claim(fixpid_pid_set_gains(&c, &gains) == legal);
@@ -753,7 +800,7 @@ void prove_set_gains(void)
         was.options = c.options;
     }
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 
 // By contract: mul16.
@@ -765,7 +812,7 @@ void prove_set_limits(void)
     bool legal;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     legal = !refused(&was) && (low < high);
     claim(fixpid_pid_set_limits(&c, low, high) == legal);
@@ -790,7 +837,7 @@ void prove_set_limits(void)
         was.integral_fraction = c.integral_fraction;
     }
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 
 void prove_set_integral_limits(void)
@@ -801,7 +848,7 @@ void prove_set_integral_limits(void)
     bool legal;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     legal = !refused(&was) && legal_range(low, high);
     claim(fixpid_pid_set_integral_limits(&c, low, high) == legal);
@@ -815,7 +862,7 @@ void prove_set_integral_limits(void)
         }
     }
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 
 #if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
@@ -826,7 +873,7 @@ void prove_modes(void)
     number held;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     held = clamp(value, was.output_min, was.output_max);
     if (nondet_bool()) {
@@ -853,7 +900,7 @@ void prove_modes(void)
     was.integral_fraction = c.integral_fraction;
     was.status = c.status;
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 #endif
 
@@ -863,13 +910,12 @@ void prove_reset(void)
 
     c = nondet_pid(); // also of what is not sound
     was = c;
-    assume(was.integral_min <= was.integral_max);
+    assume(pid_may_reset(&was));
     fixpid_pid_reset(&c);
     claim(at_rest(&c));
     was.feedforward = 0;
     claim(same_settings(&c, &was));
-    assume(sound_settings(&was));
-    claim(sound(&c));
+    claim(!pid_is_set(&was) || pid_is_sound(&c));
 }
 
 #if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
@@ -881,7 +927,7 @@ void prove_track(void)
     struct fixpid_pid was;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     fixpid_pid_track(&c, applied, shift);
     if (!refused(&was) && ((was.status & FIXPID_PID_FIRST) == 0u)) {
@@ -900,7 +946,7 @@ void prove_track(void)
     }
     claim(fixpid_pid_output(&c) == was.output);
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 #endif
 
@@ -955,7 +1001,7 @@ void prove_step_error(void)
     number input;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     (void)fixpid_pid_step_error(&c, error, rise);
     e = error_of(&was, error, 0);
@@ -994,7 +1040,7 @@ void prove_step_exact(void)
     number input;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     (void)fixpid_pid_step_error(&c, (int32_t)r - y,
                                 (int32_t)((number)y - seen_by(&was)));
@@ -1013,7 +1059,7 @@ void prove_read(void)
     struct fixpid_pid was;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     claim(fixpid_pid_proportional(&c) ==
           TIMES(c.kp, (number)c.proportional_error));
@@ -1049,13 +1095,27 @@ static bool known(uint8_t flags, number feedforward)
            (HAS(FIXPID_PID_HAS_FEEDFORWARD, true) || (feedforward == 0));
 }
 
+// Domain: a sound object that was accepted, with flags that exist and nothing
+// of a feature that is left out.
+static bool pid_is_known(const struct fixpid_pid *x)
+{
+    return pid_is_sound(x) && !refused(x) && known(x->status, x->feedforward);
+}
+
+// Domain: a sound object with the settings of another.
+static bool pid_is_of(const struct fixpid_pid *x,
+                      const struct fixpid_pid *other)
+{
+    return pid_is_sound(x) && same_settings(x, other);
+}
+
 void prove_state(void)
 {
     struct state state = nondet_state();
     struct fixpid_pid was;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     fixpid_pid_state(&c, state.bytes);
     claim(number_at(&state, 0, 2) == c.output);
@@ -1083,7 +1143,7 @@ void prove_restore(void)
     bool possible;
 
     c = nondet_pid();
-    assume(sound(&c));
+    assume(pid_is_sound(&c));
     was = c;
     if ((flags & HOLDING) != 0u) {
         possible = ((integral & 0xFFFF) == 0) &&
@@ -1108,7 +1168,7 @@ void prove_restore(void)
         was.proportional_error = (int16_t)number_at(&state, 16, 2);
     }
     claim(same(&c, &was));
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 
 // A controller of the same settings, in any state, is the same afterwards.
@@ -1118,12 +1178,12 @@ void prove_going_on(void)
     struct fixpid_pid was;
 
     c = nondet_pid();
-    assume(sound(&c) && !refused(&c) && known(c.status, c.feedforward));
+    assume(pid_is_known(&c));
     was = c;
     fixpid_pid_state(&c, state.bytes);
     c = nondet_pid();
     c.feedforward = was.feedforward;
-    assume(sound(&c) && same_settings(&c, &was));
+    assume(pid_is_of(&c, &was));
     c.feedforward = nondet_int16();
     claim(fixpid_pid_restore(&c, state.bytes));
     claim(same(&c, &was));
@@ -1132,10 +1192,10 @@ void prove_going_on(void)
 void prove_refused(void)
 {
     c = nondet_pid();
-    assume(sound(&c));
-    assume(refused(&c));
+    c.output_max = c.output_min;
+    assume(pid_is_sound(&c));
     claim(fixpid_pid_step(&c, nondet_int16(), nondet_int16()) == 0);
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
 }
 
 static void claim_output(int16_t out)

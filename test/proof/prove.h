@@ -3,6 +3,11 @@
 // arguments: it takes any values, assumes what is known of them, calls the code
 // and claims what must hold. CBMC then looks for values that break a claim or
 // make the code do what C leaves undefined, and shows that there are none.
+//
+// What may be assumed is a function of its module that says in words what it
+// holds of (`// Domain: ...`), the range of one value that is any, or, in a
+// function `assume_...`, what is known of a product that is replaced:
+// tools/lib/prove/harness_rules.rb refuses anything else.
 #ifndef PROVE_H
 #define PROVE_H
 #include <stdbool.h>
@@ -62,7 +67,7 @@ static number trunc_by(number x, unsigned bits)
 // trying all its operands (primitives.c), which a solver is slow at.
 uint32_t __CPROVER_uninterpreted_product(uint16_t a, uint16_t b);
 
-static uint32_t magnitudes(uint16_t a, uint16_t b, uint32_t most)
+static uint32_t assume_product(uint16_t a, uint16_t b, uint32_t most)
 {
     const uint32_t p = __CPROVER_uninterpreted_product(a, b);
 
@@ -74,8 +79,8 @@ static uint32_t magnitudes(uint16_t a, uint16_t b, uint32_t most)
 // gain * x in that way. pre: |x| <= 65535
 static number times(uint16_t gain, number x, uint32_t most)
 {
-    return (x < 0) ? -(number)magnitudes(gain, (uint16_t)-x, most)
-                   : (number)magnitudes(gain, (uint16_t)x, most);
+    return (x < 0) ? -(number)assume_product(gain, (uint16_t)-x, most)
+                   : (number)assume_product(gain, (uint16_t)x, most);
 }
 
 // The precondition of a primitive that a proof replaces by its contract.
@@ -95,6 +100,7 @@ static number ones(number bits)
 // loop ends with any last turn.
 static unsigned turns_seen;
 
+// Domain: in a loop of turns, the first one that is asked for.
 static bool begins(void)
 {
     return turns_seen == 0u;
@@ -102,7 +108,7 @@ static bool begins(void)
 
 static void any_turn(void)
 {
-    assume(turns_seen == 0u);
+    assume(begins());
     turns_seen++;
 }
 

@@ -11,9 +11,9 @@ struct fixpid_slew nondet_slew(void);
 
 #define ONE ((number)65536) // a count
 
-// What init establishes from any bytes and every function keeps: the value lies
-// within the counts.
-static bool sound(const struct fixpid_slew *x)
+// What init establishes from any bytes and every function keeps.
+// Domain: the value lies within the counts.
+static bool slew_is_sound(const struct fixpid_slew *x)
 {
     return inside(x->value, INT16_MIN * ONE, INT16_MAX * ONE);
 }
@@ -27,7 +27,7 @@ void prove_step(void)
     number out;
 
     c = nondet_slew();
-    assume(sound(&c));
+    assume(slew_is_sound(&c));
     was = c;
     out = fixpid_slew_step(&c, target);
     value = was.value + clamp((target * ONE) - was.value, -(number)was.fall_q16,
@@ -36,7 +36,7 @@ void prove_step(void)
     claim(fixpid_slew_value(&c) == value);
     claim(out == floor_by(value + (ONE / 2), 16));
     claim((c.rise_q16 == was.rise_q16) && (c.fall_q16 == was.fall_q16));
-    claim(sound(&c));
+    claim(slew_is_sound(&c));
 }
 
 void prove_setters(void)
@@ -51,12 +51,12 @@ void prove_setters(void)
     if (nondet_bool()) {
         fixpid_slew_init(&c, rise, fall);
         claim((c.value == 0) && (c.rise_q16 == rise) && (c.fall_q16 == fall));
-        claim(sound(&c));
+        claim(slew_is_sound(&c));
     } else if (nondet_bool()) {
         fixpid_slew_reset(&c);
         claim((c.value == 0) && (c.rise_q16 == was.rise_q16) &&
               (c.fall_q16 == was.fall_q16));
-        claim(sound(&c));
+        claim(slew_is_sound(&c));
     } else if (nondet_bool()) {
         fixpid_slew_set_rates(&c, rise, fall);
         claim((c.value == was.value) && (c.rise_q16 == rise) &&
@@ -65,7 +65,7 @@ void prove_setters(void)
         fixpid_slew_seed(&c, value);
         claim((c.value == value * ONE) && (c.rise_q16 == was.rise_q16) &&
               (c.fall_q16 == was.fall_q16));
-        claim(sound(&c));
+        claim(slew_is_sound(&c));
     }
 }
 

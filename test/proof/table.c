@@ -28,9 +28,10 @@ static struct fixpid_table_point points[MOST];
 
 static struct fixpid_table any_table(void)
 {
-    struct fixpid_table table = {points, nondet_uint8()};
+    const uint8_t count = nondet_uint8();
+    const struct fixpid_table table = {points, count};
 
-    assume(table.count <= MOST);
+    assume(count <= MOST);
     for (unsigned i = 0; i < MOST; i++) {
         points[i].x = nondet_int16();
         points[i].y = nondet_int16();
@@ -38,7 +39,8 @@ static struct fixpid_table any_table(void)
     return table;
 }
 
-static bool in_order(const struct fixpid_table *table)
+// Domain: each point has a greater x than the one before.
+static bool table_is_in_order(const struct fixpid_table *table)
 {
     for (unsigned i = 1; i < table->count; i++) {
         if (points[i].x <= points[i - 1].x) {
@@ -48,12 +50,18 @@ static bool in_order(const struct fixpid_table *table)
     return true;
 }
 
+// Domain: the run is at least 1, and the part at most the run.
+static bool table_is_part(number part, number run)
+{
+    return (run >= 1) && (part <= run);
+}
+
 // floor(rise * part / run + 1/2), of which is known here only that it is one
 // function, is 0..rise, and all or nothing at the ends.
 uint16_t __CPROVER_uninterpreted_rise(uint16_t rise, uint16_t part,
                                       uint16_t run);
 
-static uint16_t part_of(number rise, number part, number run)
+static uint16_t assume_part(number rise, number part, number run)
 {
     const uint16_t q = __CPROVER_uninterpreted_rise(
         (uint16_t)rise, (uint16_t)part, (uint16_t)run);
@@ -66,9 +74,8 @@ static uint16_t part_of(number rise, number part, number run)
 
 uint16_t rise_at_contract(uint16_t rise, uint16_t part, uint16_t run)
 {
-    pre(run >= 1);
-    pre(part <= run);
-    return part_of(rise, part, run);
+    pre(table_is_part(part, run));
+    return assume_part(rise, part, run);
 }
 
 // A line rises from its lower end.
@@ -78,8 +85,8 @@ static number height(struct fixpid_table_point a, struct fixpid_table_point b,
     const number run = (number)b.x - a.x;
 
     return (a.y <= b.y)
-               ? (number)a.y + part_of((number)b.y - a.y, x - a.x, run)
-               : (number)b.y + part_of((number)a.y - b.y, b.x - x, run);
+               ? (number)a.y + assume_part((number)b.y - a.y, x - a.x, run)
+               : (number)b.y + assume_part((number)a.y - b.y, b.x - x, run);
 }
 
 static bool between_two(const struct fixpid_table *table, number y)
@@ -104,11 +111,10 @@ void prove_at(void)
     const uint8_t i = nondet_uint8();
     int16_t y;
 
-    assume(in_order(&table));
+    assume(table_is_in_order(&table));
     y = fixpid_table_at(&table, x);
     claim((table.count != 0) || (y == 0));
-    assume(i < table.count);
-    if ((i == 0) && (x <= points[0].x)) {
+    if ((table.count != 0) && (x <= points[0].x)) {
         claim(y == points[0].y);
     }
     if ((i == table.count - 1) && (x >= points[i].x)) {
@@ -135,7 +141,7 @@ void prove_valid(void)
     const struct fixpid_table table = any_table();
 
     claim(fixpid_table_valid(&table) ==
-          ((table.count >= 2) && in_order(&table)));
+          ((table.count >= 2) && table_is_in_order(&table)));
 }
 
 // Whatever it divides, it ends and does nothing undefined.
@@ -144,7 +150,7 @@ void prove_rise_at(void)
     const uint16_t run = nondet_uint16();
     const uint16_t part = nondet_uint16();
 
-    assume((run >= 1) && (part <= run));
+    assume(table_is_part(part, run));
     (void)rise_at(nondet_uint16(), part, run);
 }
 
@@ -162,14 +168,21 @@ static struct {
 static number run_of;
 static number dividend;
 
-// rise * part, with a part of the run at most
+// rise * part, with a part of the run at most: it may be any such number.
+uint32_t __CPROVER_uninterpreted_dividend(uint16_t a, uint16_t b);
+
+static uint32_t assume_dividend(uint16_t a, uint16_t b)
+{
+    const uint32_t p = __CPROVER_uninterpreted_dividend(a, b);
+
+    assume(p <= (run_of << 16) - run_of);
+    return p;
+}
+
 uint32_t product_contract(uint16_t a, uint16_t b)
 {
-    const uint32_t p = nondet_uint32();
+    const uint32_t p = assume_dividend(a, b);
 
-    (void)a;
-    (void)b;
-    assume(p <= (run_of << 16) - run_of);
     dividend = p + floor_by(run_of, 1);
     return p;
 }
@@ -180,6 +193,13 @@ static bool is_divided(number rest, number low, number turns)
 {
     return inside(turns, 0, 16) && (rest < run_of) &&
            (floor_by(low, (unsigned)(16 - turns)) == (dividend & ones(turns)));
+}
+
+// Domain: a turn of a division by hand: the rest is below the run, and the
+// lower bits are those of the dividend.
+static bool table_may_divide(number rest, number low, number turns)
+{
+    return (turns != 0) && is_divided(rest, low, turns);
 }
 
 // Long division: the rest and the next bit of the dividend are the next rest,
@@ -202,7 +222,7 @@ static bool rise_turn(uint16_t *rest, uint16_t *low, uint8_t *turn,
     *rest = nondet_uint16();
     *low = nondet_uint16();
     *turn = nondet_uint8();
-    assume((*turn != 0u) && is_divided(*rest, *low, *turn));
+    assume(table_may_divide(*rest, *low, *turn));
     began.turns = *turn;
     began.rest = *rest;
     began.quotient = *low & ones(16 - (number)*turn);
@@ -217,7 +237,7 @@ void prove_rise(void)
     const uint16_t part = nondet_uint16();
     number found;
 
-    assume((run >= 1) && (part <= run));
+    assume(table_is_part(part, run));
     run_of = run;
     found = rise_at(nondet_uint16(), part, run);
     claim((began.turns == 1) &&
@@ -228,12 +248,17 @@ void prove_rise(void)
 // A product of bytes, of which is known that it is one function.
 uint16_t __CPROVER_uninterpreted_bytes(uint8_t a, uint8_t b);
 
-uint16_t fixpid_8x8_contract(uint8_t a, uint8_t b)
+static uint16_t assume_bytes(uint8_t a, uint8_t b)
 {
     const uint16_t p = __CPROVER_uninterpreted_bytes(a, b);
 
     assume(p <= 255u * 255u);
     return p;
+}
+
+uint16_t fixpid_8x8_contract(uint8_t a, uint8_t b)
+{
+    return assume_bytes(a, b);
 }
 
 static uint16_t a;
@@ -244,6 +269,13 @@ static bool is_multiplied(number sum, number turns)
 {
     return inside(turns, 0, 16) &&
            ((sum & ones(turns)) == floor_by(b, (unsigned)(16 - turns)));
+}
+
+// Domain: a turn of a product by hand: the lower bits are those of b that are
+// left.
+static bool table_may_multiply(number sum, number turns)
+{
+    return (turns != 0) && is_multiplied(sum, turns);
 }
 
 static bool product_turn(uint32_t *sum, uint8_t *turn)
@@ -257,7 +289,7 @@ static bool product_turn(uint32_t *sum, uint8_t *turn)
     any_turn();
     *sum = nondet_uint32();
     *turn = nondet_uint8();
-    assume((*turn != 0u) && is_multiplied(*sum, *turn));
+    assume(table_may_multiply(*sum, *turn));
     began.turns = *turn;
     began.sum = floor_by(*sum, *turn);
     began.bit = *sum & 1;

@@ -11,10 +11,26 @@ struct fixpid_tpo_config nondet_tpo_config(void);
 #include "tpo/fixpid_tpo.c"
 #include "tpo/fixpid_tpo_check.c"
 
-static bool legal_config(const struct fixpid_tpo_config *config)
+// Domain: a configuration that init accepts: full is at least 1, the window has
+// 1 to 32767 steps, and the shortest pulse and the shortest gap fit into it.
+static bool tpo_is_legal(const struct fixpid_tpo_config *config)
 {
     return (config->full >= 1) && inside(config->window, 1, 32767) &&
            ((number)config->minimum_on + config->minimum_off <= config->window);
+}
+
+// Domain: before the first step of a window: full is at least 1, and the credit
+// is from -32766 * 32767 to 32767 * 32767.
+static bool tpo_is_between(const struct fixpid_tpo *x)
+{
+    return (x->full >= 1) && (x->left == 0u) &&
+           inside(x->credit, -(number)32766 * 32767, (number)32767 * 32767);
+}
+
+// Domain: within a window: full is at least 1, and everything else is any.
+static bool tpo_is_within(const struct fixpid_tpo *x)
+{
+    return (x->full >= 1) && (x->left != 0u);
 }
 
 // What init makes of a configuration. The products are those of 32 bits, as in
@@ -40,9 +56,9 @@ void prove_init(void)
     const struct fixpid_tpo_config config = nondet_tpo_config();
 
     c = nondet_tpo();
-    claim(fixpid_tpo_init(&c, &config) == legal_config(&config));
+    claim(fixpid_tpo_init(&c, &config) == tpo_is_legal(&config));
     claim(at_rest(&c));
-    if (legal_config(&config)) {
+    if (tpo_is_legal(&config)) {
         claim(configured(&c, &config));
     } else {
         claim((c.full == 0) && !fixpid_tpo_step(&c, nondet_int16()));
@@ -85,7 +101,7 @@ void prove_reset(void)
 // `full` with each step, and with the number of steps.
 uint32_t __CPROVER_uninterpreted_of_full(uint16_t steps);
 
-static number of_full(number steps)
+static number assume_of_full(number steps)
 {
     const number p = __CPROVER_uninterpreted_of_full((uint16_t)steps);
 
@@ -94,14 +110,26 @@ static number of_full(number steps)
     return p;
 }
 
+static number of_full(number steps)
+{
+    return assume_of_full(steps);
+}
+
 static void assume_growth(number steps, number than)
 {
     assume((steps > than) || (of_full(steps) <= of_full(than)));
     assume((steps < than) || (of_full(steps) >= of_full(than)));
 }
 
-// The first step of a window makes a pulse of what is owed. floor(owed / full)
-// is `steps`: any number that has its two inequalities.
+// floor(owed / full) is `steps`: any number that has its two inequalities.
+static void assume_quotient(number steps, number owed, number full)
+{
+    assume(of_full(1) == full);
+    assume((owed < 0) || (of_full(steps) <= owed));
+    assume((owed < 0) || (of_full(steps + 1) > owed));
+}
+
+// The first step of a window makes a pulse of what is owed.
 void prove_open(void)
 {
     const struct fixpid_tpo_config config = nondet_tpo_config();
@@ -114,25 +142,22 @@ void prove_open(void)
     number pulse;
     bool out;
 
+    assume(tpo_is_legal(&config));
     c = nondet_tpo();
-    assume(legal_config(&config));
-    assume((c.full == full) && (c.window == window) && (c.left == 0u));
-    assume(c.pulse_least == of_full(pulse_least));
-    assume(c.whole_least == of_full(whole_least));
+    c.full = config.full;
+    c.window = config.window;
+    c.left = 0;
+    c.pulse_least = (int32_t)of_full(pulse_least);
+    c.whole_least = (int32_t)of_full(whole_least);
     out = fixpid_tpo_step(&c, nondet_int16());
     owed = c.credit + (out ? full : 0);
 
-    assume(steps <= 65534);
-    assume(of_full(steps + 1) == of_full(steps) + full);
-    assume(of_full(1) == full);
+    assume_quotient(steps, owed, full);
     assume_growth(1, steps);
     assume_growth(pulse_least, steps);
     assume_growth(pulse_least, steps + 1);
     assume_growth(whole_least, steps);
     assume_growth(whole_least, steps + 1);
-    assume((owed < 0)
-               ? (steps == 0)
-               : ((of_full(steps) <= owed) && (owed < of_full(steps + 1))));
     pulse = (owed < 0) ? 0 : steps;
     if (pulse < config.minimum_on) {
         pulse = 0;
@@ -161,9 +186,8 @@ void prove_owed(void)
         bool out;
 
         c = nondet_tpo();
-        assume((c.full >= 1) && (c.left == 0u));
+        assume(tpo_is_between(&c));
         c.window = (uint16_t)(1u << bits);
-        assume(inside(c.credit, -(number)32766 * 32767, (number)32767 * 32767));
         was = c;
         out = fixpid_tpo_step(&c, duty);
         claim((number)c.credit + (out ? was.full : 0) ==
@@ -178,7 +202,7 @@ void prove_later(void)
     bool out;
 
     c = nondet_tpo();
-    assume((c.full >= 1) && (c.left != 0u));
+    assume(tpo_is_within(&c));
     was = c;
     out = fixpid_tpo_step(&c, nondet_int16());
     claim(out ==

@@ -137,15 +137,18 @@ if mode == 'coverage'
   exit(reached?(chosen) && covered ? 0 : 1)
 end
 seeded = Seeded.all(proofs)
-breaks = seeded.select { |broken| chosen.include?(broken.proof) }
-breaks = breaks.uniq(&:proof) if mode == 'quick'
 complaints = Proofs.complaints(proofs) + Seeded.complaints(proofs, seeded) + Reach.complaints(proofs)
 complaints.each { |complaint| puts "FAILED #{complaint}" }
 proved = all_good?(chosen) { |proof| prove(proof) }
+if mode == 'quick'
+  puts "#{chosen.size} proofs"
+  exit(proved && complaints.empty? ? 0 : 1)
+end
+breaks = seeded.select { |broken| chosen.include?(broken.proof) }
 noticed = all_good?(breaks) { |broken| refute(broken) }
 choice = Choice.new(proofs, chosen, BUILD)
 drawn = all_good?(choice.places) { |place| choice.judge(place) }
-reached = reached?(mode == 'quick' ? chosen.select(&:theorem?) : chosen)
-covered = mode == 'quick' || !words.empty? || covered?(proofs, words)
+reached = reached?(chosen)
+covered = !words.empty? || covered?(proofs, words)
 puts "#{chosen.size} proofs, #{breaks.size} breaks, and those of #{choice.places.size} functions"
 exit(proved && noticed && drawn && reached && covered && complaints.empty? ? 0 : 1)

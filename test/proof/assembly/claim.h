@@ -19,15 +19,18 @@
 #ifdef PRODUCTS_SHARED
 uint16_t __CPROVER_uninterpreted_product(uint8_t smaller, uint8_t larger);
 
-static uint16_t bytes_product(uint8_t a, uint8_t b)
+static uint16_t assume_product(uint8_t smaller, uint8_t larger)
 {
-    const uint8_t smaller = (a < b) ? a : b;
-    const uint8_t larger = (a < b) ? b : a;
     const uint16_t product = __CPROVER_uninterpreted_product(smaller, larger);
 
     __CPROVER_assume(product <= 255u * (unsigned)smaller);
     __CPROVER_assume(product <= 255u * (unsigned)larger);
     return product;
+}
+
+static uint16_t bytes_product(uint8_t a, uint8_t b)
+{
+    return (a < b) ? assume_product(a, b) : assume_product(b, a);
 }
 
 #define fixpid_8x8 fixpid_8x8_of_src

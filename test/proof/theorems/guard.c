@@ -76,6 +76,44 @@ static bool calls_another(void)
     return false;
 }
 
+// Domain: as many readings in a row were outside as the guard has counted, or
+// more.
+static bool guard_counts_outside(number outside)
+{
+    return outside >= c.strikes;
+}
+
+// Domain: the guard counts equal readings up to `patience`; from there it
+// counts those with the output away from where it was then.
+static bool guard_counts_equal(number equal, number away, number began)
+{
+    if (equal < c.patience) {
+        return (away == 0) && (c.run == equal);
+    }
+    return ((away == 0) || (equal >= c.patience + away)) &&
+           (c.run == c.patience + away) && (c.hold == began);
+}
+
+// Domain: the guard has the last side and the setpoint that a reader has noted,
+// and no more crossings; while the loop is settled there is no last side.
+static bool guard_counts_crossed(number crossed, unsigned side, number anchor)
+{
+    return (crossed >= c.swings) && (((c.state >> 2) & 3u) == side) &&
+           (c.anchor == anchor) &&
+           (((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == WITHIN));
+}
+
+// Domain: outside the band the loop is not settled; within it the guard has
+// counted no more steps than there were, and it is settled after `patience`.
+static bool guard_counts_within(number within)
+{
+    const bool settled = (c.flags & FIXPID_GUARD_SETTLED) != 0u;
+
+    return (((c.state & WHERE) != WITHIN) ? !settled
+                                          : (counted(&c) <= within)) &&
+           (!settled || (within >= c.patience));
+}
+
 // Theorem: FIXPID_GUARD_SENSOR_LOW and FIXPID_GUARD_SENSOR_HIGH come up only
 // after four readings in a row outside measurement_min..measurement_max, of
 // which the last is below or above.
@@ -89,7 +127,8 @@ void prove_flag_sensor(void)
         return;
     }
     c = nondet_guard();
-    assume(sound(&c) && (outside >= c.strikes));
+    assume(guard_is_sound(&c));
+    assume(guard_counts_outside(outside));
     if (!calls_another()) {
         step();
         outside = inside(y, was.measurement_min, was.measurement_max)
@@ -102,7 +141,7 @@ void prove_flag_sensor(void)
             claim((outside >= 4) && (y > was.measurement_max));
         }
     }
-    claim(outside >= c.strikes);
+    claim(guard_counts_outside(outside));
 }
 
 // Theorem: FIXPID_GUARD_FROZEN comes up only after `patience` equal readings
@@ -121,11 +160,8 @@ void prove_flag_frozen(void)
         return;
     }
     c = nondet_guard();
-    assume(sound(&c));
-    assume((away == 0) || (equal >= c.patience + away));
-    assume((equal < c.patience)
-               ? ((c.run == equal) && (away == 0))
-               : ((c.run == c.patience + away) && (c.hold == began)));
+    assume(guard_is_sound(&c));
+    assume(guard_counts_equal(equal, away, began));
     if (calls_another()) {
         equal = 0;
         away = 0;
@@ -157,10 +193,7 @@ void prove_flag_frozen(void)
         }
         claim(c.last == y);
     }
-    claim((away == 0) || (equal >= c.patience + away));
-    claim((equal < c.patience)
-              ? ((c.run == equal) && (away == 0))
-              : ((c.run == c.patience + away) && (c.hold == began)));
+    claim(guard_counts_equal(equal, away, began));
 }
 
 // Whether the output is at the end that pushes the reading out of a zone.
@@ -183,15 +216,18 @@ static struct pushed {
     number down;
 } pushed;
 
-static bool is_noted(void)
+// Domain: outside the band the guard has counted no more steps with the output
+// at that end than there were since the farthest reading; within it, no more
+// than there were at the end that it watches.
+static bool guard_counts_pushed(void)
 {
     const unsigned end = (c.state >> 4) & 3u;
 
     if ((c.state & WHERE) != WITHIN) {
         return (counted(&c) <= pushed.outside) && (c.mark == pushed.farthest);
     }
-    return (counted(&c) >= 0) ||
-           (-counted(&c) <= ((end == UNDER) ? pushed.up : pushed.down));
+    return ((counted(&c) >= 0) ||
+            (-counted(&c) <= ((end == UNDER) ? pushed.up : pushed.down)));
 }
 
 static number less_one(number steps)
@@ -248,7 +284,8 @@ void prove_flag_stuck(void)
         return;
     }
     c = nondet_guard();
-    assume(sound(&c) && is_noted());
+    assume(guard_is_sound(&c));
+    assume(guard_counts_pushed());
     if (!calls_another()) {
         step();
         note_outside();
@@ -264,7 +301,7 @@ void prove_flag_stuck(void)
                       : ((zone == OVER) && (pushed.outside >= was.patience)));
         }
     }
-    claim(is_noted());
+    claim(guard_counts_pushed());
 }
 
 // Theorem: FIXPID_GUARD_OSCILLATING comes up only after the reading has gone
@@ -283,9 +320,8 @@ void prove_flag_oscillating(void)
         return;
     }
     c = nondet_guard();
-    assume(sound(&c) && (crossed >= c.swings));
-    assume((((c.state >> 2) & 3u) == side) && (c.anchor == anchor));
-    assume(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == WITHIN));
+    assume(guard_is_sound(&c));
+    assume(guard_counts_crossed(crossed, side, anchor));
     if (nondet_bool()) {
         fixpid_guard_acknowledge(&c);
     } else if (nondet_bool()) {
@@ -311,9 +347,7 @@ void prove_flag_oscillating(void)
             side = WITHIN;
         }
     }
-    claim(crossed >= c.swings);
-    claim((((c.state >> 2) & 3u) == side) && (c.anchor == anchor));
-    claim(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (side == WITHIN));
+    claim(guard_counts_crossed(crossed, side, anchor));
 }
 
 // Theorem: While FIXPID_GUARD_SETTLED is set, the reading is in the band, and
@@ -329,17 +363,11 @@ void prove_flag_settled(void)
         return;
     }
     c = nondet_guard();
-    assume(sound(&c));
-    assume(((c.state & WHERE) != WITHIN)
-               ? ((c.flags & FIXPID_GUARD_SETTLED) == 0u)
-               : (counted(&c) <= within));
-    assume(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (within >= c.patience));
+    assume(guard_is_sound(&c));
+    assume(guard_counts_within(within));
     if (!calls_another()) {
         step();
         within = (zone == WITHIN) ? ((zone_was == WITHIN) ? within + 1 : 1) : 0;
     }
-    claim(((c.state & WHERE) != WITHIN)
-              ? ((c.flags & FIXPID_GUARD_SETTLED) == 0u)
-              : (counted(&c) <= within));
-    claim(((c.flags & FIXPID_GUARD_SETTLED) == 0u) || (within >= c.patience));
+    claim(guard_counts_within(within));
 }

@@ -28,13 +28,11 @@ void prove_bumpless(void)
     number out;
 
     c = nondet_pid();
-    assume(sound(&c));
-    if (nondet_bool()) {
-        assume((c.status & FIXPID_PID_MANUAL) == 0u);
+    assume(pid_is_sound(&c));
+    if ((c.status & FIXPID_PID_MANUAL) == 0u) {
         held = clamp(value, c.output_min, c.output_max);
         fixpid_pid_seed(&c, value);
     } else {
-        assume((c.status & FIXPID_PID_MANUAL) != 0u);
         held = floor_by(fixpid_pid_integral(&c), 16);
         fixpid_pid_set_auto(&c);
     }
@@ -60,10 +58,10 @@ void prove_windup(void)
     uint8_t flags;
 
     c = nondet_pid();
-    assume(sound(&c) && !is_held(&c));
+    assume(pid_is_sound(&c));
     was = c;
     (void)fixpid_pid_step(&c, nondet_int16(), nondet_int16());
-    flags = fixpid_pid_flags(&c);
+    flags = is_held(&was) ? 0 : fixpid_pid_flags(&c);
     if ((flags & FIXPID_PID_AT_MAX) != 0u) {
         claim(whole(&c) <= whole(&was));
     }
@@ -87,7 +85,7 @@ void prove_integral_inside(void)
     if (nondet_bool()) {
         (void)fixpid_pid_init(&c, &config);
     } else {
-        assume(sound(&c));
+        assume(pid_is_sound(&c));
         switch (nondet_uint8()) {
         case 0:
             (void)fixpid_pid_step(&c, a, b);
@@ -127,7 +125,7 @@ void prove_integral_inside(void)
             break;
         }
     }
-    claim(sound(&c));
+    claim(pid_is_sound(&c));
     if (!is_held(&c)) {
         claim(within_limits(&c));
     }
@@ -150,7 +148,7 @@ void prove_mirror(void)
     of_direct.setpoint = mirrored(of_reverse.setpoint);
     of_direct.derivative_input = mirrored((int16_t)of_reverse.derivative_input);
     c = nondet_pid();
-    assume((c.options & (MIRRORED | SCALED)) == 0u);
+    c.options &= (uint8_t) ~(MIRRORED | SCALED);
     error = special_errors(&c, &of_direct);
     c.options |= MIRRORED;
     claim(special_errors(&c, &of_reverse) == error);
@@ -164,7 +162,6 @@ static struct {
     struct signals given;
     struct signals signals;
     number p_error;
-    number product;
     number derivative;
     number out;
     bool held;
@@ -174,97 +171,79 @@ static struct {
 signal_word special_errors_rise(struct fixpid_pid *self,
                                 struct signals *signals)
 {
-    const signal_word p_error = nondet_int16();
+    number p_error = nondet_int16();
 
-    if (first.over) {
-        pre(in_order(self, first.given.setpoint, signals->setpoint));
-        pre(signals->derivative_input == first.given.derivative_input);
-    } else {
+    if (!first.over) {
         first.given = *signals;
     }
+    pre(pid_is_in_order(self, first.given.setpoint, signals->setpoint));
+    pre(signals->derivative_input == first.given.derivative_input);
     signals->error = nondet_int16();
     signals->derivative_input = nondet_int16();
     if (first.over) {
-        assume(p_error >= first.p_error);
-        assume(signals->error >= first.signals.error);
-        assume(signals->derivative_input <= first.signals.derivative_input);
+        assume(pid_errors_rise(&first.signals, signals));
+        p_error = clamp(p_error, first.p_error, INT16_MAX);
     }
-    return p_error;
+    return (signal_word)p_error;
 }
 
 // As the true product does.
 int32_t mul16_rise(uint16_t gain, signal_word x)
 {
-    const int32_t product = (int32_t)TIMES(gain, (number)x);
-
     pre(gain <= 32767u);
     pre(inside(x, INT16_MIN, INT16_MAX));
-    if (first.over) {
-        pre(x >= first.p_error);
-        assume(product >= first.product);
+    if (!first.over) {
+        first.p_error = x;
     }
-    first.p_error = x;
-    first.product = product;
-    return product;
+    assume_rises(gain, first.p_error, x);
+    return (int32_t)TIMES(gain, (number)x);
 }
 
 void differentiate_rise(struct fixpid_pid *self, struct signals *signals)
 {
-    pre(self->kd <= FIXPID_PID_KD_MAX);
-    pre(inside(self->derivative, -D_MAX, D_MAX));
-    pre(sound_previous(self));
-    self->previous = signals->derivative_input;
-    self->derivative = nondet_int32();
-    assume(inside(self->derivative, -D_MAX, D_MAX));
-    if (first.over) {
-        pre(signals->derivative_input <= first.signals.derivative_input);
-        assume(self->derivative >= first.derivative);
-    } else {
+    const number least = first.over ? first.derivative : -D_MAX;
+
+    if (!first.over) {
         first.signals = *signals;
-        first.derivative = self->derivative;
     }
+    pre(pid_may_differentiate(self));
+    pre(pid_errors_rise(&first.signals, signals));
+    self->previous = signals->derivative_input;
+    first.derivative = clamp(nondet_int32(), least, D_MAX);
+    self->derivative = (int32_t)first.derivative;
 }
 
 void integrate_rise(struct fixpid_pid *self, struct signals *signals)
 {
-    pre(sound_settings(self));
-    pre(inside(whole(self), self->integral_min * PART,
-               self->integral_max * PART));
+    pre(pid_may_integrate(self));
+    pre(pid_errors_rise(&first.signals, signals));
     signals->integral = nondet_int32();
     signals->fraction = nondet_uint8();
     if (first.over) {
-        pre(signals->error >= first.signals.error);
-        assume(limited(self, candidate_of(signals)) >=
-               limited(self, candidate_of(&first.signals)));
+        assume(pid_candidates_rise(self, &first.signals, signals));
     }
 }
 
 // What it leaves is asked for together with limit_and_remember.
 void take_over_rise(struct fixpid_pid *self, struct signals *signals)
 {
-    pre(sound_settings(self));
-    pre(((uint32_t)self->integral & 0xFFFFu) == 0u);
-    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
+    pre(pid_may_take_over(self, signals->p_d_ff));
     first.held = true;
 }
 
 int16_t limit_and_remember_rise(struct fixpid_pid *self,
                                 struct signals *signals)
 {
-    const int16_t out = nondet_int16();
+    const number least = first.over ? first.out : INT16_MIN;
 
-    pre(sound_settings(self));
-    pre(inside(signals->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX));
-    if (first.over) {
-        pre(signals->p_d_ff >= first.signals.p_d_ff);
-        pre(first.held || (limited(self, candidate_of(signals)) >=
-                           limited(self, candidate_of(&first.signals))));
-        assume(out >= first.out);
-    } else {
+    pre(pid_may_limit(self, signals->p_d_ff));
+    if (!first.over) {
         first.signals = *signals;
-        first.out = out;
     }
-    return out;
+    pre(pid_sums_rise(&first.signals, signals));
+    pre(first.held || pid_candidates_rise(self, &first.signals, signals));
+    first.out = clamp(nondet_int16(), least, INT16_MAX);
+    return (int16_t)first.out;
 }
 
 // Theorem: From the same state and with the same measurement, a step with a
@@ -281,8 +260,8 @@ void prove_monotone(void)
     number out;
 
     c = nondet_pid();
-    assume(sound(&c));
-    assume(in_order(&c, setpoint, other_setpoint));
+    assume(pid_is_sound(&c));
+    assume(pid_is_in_order(&c, setpoint, other_setpoint));
     other = c;
     out = fixpid_pid_step(&c, setpoint, measurement);
     first.over = true;

@@ -19,7 +19,7 @@ void prove_slew_reaches(void)
     number out;
 
     c = nondet_slew();
-    assume(sound(&c));
+    assume(slew_is_sound(&c));
     before = fixpid_slew_value(&c);
     rate = (goal > before) ? c.rise_q16 : c.fall_q16;
     out = fixpid_slew_step(&c, target);
@@ -36,5 +36,5 @@ void prove_slew_reaches(void)
     } else {
         claim((fixpid_slew_value(&c) == goal) && (out == target));
     }
-    claim(sound(&c));
+    claim(slew_is_sound(&c));
 }

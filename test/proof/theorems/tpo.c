@@ -6,6 +6,12 @@ static struct fixpid_tpo_config config;
 // What all windows were asked for less what was given, full in each step on.
 static number owed;
 
+// Domain: less is left of the window than its length.
+static bool tpo_is_begun(const struct fixpid_tpo *x)
+{
+    return x->left < x->window;
+}
+
 static number least_on(void)
 {
     return (config.minimum_on == 0u) ? 1 : config.minimum_on;
@@ -22,9 +28,9 @@ static bool is_carry(number credit)
     return (credit < of_full(least_on())) && (credit > -of_full(least_off()));
 }
 
-// What is left of a window that is not over: a credit that is a carry at once,
-// or will be when the rest of the window is on, or a pulse that ends in time.
-static bool is_on_its_way(void)
+// Domain: the credit is less than the shortest pulse or gap; or it will be,
+// once the rest of the window is on; or the pulse ends in time for the gap.
+static bool tpo_is_on_its_way(void)
 {
     const number rest = of_full(c.left);
 
@@ -57,6 +63,12 @@ static void assume_products(void)
     assume(of_full(window) <= (number)32767 * 32767);
 }
 
+// What a window's first step asks for.
+static void assume_asked(number asked)
+{
+    assume(inside(asked, 0, of_full(config.window)));
+}
+
 // Theorem: Over any number of whole windows since init or reset, what
 // fixpid_tpo has given, `full` in each step that is on, is what was asked for,
 // to within less than the shortest pulse or gap, which count as one step at
@@ -67,13 +79,14 @@ void prove_tpo_exact(void)
     number asked = 0;
 
     config = nondet_tpo_config();
+    assume(tpo_is_legal(&config));
     c = nondet_tpo();
-    assume(legal_config(&config));
-    assume((c.full == config.full) && (c.window == config.window));
-    assume(c.left < c.window);
-    assume(c.pulse_least == of_full(config.minimum_on));
-    assume(c.whole_least ==
-           of_full((number)config.window + 1 - config.minimum_off));
+    c.full = config.full;
+    c.window = config.window;
+    c.pulse_least = (int32_t)of_full(config.minimum_on);
+    c.whole_least =
+        (int32_t)of_full((number)config.window + 1 - config.minimum_off);
+    assume(tpo_is_begun(&c));
     assume_products();
     if (nondet_bool()) {
         fixpid_tpo_reset(&c); // as init does
@@ -83,16 +96,16 @@ void prove_tpo_exact(void)
         bool on;
 
         owed = c.credit;
-        assume(is_on_its_way());
+        assume(tpo_is_on_its_way());
         on = fixpid_tpo_step(&c, nondet_int16());
         if (opens) {
             asked = ((number)c.credit + (on ? config.full : 0)) - owed;
-            assume(inside(asked, 0, of_full(config.window)));
+            assume_asked(asked);
         }
         owed += asked - (on ? config.full : 0);
     }
     claim(c.credit == owed);
-    claim(is_on_its_way());
+    claim(tpo_is_on_its_way());
     if (c.left == 0u) {
         claim(is_carry(owed));
     }

@@ -66,7 +66,7 @@ def renewed(path, text)
     text = part(text, 'quick_start', "```c\n#{File.readlines('examples/quick_start.c').drop(1).join}```\n")
     part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
   when 'docs/assurance.md'
-    part(part(text, 'claims', Assurance.table), 'theorems', Assurance.theorems)
+    part(part(part(text, 'claims', Assurance.table), 'theorems', Assurance.theorems), 'domains', Assurance.domains)
   when Requirements::PAGE
     Requirements.renewed(text)
   when 'docs/arithmetic.md'

@@ -34,7 +34,7 @@ part_quick() {
     done
     check_formats
     check 'warnings of src' ruby tools/lib/lint.rb --quick
-    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
+    check 'rules of the proofs' ruby tools/lib/prove/harness_rules.rb
     check 'seeded faults' ruby tools/lib/faults/seed.rb
     check 'each unit test asserts' ruby tools/lib/test/asserts.rb
     check_documents
@@ -141,7 +141,7 @@ part_lint() {
         ruby -e 'ARGV.each { |file| RubyVM::InstructionSequence.compile_file(file) }'
     check 'rules that the addon for MISRA has' ruby tools/lib/pages/docs/misra.rb
     count 'warnings, tidy and MISRA' '^ok ' '^FAILED ' ruby tools/lib/lint.rb
-    check 'numbers of the proofs' ruby tools/lib/prove/own_numbers.rb
+    check 'rules of the proofs' ruby tools/lib/prove/harness_rules.rb
     check 'each unit test asserts' ruby tools/lib/test/asserts.rb
 }
 

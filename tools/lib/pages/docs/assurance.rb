@@ -2,6 +2,7 @@
 # The table of docs/assurance.md: what is claimed, how it is known, of how much, and
 # the command that shows it. What can be counted is counted here.
 require_relative '../../prove/assembly'
+require_relative '../../prove/domains'
 require_relative '../../prove/seeded'
 require_relative '../../demo/plot'
 require_relative '../../demo/random_plants'
@@ -38,6 +39,14 @@ module Assurance
       "| `fixpid_#{proof.form}` | #{proof.sentence} | #{proof.assumed} | `tools/prove #{THEOREMS} #{proof.what}` |\n"
     end
     "| | theorem | beside a state that the functions make, it assumes | command |\n|---|---|---|---|\n#{rows.join}"
+  end
+
+  # What the proofs of each module assume: the words above its domains.
+  def domains
+    rows = Domains.all.group_by(&:group).slice(*groups.keys).map do |group, of_module|
+      "| `fixpid_#{group}` | #{of_module.map { |domain| "`#{domain.name}`: #{domain.words}" }.join(' ')} |\n"
+    end
+    "| | the domains of its proofs |\n|---|---|\n#{rows.join}"
   end
 
   # The commands that do not exist.

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'domains'
+
 # A harness states a claim in the numbers of the header and of the note. A macro of src/
 # would change with the source that is to be proved, and the proof would hold of a wrong
 # number, too: no harness uses one. It may ask which form was included, which is a
-# header's guard.
+# header's guard. What it may assume is in domains.rb.
 GUARD = /\AFIXPID_\w+_H\z/.freeze
 DEFINED = /^\s*#\s*define\s+([A-Z]\w*)/.freeze # those in lower case are functions
 
 macros = Dir['src/**/*.[ch]'].sort.flat_map { |file| File.read(file).scan(DEFINED).flatten.map { |name| [name, file] } }.to_h
 macros.reject! { |name, _| GUARD.match?(name) }
-abort 'own_numbers: src/ defines no macro' if macros.empty?
+abort 'harness_rules: src/ defines no macro' if macros.empty?
 
 borrowed = Dir['test/proof/{,theorems/}*.{c,h,hh}'].sort.flat_map do |harness|
   text = File.read(harness).gsub(%r{//.*}, '')
@@ -21,5 +23,6 @@ borrowed = Dir['test/proof/{,theorems/}*.{c,h,hh}'].sort.flat_map do |harness|
     end
   end
 end
-puts borrowed
-exit(borrowed.empty? ? 0 : 1)
+complaints = borrowed + Domains.complaints
+puts complaints
+exit(complaints.empty? ? 0 : 1)
