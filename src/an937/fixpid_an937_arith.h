@@ -17,13 +17,12 @@
 // An error in offset binary, which compares without a sign: error + 32768.
 #define FIXPID_OFFSET_BINARY(error) ((uint16_t)((uint16_t)(error) ^ 0x8000u))
 
-// Defined if numbers are in two's complement, in which an AVR and a RISC-V are
-// faster, whatever their multiplier.
+// The form that the chip gets, which has the primitives from here to
+// fixpid_sixteenth. An AVR and a RISC-V are faster in two's complement,
+// whatever their multiplier; an AVR has products in assembly. Other words of a
+// byte are faster in sign-magnitude, and a PIC18's header has an Equation 4 of
+// its own.
 #if (FIXPID_MULTIPLIER_BITS >= 16) || defined(__AVR__) || defined(__riscv)
-#define FIXPID_AN937_TWOS_COMPLEMENT
-#endif
-
-#ifdef FIXPID_AN937_TWOS_COMPLEMENT
 
 FIXPID_INLINE void fixpid_number_set(
     FIXPID_DATA union fixpid_an937_number *number, int16_t value)
@@ -67,6 +66,10 @@ FIXPID_INLINE void fixpid_number_add(
     number->value = sum;
 }
 
+#if defined(__AVR__) && !defined(FIXPID_NO_ASSEMBLY)
+#include "fixpid_an937_avr.h"
+#else
+
 // gain * number. post: within 255 * 65535 < 2^24. A number of more than 17
 // bits, which only flipped ones can make, would overflow as a signed one.
 // Without a multiplier, a RISC-V is faster by shift and add than with its
@@ -87,44 +90,13 @@ FIXPID_INLINE int32_t fixpid_number_term(
 }
 #endif
 
-#elif !defined(__SDCC_pic16)
-#include "fixpid_an937_narrow.h"
-#endif
-
-// Three forms of what Equation 4 is made of: a PIC18's, whose header has an
-// Equation 4 of its own, an AVR's, and C.
-#if defined(__SDCC_pic16)
-#include "fixpid_an937_pic18.h"
-#else
-#if defined(__AVR__) && !defined(FIXPID_NO_ASSEMBLY)
-#include "fixpid_an937_avr.h"
-#else
-
 // sum + gain * number. pre: the result is within +-2^26
-#ifndef FIXPID_AN937_NARROW_SUM
 FIXPID_INLINE int32_t
 fixpid_sum_with_term(int32_t sum, uint8_t gain,
                      FIXPID_DATA const union fixpid_an937_number *number)
 {
     return fixpid_add32(sum, fixpid_number_term(gain, number));
 }
-#endif
-
-// gain * error, of which a step has just set the lower 16 bits: gcc for an AVR
-// with a multiplier takes 18 cycles less for these than for 32.
-#ifdef __AVR_HAVE_MUL__
-FIXPID_INLINE int32_t fixpid_error_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
-{
-    return (int32_t)gain * (int16_t)error->value;
-}
-#else
-FIXPID_INLINE int32_t fixpid_error_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
-{
-    return fixpid_number_term(gain, error);
-}
-#endif
 
 // floor(x / 16). pre: x < 2^24
 FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
@@ -134,6 +106,14 @@ FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
 
 #endif
 
+#elif defined(__SDCC_pic16)
+#include "fixpid_an937_pic18.h"
+#else
+#include "fixpid_an937_narrow.h"
+#endif
+
+#if !defined(__SDCC_pic16)
+
 #define FIXPID_AN937_SUM_MAX UINT32_C(0xFFFFFF) // 24 bits
 
 // Equation 4: the sum of the three terms, limited to a 24-bit magnitude and
@@ -142,7 +122,7 @@ FIXPID_INLINE int32_t
 fixpid_an937_output(FIXPID_DATA const struct fixpid_an937 *self, uint8_t *flags)
 {
     // |sum| <= 255 * (32768 + 65535 + 65535) < 2^26
-    int32_t sum = fixpid_error_term(self->kp_q4, &self->error);
+    int32_t sum = fixpid_number_term(self->kp_q4, &self->error);
     uint32_t magnitude;
 
     sum = fixpid_sum_with_term(sum, self->ki_q4, &self->accumulated_error);

@@ -90,10 +90,10 @@ static int32_t fixpid_sum_with_term(
 }
 #endif
 
-FIXPID_INLINE int32_t fixpid_error_term(
-    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *error)
+FIXPID_INLINE int32_t fixpid_number_term(
+    uint8_t gain, FIXPID_DATA const union fixpid_an937_number *number)
 {
-    return fixpid_sum_with_term(0, gain, error);
+    return fixpid_sum_with_term(0, gain, number);
 }
 
 // 10 cycles: each nibble moves one place, that of the byte above comes in.

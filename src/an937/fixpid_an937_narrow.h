@@ -94,10 +94,16 @@ FIXPID_INLINE int32_t fixpid_number_term(
     return ((number->parts.negative & 1u) != 0u) ? -product : product;
 }
 
-// sum + gain * number. pre: the result is within +-2^26. An 8051 and a Z80 lack
-// the registers for a choice between two sums.
-#if !defined(__SDCC_mcs51) && !defined(__SDCC_z80)
-#define FIXPID_AN937_NARROW_SUM
+// With the sign that the product has, it is added or subtracted; an 8051 and a
+// Z80 lack the registers for a choice between two sums.
+#if defined(__SDCC_mcs51) || defined(__SDCC_z80)
+FIXPID_INLINE int32_t
+fixpid_sum_with_term(int32_t sum, uint8_t gain,
+                     FIXPID_DATA const union fixpid_an937_number *number)
+{
+    return fixpid_add32(sum, fixpid_number_term(gain, number));
+}
+#else
 FIXPID_INLINE int32_t
 fixpid_sum_with_term(int32_t sum, uint8_t gain,
                      FIXPID_DATA const union fixpid_an937_number *number)
@@ -110,5 +116,10 @@ fixpid_sum_with_term(int32_t sum, uint8_t gain,
     return fixpid_add32(sum, product);
 }
 #endif
+
+FIXPID_INLINE uint32_t fixpid_sixteenth(uint32_t x)
+{
+    return x >> 4;
+}
 
 #endif

@@ -29,7 +29,6 @@ using int16::fixpid_7x7_div32;
 using int16::fixpid_7x7_div4;
 using int16::fixpid_7x7_div8;
 using int16::fixpid_an937_number;
-using int16::fixpid_error_term;
 using int16::fixpid_number_term;
 using int16::fixpid_sum_with_term;
 using int16::mul16;
@@ -144,18 +143,6 @@ static void terms(void)
     }
 }
 
-static void error_terms(void)
-{
-    for (int32_t error = -32768; error < 32768; error++) {
-        const union fixpid_an937_number number = number_of(error);
-
-        for (int32_t gain = 0; gain < 256; gain++) {
-            same("error_term", gain, error,
-                 fixpid_error_term((uint8_t)gain, &number), gain * error);
-        }
-    }
-}
-
 static void products(void)
 {
     for (int32_t gain = 0; gain < 32768; gain++) {
@@ -212,7 +199,6 @@ int main(void)
     bytes_times_bytes();
     bytes_times_words();
     terms();
-    error_terms();
     products();
     differences();
     sums();

@@ -50,7 +50,7 @@ int32_t term(uint8_t gain, int32_t value)
     union fixpid_an937_number number;
 
     number.value = value;
-    return fixpid_error_term(gain, &number);
+    return fixpid_number_term(gain, &number);
 }
 
 uint32_t sixteenth(uint32_t x)

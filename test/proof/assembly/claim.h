@@ -74,7 +74,7 @@ static int32_t term(uint8_t gain, int32_t value)
 {
     const union fixpid_an937_number number = number_of(value);
 
-    return fixpid_error_term(gain, &number);
+    return fixpid_number_term(gain, &number);
 }
 
 // On a PIC18 they are in sign-magnitude.
