@@ -11,7 +11,6 @@
 #   code.shown(code.stack_of_all)              of all, interrupts too, in words
 #
 # Each fails with Bound::Failure where it cannot tell, and says why.
-require_relative 'failure'
 require_relative 'elf_code'
 require_relative 'pic_code'
 require_relative 'longest_path'

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'failure'
+module Bound
+  # What cannot be told of linked code, and why.
+  class Failure < StandardError; end
+end
 
 # An instruction as the longest path needs it: where it may go next and what
 # that costs, the function that it calls before, and the cost if it returns. An

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative 'code'
 require_relative 'counted_loop'
 
 # The longest path through a function: an upper bound of its cost, with paths

@@ -233,9 +233,9 @@ class PicMeter < Meter
   # and one with none, which is the same for all of a chip.
   def sizes_from
     bare = "#{@path}-bare"
-    link(bare, *together("test/tools/cost/bare_#{@controller.name}.c", *@subject.sources))
+    link(bare, "-DBARE_#{@controller.name.upcase}", *together('test/tools/cost/bare.c', *@subject.sources))
     nothing = Host.once("#{Host.folder}/nothing-#{[@subject.chip.name, *banks].join}") do |path|
-      link(path, *together('test/tools/cost/bare_nothing.c'))
+      link(path, *together('test/tools/cost/bare.c'))
       path
     end
     [bare, nothing].map { |path| code_of(path) }

@@ -6,7 +6,7 @@ require_relative '../modules'
 # What is measured: each controller on each chip, in each mode and build. A new
 # controller takes an entry in CONTROLLERS, a driver in test/chips/target/, with its
 # questions in cases.c and what they consist of in test/tools/cost/sequence.c, and there
-# bare_NAME.c and kept/NAME.csv with its first line.
+# an application in bare.c and kept/NAME.csv with its first line.
 
 # `calls` are the functions that every application has; `questions` says that
 # only some are measured, as in search.h, and `defines` how all of it is built.

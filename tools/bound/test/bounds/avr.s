@@ -1,5 +1,5 @@
 ; SPDX-License-Identifier: MIT
-; As pic14.asm, for an ATmega328P.
+; As pic14.asm, for what is an ATmega328P's own.
         .global main
 main:
         clr r1
@@ -7,11 +7,7 @@ main:
         clr r29
         call plain
         call with_breq
-        call chosen
         call zero
-        call zero_chosen
-        call nested
-        call calling
         call reading
         call skips_two_words
         ldi r20, 1
@@ -35,44 +31,11 @@ with_breq_turn:
 with_breq_end:
         ret
 
-; The larger constant is loaded where the skip is taken.
-chosen:                         ; 37
-        clr r18
-        ldi r20, 10
-        sbrc r18, 0
-        ldi r20, 3
-chosen_turn:
-        dec r20
-        brne chosen_turn
-        ret
-
-; 0 is more than 10.
-zero_chosen:                    ; 775
-        clr r18
-        ldi r20, 0
-        sbrc r18, 0
-        ldi r20, 10
-zero_chosen_turn:
-        dec r20
-        brne zero_chosen_turn
-        ret
-
 zero:                           ; 772
         ldi r20, 0
 zero_turn:
         dec r20
         brne zero_turn
-        ret
-
-nested:                         ; 40
-        ldi r21, 2
-nested_outer:
-        ldi r20, 5
-nested_turn:
-        dec r20
-        brne nested_turn
-        dec r21
-        brne nested_outer
         ret
 
 ; 30 if the outer loop is stated to turn three times and the inner one twice.
@@ -85,75 +48,12 @@ stated_inner:
         brne stated
         ret
 
-; The second time the inner loop begins with 0.
-not_nested:                     ; refused: no constant is loaded
-        ldi r21, 2
-        ldi r20, 5
-not_nested_outer:
-        nop
-not_nested_turn:
-        dec r20
-        brne not_nested_turn
-        dec r21
-        brne not_nested_outer
-        ret
-
-calling:                        ; 37
-        ldi r20, 3
-calling_turn:
-        rcall touches_other
-        dec r20
-        brne calling_turn
-        ret
-touches_other:
-        inc r21
-        ret
-
-called:                         ; refused: may also change
-        ldi r20, 3
-called_turn:
-        call touches_count
-        dec r20
-        brne called_turn
-        ret
-touches_count:
-        sbrc r18, 0
-        inc r20
-        ret
-
-leaves_elsewhere:               ; refused: may go on with 0
-        ldi r20, 3
-leaves_elsewhere_turn:
-        dec r20
-        sbis 0x03, 0
-        rjmp leaves_elsewhere_turn
-        ret
-
-; At 0 it goes round once more.
-stays:                          ; refused: may go on with 0
-        ldi r20, 3
-stays_turn:
-        dec r20
-        brne stays_turn
-        sbis 0x03, 0
-        rjmp stays_turn
-        ret
-
 z_of_other:                     ; refused: may go on with 0
         ldi r20, 3
 z_of_other_turn:
         dec r20
         tst r21
         brne z_of_other_turn
-        ret
-
-not_every_turn:                 ; refused: not every turn
-        ldi r20, 3
-not_every_turn_head:
-        sbic 0x03, 0
-        rjmp not_every_turn_head
-        dec r20
-        brne not_every_turn_head
         ret
 
 written:                        ; refused: may also change
@@ -219,28 +119,12 @@ reading_turn:
         brne reading_turn
         ret
 
-from_before:                    ; refused: it comes from before
-        dec r20
-        brne from_before
-        ret
-
 changed:                        ; refused: no constant is loaded
         ldi r20, 3
         subi r20, 7
 changed_turn:
         dec r20
         brne changed_turn
-        ret
-
-from_call:                      ; refused: it may change in what
-        ldi r20, 3
-        rcall nine
-from_call_turn:
-        dec r20
-        brne from_call_turn
-        ret
-nine:
-        ldi r20, 9
         ret
 
 ; The skip leads over both words.
@@ -251,21 +135,6 @@ skips_two_words_turn:
         sts 0x0200, r21
         dec r20
         brne skips_two_words_turn
-        ret
-
-itself:                         ; refused: calls itself
-        rcall itself
-        ret
-
-two_entrances:                  ; refused: has 2 entrances
-        ldi r20, 3
-        sbic 0x03, 0
-        rjmp two_entrances_middle
-two_entrances_turn:
-        nop
-two_entrances_middle:
-        dec r20
-        brne two_entrances_turn
         ret
 
 sleeping:                       ; refused: sleep

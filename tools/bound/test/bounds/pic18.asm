@@ -1,19 +1,18 @@
 ; SPDX-License-Identifier: MIT
-; As pic14.asm, for a PIC18.
+; As pic14.asm, for what is a PIC18's own.
         list p=18f4520, r=dec
         include "p18f4520.inc"
         config OSC = INTIO67, WDT = OFF, LVP = OFF, XINST = OFF
 
 count   equ 0x20
-outer   equ 0x21
 other   equ 0x22
 twin    equ 0x220       ; the same number as count, in bank 2
 
 vector  code 0
         goto main
 
-        global main, zero_chosen, plain, with_bnz, with_bz, with_movf, chosen, zero
-        global cleared, nested, calling, within_bank, access
+        global main, plain, with_bnz, with_bz, with_movf, zero
+        global cleared, within_bank, access
         global skips_two_words, banked_f9
 
 program code
@@ -23,12 +22,8 @@ main:
         call with_bnz
         call with_bz
         call with_movf
-        call chosen
         call zero
-        call zero_chosen
         call cleared
-        call nested
-        call calling
         call within_bank
         call access
         call skips_two_words
@@ -71,30 +66,6 @@ with_movf_turn:
         bnz with_movf_turn
         return
 
-; The larger constant is loaded where the skip is taken.
-chosen:                         ; 36
-        bcf STATUS, C, 0
-        movlw 10
-        btfsc STATUS, C, 0
-        movlw 3
-        movwf count, 0
-chosen_turn:
-        decfsz count, f, 0
-        bra chosen_turn
-        return
-
-; 0 is more than 10.
-zero_chosen:                    ; 774
-        bcf STATUS, C, 0
-        movlw 0
-        btfsc STATUS, C, 0
-        movlw 10
-        movwf count, 0
-zero_chosen_turn:
-        decfsz count, f, 0
-        bra zero_chosen_turn
-        return
-
 zero:                           ; 771
         movlw 0
         movwf count, 0
@@ -110,79 +81,6 @@ cleared_turn:
         bra cleared_turn
         return
 
-nested:                         ; 41
-        movlw 2
-        movwf outer, 0
-nested_outer:
-        movlw 5
-        movwf count, 0
-nested_turn:
-        decfsz count, f, 0
-        bra nested_turn
-        decfsz outer, f, 0
-        bra nested_outer
-        return
-
-; The second time the inner loop begins with 0.
-not_nested:                     ; refused: no constant is loaded
-        movlw 2
-        movwf outer, 0
-        movlw 5
-        movwf count, 0
-not_nested_outer:
-        nop
-not_nested_turn:
-        decfsz count, f, 0
-        bra not_nested_turn
-        decfsz outer, f, 0
-        bra not_nested_outer
-        return
-
-calling:                        ; 27
-        movlw 3
-        movwf count, 0
-calling_turn:
-        rcall touches_other
-        decfsz count, f, 0
-        bra calling_turn
-        return
-touches_other:
-        incf other, f, 0
-        return
-
-called:                         ; refused: may also change
-        movlw 3
-        movwf count, 0
-called_turn:
-        call touches_count
-        decfsz count, f, 0
-        bra called_turn
-        return
-touches_count:
-        btfsc other, 0, 0
-        incf count, f, 0
-        return
-
-leaves_elsewhere:               ; refused: may go on with 0
-        movlw 3
-        movwf count, 0
-leaves_elsewhere_turn:
-        decf count, f, 0
-        btfss PORTA, 0, 0
-        bra leaves_elsewhere_turn
-        return
-
-; At 0 it goes round once more.
-stays:                          ; refused: may go on with 0
-        movlw 3
-        movwf count, 0
-stays_turn:
-        decfsz count, f, 0
-        bra stays_turn
-        btfss PORTA, 0, 0
-        bra stays_turn
-        return
-
 z_of_other:                     ; refused: may go on with 0
         movlw 3
         movwf count, 0
@@ -190,16 +88,6 @@ z_of_other_turn:
         decf count, f, 0
         movf other, w, 0
         bnz z_of_other_turn
-        return
-
-not_every_turn:                 ; refused: not every turn
-        movlw 3
-        movwf count, 0
-not_every_turn_head:
-        btfsc PORTA, 0, 0
-        bra not_every_turn_head
-        decfsz count, f, 0
-        bra not_every_turn_head
         return
 
 written:                        ; refused: may also change
@@ -263,11 +151,6 @@ timer:                          ; refused: counts no constant
 timer_turn:
         decfsz TMR0L, f, 0
         bra timer_turn
-        return
-
-from_before:                    ; refused: it comes from before
-        decfsz count, f, 0
-        bra from_before
         return
 
 ; 200 was loaded into the register in the access bank.
@@ -359,16 +242,6 @@ through_wreg_turn:
         bra through_wreg_turn
         return
 
-from_call:                      ; refused: it may change in what
-        movlw 3
-        rcall nine
-        movwf count, 0
-from_call_turn:
-        decfsz count, f, 0
-        bra from_call_turn
-        return
-nine:   retlw 9
-
 ; The skip leads over both words.
 skips_two_words:                ; 33
         movlw 5
@@ -378,21 +251,6 @@ skips_two_words_turn:
         movff other, other
         decfsz count, f, 0
         bra skips_two_words_turn
-        return
-
-itself: rcall itself            ; refused: calls itself
-        return
-
-two_entrances:                  ; refused: has 2 entrances
-        movlw 3
-        movwf count, 0
-        btfsc PORTA, 0, 0
-        bra two_entrances_middle
-two_entrances_turn:
-        nop
-two_entrances_middle:
-        decfsz count, f, 0
-        bra two_entrances_turn
         return
 
 sleeping:                       ; refused: SLEEP
