@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
-// The comparisons: each prints rows of comma-separated values.
+// The five plants that a controller meets most, each with what the comparisons
+// do with it, and what is printed of them: rows of cells between semicolons.
 #ifndef LOOPS_H
 #define LOOPS_H
-#include "fixpid_pid.h"
-#include "trials.h"
+#include <stdint.h>
 
-// fixpid_pid, or what it is compared with, as one thing in a loop.
-struct loop {
-    bool fixed; // fixpid_pid; else the law
-    struct fixpid_pid pid;
-    struct pid_double exact;
-    struct motion motion;
-    double output; // counts, as last given to the plant
+#include "pid_double.h"
+#include "plant_counts.h"
+
+#define TRIALS 5
+#define TRIAL_SETPOINTS 3
+
+struct trial {
+    struct plant_counts plant;
+    double output_min;
+    double output_max;
+
+    struct pid_double_gains gains;
+    double setpoint_weight;
+
+    // One after the other; the second is out of reach of all but the
+    // integrator.
+    double setpoints[TRIAL_SETPOINTS];
+    int steps; // of each
 };
 
-// The configuration of fixpid_pid that comes closest to real gains.
-struct fixpid_pid_config loop_config(const struct pid_double_gains *gains,
-                                     double setpoint_weight, double output_min,
-                                     double output_max);
-
-// Both controllers with a trial's gains, its plant at rest. The actuator takes
-// whole counts, of either of them.
-void loop_start(struct loop *self, const struct trial *trial, bool fixed);
-
-// One step; self->motion.value is what it led to.
-void loop_step(struct loop *self, double setpoint);
+extern const struct trial trials[TRIALS];
 
 void print_comparison(void); // of how well both do on five plants
 void print_agreement(void);  // step by step, on the same readings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "trials.h"
+#include "loops.h"
 
 const struct trial trials[TRIALS] = {
     {
