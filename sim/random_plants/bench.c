@@ -11,12 +11,6 @@ static double holding(const struct subject *subject)
     return subject->holding * subject->output_max;
 }
 
-void bench_hold(struct bench *self, double output)
-{
-    motion_rest(&self->motion, output - holding(self->subject));
-    self->driven = output;
-}
-
 void bench_start(struct bench *self, const struct subject *subject)
 {
     struct linear slow = subject->plant;
@@ -36,24 +30,17 @@ void bench_start(struct bench *self, const struct subject *subject)
     if (subject->plant.integrating) {
         self->offset = -INTEGRATOR_OFF * subject->sensor_max;
     } else {
-        bench_hold(self, 0.0);
+        motion_rest(&self->motion, -holding(subject));
+        self->driven = 0.0;
     }
-}
-
-double bench_value(const struct bench *self)
-{
-    return self->subject->setpoint + self->offset + motion_value(&self->motion);
-}
-
-double bench_noise(struct bench *self, double deviation)
-{
-    return deviation * chance_noise(&self->chance);
 }
 
 int bench_read(struct bench *self)
 {
-    const double noise = bench_noise(self, self->subject->noise);
-    const double counts = floor(bench_value(self) + noise + 0.5);
+    const double noise = self->subject->noise * chance_noise(&self->chance);
+    const double value =
+        self->subject->setpoint + self->offset + motion_value(&self->motion);
+    const double counts = floor(value + noise + 0.5);
 
     return (int)fmin(fmax(counts, 0.0), self->subject->sensor_max);
 }

@@ -17,20 +17,10 @@ struct bench {
 
 void bench_start(struct bench *self, const struct subject *subject);
 
-// The measurement without noise, counts with a fraction.
-double bench_value(const struct bench *self);
-
 // What the sensor reads: with noise, in whole counts of its range.
 int bench_read(struct bench *self);
 
-// Normal noise of this standard deviation.
-double bench_noise(struct bench *self, double deviation);
-
 // One step with this output.
 void bench_drive(struct bench *self, double output);
-
-// As it is after this output for ever. Not for a plant that integrates or is
-// unstable.
-void bench_hold(struct bench *self, double output);
 
 #endif

@@ -37,7 +37,8 @@ const char *family_name(enum family family)
     return names[family];
 }
 
-bool is_servo(enum family family)
+// It integrates and has next to no dead time.
+static bool is_servo(enum family family)
 {
     return family == FAMILY_SERVO || family == FAMILY_SERVO_LAG ||
            family == FAMILY_SERVO_NO_DELAY;

@@ -61,9 +61,6 @@ struct subject draw_subject(unsigned long seed, long number,
 
 const char *family_name(enum family family);
 
-// It integrates and has next to no dead time.
-bool is_servo(enum family family);
-
 // L + T, twice that if it integrates: what the length of an experiment is
 // measured in.
 double subject_scale(const struct subject *self);
