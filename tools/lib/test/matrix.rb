@@ -63,7 +63,7 @@ class Matrix
   def run(arguments)
     return @tests.run(arguments) if ENV['MATRIX_READY'] || %w[--list --help -h].include?(arguments.first)
 
-    script = [*prelude, "rm -rf '#{@work}'", "work_folder '#{@work}' 200", *@before.map(&:strip), 'export MATRIX_READY=yes', 'exec ruby "$0" "$@"']
+    script = [*prelude, "work_folder '#{@work}' 200", *@before.map(&:strip), 'export MATRIX_READY=yes', 'exec ruby "$0" "$@"']
     exec('sh', '-c', script.join("\n"), $PROGRAM_NAME, @runner, *arguments)
   end
 

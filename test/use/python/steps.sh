@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# shellcheck shell=sh
+# shellcheck disable=SC2034,SC2154 # for and from test/matrix.txt, whose rows these are steps of
+
+venv=$work/venv
+python_test=$root/python/test
+export MPLCONFIGDIR="$work/matplotlib" PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1
+
+# Of what was installed last.
+python() {
+    [ -x "$venv/bin/pip" ] || installed >pip.log 2>&1
+    PYTHONDONTWRITEBYTECODE=1 "$venv/bin/python" "$@"
+}
+
+# installed: as python/README.md says, and nothing is left in the sources.
+installed() {
+    [ -x "$venv/bin/pip" ] ||
+        "${PYTHON:-/usr/bin/python3}" -m venv --system-site-packages "$venv"
+    (cd "$root" && "$venv/bin/python" -m pip install --no-build-isolation --no-deps ./python)
+    sources_are_clean
+}
+
+sources_are_clean() {
+    same '' "$(find "$root/python" -name '*.egg-info' -o -name '*.so' -o -name build -o -name '*.[ch]')"
+}
+
+# seeded FOLDER CHECK: a copy of that folder of the tests, with that fault.
+seeded() {
+    mkdir -p "$(dirname "$1")"
+    cp -r "$root/$1" "$1"
+    ruby "$root/tools/lib/faults/seed.rb" "$2" .
+}
