@@ -97,15 +97,3 @@ export function fitTable(values, first, most) {
     const points = Array.from({ length: count }, (_, i) => [found[2 * i], found[2 * i + 1]]);
     return count > 0 ? { points, error: wasm.tuner_fit_error() } : null;
 }
-
-// Milliseconds of a run without what copies it: the shortest of some.
-export function timeRuns(state, often) {
-    put(sceneOf(state));
-    let least = Infinity;
-    for (let i = 0; i < often; i++) {
-        const from = performance.now();
-        wasm.tuner_run();
-        least = Math.min(least, performance.now() - from);
-    }
-    return least;
-}

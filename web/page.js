@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT
 // The page: all that it shows follows from the one state, each time anew.
-import { CAUSE, CONTROLLER, LIMIT, OPTION, PLANT, RESULT, RULE, STATUS, VERSION } from './built.js';
+import { CONTROLLER, LIMIT, OPTION, PLANT, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
 import { figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
 import { find, make, setText } from './dom.js';
-import { experiment, recorded, run, sceneOf, startEngine, timeRuns } from './engine.js';
+import { experiment, recorded, run, startEngine } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
 import { createField, readNumber } from './fields.js';
 import { digits, short, whole } from './format.js';
-import { guardOf, guardRule, guardText } from './guard.js';
+import { guardOf, guardText } from './guard.js';
 import { wholeHeaderOf } from './header.js';
 import { helpFor } from './help.js';
 import { createLive } from './live.js';
 import { loadAlone, loadPairs, restText } from './load.js';
-import { isStable, controllerOf, linearResponse, marginsOf, responseSteps, sampledPlant } from './margins.js';
+import { marginsOf } from './margins.js';
 import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
-import { recordingOf } from './models.js';
 import { createPendulum } from './pendulum.js';
-import { plantOfKind, simcGains } from './own.js';
+import { plantOfKind } from './own.js';
 import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
 import { readRecord, recordText } from './record.js';
@@ -603,8 +602,7 @@ async function startPage() {
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
     past.settle();
     // What the tests take hold of.
-    window.tuner = { live, headerOf: wholeHeaderOf, CAUSE, PRESETS, RESULT, RULE, STATUS, change, changeNow, currentState, experiment, experimentText, simcGains, fragmentOf, gainsOfRule, guardOf, guardRule, guardText, isStable, linearResponse,
-        controllerOf, marginsOf, presetState, recordText, recorded, recordingOf, responseSteps, redraw: () => plots.redraw(), run, sampledPlant, sceneOf, short, tableOf, tableText, timeRuns };
+    window.tuner = { live, change, changeNow, currentState, fragmentOf };
     document.body.dataset.ready = 'yes';
 }
 

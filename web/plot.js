@@ -51,7 +51,7 @@ function extremes(pane) {
     return [low - room, high + room];
 }
 
-// Builds the panes; returns { element, show(view), cursorAt(seconds or null), redraw() }.
+// Builds the panes; returns { element, show(view), cursorAt(seconds or null) }.
 // The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
 // above each canvas: moving it draws nothing.
 export function createPlots(element, onCursor, mini) {
@@ -129,7 +129,7 @@ export function createPlots(element, onCursor, mini) {
     const observer = new ResizeObserver(draw);
     observer.observe(element);
     observer.observe(mini); // it is drawn when it comes to be seen
-    return { element, show, cursorAt, redraw: draw, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
+    return { element, show, cursorAt, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
         size: () => [PICTURE_WIDTH, view.panes.reduce((sum, _, i) => sum + CAPTION + heightOf(i, view), 0)] };
 }
 

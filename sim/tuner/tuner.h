@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the tuner page computes: the library's controllers and its autotuner in
 // closed loop with the plants of sim/plant, and beside them the same law in
-// double precision. Compiled to WebAssembly for the page and natively for its
-// test, it gives the same bits: see libm/math.h.
+// double precision. Compiled to WebAssembly for the page and natively for
+// Python's package, it gives the same numbers: see libm/math.h.
 //
 // The caller fills tuner_params and tuner_events and calls tuner_run or
 // tuner_experiment, or fills tuner_record and calls tuner_unpack; what comes of

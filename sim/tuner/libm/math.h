@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The few functions of math.h that the plants use, for the tuner: WebAssembly
-// has no libm, and a page whose numbers equal the native program's needs the
+// has no libm, and a page whose numbers equal the Python package's needs the
 // same bits from both. They are made of + - * / and of what both have exactly;
 // without contraction (-ffp-contract=off) each operation is IEEE 754's.
 //

@@ -29,7 +29,8 @@ export const launch = (...more) => chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium-headless-shell',
     args: ['--disable-gpu', ...(root ? ['--no-sandbox'] : []), ...more],
 });
-export const browser = await launch();
+let started = null;
+export const browser = () => (started ??= launch()); // one for all pages, where there are some
 
 // What axe-core has against the page as it is shown; by `rules` only, if there are any, and
 // `without` what these selectors find. Of what is good it need not make a list.
@@ -44,6 +45,6 @@ export async function violations(page, rules, without = []) {
 }
 
 export async function finish() {
-    await browser.close();
+    await (await started)?.close();
     process.exitCode = failures > 0 ? 1 : 0;
 }

@@ -24,6 +24,7 @@ static int32_t state; // 1/65536 of a count
 static int16_t late[DEAD];
 static uint32_t noise;
 static uint16_t own_kp; // what the program makes of any record; 0: nothing
+static int16_t lie;     // by which it says more than its controller gave
 
 uint8_t *board_in(void)
 {
@@ -45,6 +46,7 @@ void board_begin(int allowed)
     fixpid_link_allow(&wire, (uint8_t)allowed);
     state = INT32_C(20) << 16;
     noise = 1;
+    lie = 0;
     for (int i = 0; i < DEAD; i++) {
         late[i] = 0;
     }
@@ -92,6 +94,7 @@ int board_run(int received, int steps)
         setpoint = fixpid_link_setpoint(&wire);
         measurement = measure(output);
         output = fixpid_pid_step(&pid, setpoint, measurement);
+        output = (int16_t)(output + lie);
         sent = send(
             sent, fixpid_link_step(&wire, &pid, setpoint, measurement, output));
     }
@@ -101,6 +104,11 @@ int board_run(int received, int steps)
 void board_meddle(int kp)
 {
     own_kp = (uint16_t)kp;
+}
+
+void board_lie(int counts)
+{
+    lie = (int16_t)counts;
 }
 
 // The program changes its own gains, and says so.

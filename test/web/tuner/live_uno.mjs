@@ -5,7 +5,7 @@ import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { readFileSync } from 'node:fs';
 import { check, checkNone, finish, frame, random, text, WORK } from './harness.mjs';
-import { connect, damaged, equalOf, KINDS, left, said, spoiled, verdict } from './serial.mjs';
+import { connect, equalOf, left, said, setSetpoint, spoiled, verdict } from './serial.mjs';
 
 const STEPS = Number(process.env.STEPS ?? 25000);
 const RATE = 2500; // steps per second, by fast_live of test/use/packages/arduino.sh
@@ -17,8 +17,6 @@ const KEYS_APART = 256; // frames, as docs/link.md has it
 const FLIGHT = 4; // steps whose frames may be on their way, behind a long one
 const OWN_SETPOINT = 600; // the sketch's
 const SETPOINTS = [500, 700];
-const HITS = 12; // bytes that are damaged, each far from the next
-const HITS_APART = 6007; // bytes, some 500 steps
 const EQUAL = /^[\d\u202F]+ steps equal, bit for bit\.$/;
 
 // The simulated Uno as connect() takes it. `steps` are those that it was asked for.
@@ -87,9 +85,7 @@ async function runAll(run, steps) {
 
 async function setpoints({ here, run }, values) {
     for (const value of values) {
-        await here.fill('#live-setpoint', String(value));
-        await here.click('#live-set');
-        await said(here, new RegExp(`^The setpoint is ${value}\\.$`));
+        await setSetpoint(here, value);
         await run(ANSWERS);
     }
 }
@@ -106,22 +102,6 @@ async function sendKp({ here, run }, kp) {
     }
     await here.click('#live-sure');
     await said(here, /^Sent: .* equal in all bytes/);
-}
-
-// A wire that damages one byte in HITS_APART, to the page, HITS times.
-function hitting(draw) {
-    let [bytes, hits] = [0, 0];
-    const hit = (byte) => {
-        bytes += 1;
-        return hits < HITS && bytes % HITS_APART === 0 ? damaged(byte, hits++ % KINDS, draw) : [byte];
-    };
-    return { spoil: (part, isToPage) => (isToPage ? Uint8Array.from([...part].flatMap(hit)) : part), count: () => hits };
-}
-
-// For each gap in the steps that came: how many are missing, and how many more are not compared.
-function gapsOf(rows) {
-    const ends = rows.flatMap((row, i) => (i > 0 && row.place - rows[i - 1].place > 1 ? [i] : []));
-    return ends.map((at) => ({ missing: rows[at].place - rows[at - 1].place - 1, uncompared: rows.slice(at).findIndex((row) => row.equal) }));
 }
 
 {
@@ -144,19 +124,6 @@ function gapsOf(rows) {
     const clean = await verdict(here);
     check(`an Uno: ${STEPS} steps are equal, with a setpoint and gains that change: ${clean}`, equalOf(clean) >= STEPS && EQUAL.test(clean), clean);
     check('an Uno: what is not compared is counted', /^(Not compared: \d+ before the record and the first key frame\.)?$/.test(await left(here)), await left(here));
-
-    // A byte now and then.
-    const from = (await rowsOf(here)).length;
-    const hits = hitting(draw);
-    spoil = hits.spoil;
-    while (hits.count() < HITS) {
-        await run(500);
-    }
-    await run(2 * KEYS_APART);
-    const gaps = gapsOf((await rowsOf(here)).slice(from - 1));
-    check(`an Uno: ${HITS} bytes are damaged, and frames are lost by ${gaps.length}`, gaps.length > HITS / 2 && gaps.length <= HITS, JSON.stringify(gaps));
-    check('an Uno: frames are whole again within two', gaps.every(({ missing }) => missing <= 2), JSON.stringify(gaps));
-    check('an Uno: and equal from the next key frame on', gaps.every(({ uncompared }) => uncompared >= 0 && uncompared <= KEYS_APART), JSON.stringify(gaps));
 
     // One byte in a hundred, both ways.
     spoil = (bytes) => spoiled(bytes, draw);

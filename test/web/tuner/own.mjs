@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A plant of one's own: its first gains against numbers that were worked out by hand
-// from Skogestad's table, and their margins; and that what a person said of sensor,
-// actuator and rate stays, whatever is fitted or tuned.
-import { check, checkNone, finish, fragment, frame, moduleOf, open, press, stale, text } from './harness.mjs';
+// from Skogestad's table, and their margins; that what a person said of sensor, actuator
+// and rate stays, whatever is fitted or tuned; and one slider for all gains, and a wanted Ms,
+// against a lag's frequency response by its formula.
+import { check, checkNone, finish, fragment, frame, moduleOf, msByFormula, open, press, stale, text } from './harness.mjs';
 
-const { simcGains, plantOfKind, withPlant } = await moduleOf('own');
-const { presetState, withinReason } = await moduleOf('state');
+const { calmAt, calmGains, gainsForMs, hasLine, placeOf, wishText } = await moduleOf('calm');
+const { calmOf, simcGains, plantOfKind, withPlant } = await moduleOf('own');
+const { firstRow } = await moduleOf('rules');
+const { ofLink, presetState, withinReason } = await moduleOf('state');
 const { run, startEngine } = await moduleOf('engine');
 const { marginsOf } = await moduleOf('margins');
 await startEngine();
@@ -45,13 +48,65 @@ for (const bits of [12, 10]) {
     }
 }
 
+// --- One slider for all gains, without a browser ----------------------------------------
+{
+    const LAG = { ...presetState('own'), GAIN: 100, T1: 10, T2: 0, DEAD: 1, SENSOR_BITS: 12, SENSOR_RANGE: 100, OUTPUT_MAX: 1000, RATE: 10 };
+    const near = (value, right, part) => Math.abs(value - right) <= part * Math.abs(right);
+    // By hand: a gain of 4.095 counts, a lag of 10 s, 1.05 s of dead time and hold; the loop's
+    // time constant is 1.05 s times the first number.
+    for (const [calm, kp, ki] of [[2, 0.775226, 0.0775226], [1, 1.16284, 0.138433], [0.5, 1.55045, 0.246104]]) {
+        const { KP, KI, KD, ...others } = calmGains(LAG, calm);
+        check(`${calm} times the time constant: kp ${KP}, ki ${KI}`, near(KP, kp, 5e-4) && near(KI, ki, 5e-4) && KD === 0 && Object.keys(others).join() === 'FILTER', `not ${kp}, ${ki}`);
+    }
+    const lines = ['p=oven', 'p=flow', 'p=spring', 'p=axis', 'p=motor', 'p=own', 'p=own&gain=-5&options=128', 'p=own&plant=1'].map(ofLink);
+    const places = [0, 7, 33, 60, 90, 120];
+    checkNone('gains of the line are found on it', lines.flatMap((s) => places.map((place) => [s, place, calmOf({ ...s, ...calmGains(s, calmAt(place)) })]))
+        .filter(([, place, found]) => found === null || placeOf(found.calm) !== place).map(([s, place]) => `${s.preset} at ${place}`));
+    checkNone('gains beside it are not', lines.flatMap((s) => [['KP', 1.01], ['KI', 1.01], ['KI', 0]].map(([key, factor]) => {
+        const on = { ...s, ...calmGains(s, 0.7) };
+        return [`${s.preset} ${key} times ${factor}`, calmOf({ ...on, [key]: on[key] * factor })];
+    })).filter(([, found]) => found !== null).map(([name]) => name));
+    check('nor are other presets’, none and those of a note’s controller', calmOf(ofLink('p=oven')) === null && calmOf({ ...LAG, KP: 0 }) === null && calmOf({ ...LAG, KP: -1 }) === null &&
+        !hasLine(ofLink('p=an937')) && !hasLine(ofLink('p=an964')) && hasLine(ofLink('p=motor')));
+
+    // --- A wanted Ms -----------------------------------------------------------------------
+    const PLANT = { gain: 4.095, lag: 10, dead: 1, rate: 10 };
+    const msOfGains = ({ KP, KI }) => msByFormula(PLANT, { kp: KP, ki: KI / 10 });
+    for (const wish of [1.2, 1.4, 1.6, 2]) {
+        const { gains, ms } = gainsForMs(LAG, wish);
+        const own = msOfGains(gains);
+        check(`Ms ${wish} has kp ${gains.KP}, ki ${gains.KI}: by the formula ${own.toFixed(3)}`, near(own, wish, 0.01) && near(ms, own, 0.01), `${ms}`);
+        const { calm } = calmOf({ ...LAG, ...gains });
+        check(`Ms ${wish} is of the line, and quicker ones have more`, msOfGains(calmGains(LAG, 0.95 * calm)) > own && msOfGains(calmGains(LAG, 1.05 * calm)) < own);
+    }
+    const none = gainsForMs(LAG, 1.001);
+    check(`Ms 1.001 is not to be had: ${none.low?.toFixed(2)} to ${none.high?.toFixed(2)} are`, none.gains === undefined &&
+        near(none.low, msOfGains(calmGains(LAG, 8)), 0.01) && near(none.high, msOfGains(calmGains(LAG, 1 / 8)), 0.01));
+    checkNone('each plant has an Ms of 1.6', lines.map((s) => [s, gainsForMs(s, 1.6)])
+        .filter(([, { ms }]) => !(Math.abs(ms - 1.6) < 0.02)).map(([s, found]) => `${s.preset}: ${JSON.stringify(found)}`));
+    const COARSE = { ...LAG, OUTPUT_MAX: 20 };
+    const coarse = gainsForMs(COARSE, 1.6);
+    const { KP: steps } = run({ ...COARSE, ...coarse.gains }).results;
+    check(`gains of ${steps} / 256 come near: Ms ${coarse.ms?.toFixed(3)}`, steps > 2 && steps < 10 && coarse.ms <= 1.6 && coarse.ms > 1.3);
+    check('gains that come no nearer are told', wishText({ gains: {}, ms: 1.5 }, 1.6) === 'Ms 1.50 is set, the nearest below 1.60: the gains are coarse.' &&
+        wishText({}, 1.6) === 'No gains on this line are stable.');
+    const refused = gainsForMs({ ...LAG, OUTPUT_MAX: 4 }, 1.001);
+    check(`calm gains that the controller refuses are passed over: from ${refused.low?.toFixed(2)}`, refused.low > none.low + 0.05);
+
+    // --- Which row to take first -------------------------------------------------------------
+    const row = (rule, robustness, gains = {}) => ({ rule, robustness, gains });
+    const all = [row('PI', 8), row('PI', 16), row('PI', 32), row('PID', 8), row('PID', 16)];
+    check('PI, safe is first', firstRow(all) === all[1] && firstRow([...all].reverse()) === all[1]);
+    const others = [row('PI', 8), row('PI', 16, null), row('PID', 8), row('PID', 16)];
+    check('PID, safe where PI has no gains', firstRow(others) === others[3]);
+    check('else none is', firstRow([row('PI', 8), row('PI', 16, null)]) === null && firstRow([]) === null);
+}
+
 // --- In the browser ------------------------------------------------------------------
 const state = (here) => here.evaluate(() => window.tuner.currentState());
 const here = await open('p=own');
-check('it is the first tab', (await text(here, '#presets button')) === 'Your own' &&
-    (await here.getAttribute('#presets button', 'aria-pressed')) === 'true');
 const titles = await here.locator('#panel summary').allTextContents();
-check('first the hardware, then the plant, then the gains', /^1 Your sensor.*,2 Your plant,3 Your gains,/.test(titles.join()), titles.join());
+check('its tab is the first; then the hardware, the plant, the gains', (await text(here, '#presets button')) === 'Your own' && /^1 Your sensor.*,2 Your plant,3 Your gains,/.test(titles.join()), titles.join());
 const SET = { 'c-sensor_bits': '10', 'c-sensor_low': '-20', 'c-sensor_range': '320', 'c-output_min': '0', 'c-output_max': '255', 'c-rate': '4', 'c-noise': '0,5' };
 await here.evaluate(() => document.querySelectorAll('#panel details').forEach((one) => {
     one.open = true;
@@ -68,8 +123,7 @@ checkNone('the hardware is as it was typed', [...lost(await state(here)), ...((a
 for (const kind of ['2', '1', '0']) {
     await here.selectOption('#c-plant', kind);
     await frame(here);
-    checkNone(`another kind of plant, ${kind}, leaves it`, lost(await state(here)));
-    checkNone(`and nothing is stale, ${kind}`, await stale(here));
+    checkNone(`another kind of plant, ${kind}, leaves it, and nothing is stale`, [...lost(await state(here)), ...await stale(here)]);
 }
 
 async function paste(rise, step) {
@@ -85,9 +139,6 @@ let now = await paste(60, '50');
 checkNone('a recorded plant leaves it', lost(now));
 check('the plant is the recorded one', now.preset === 'own' && near(now.GAIN, 120) && near(now.T1, 12) && near(now.DEAD, 5), `${now.GAIN} ${now.T1} ${now.DEAD}`);
 check('its setpoints are within the sensor', [now.SETPOINT, now.events[0].a].every((value) => value >= -20 && value <= 300));
-checkNone('its gains are the first ones', Object.entries(simcGains(now)).filter(([key, value]) => now[key] !== value).map(([key]) => key));
-const margins = await text(here, '#margins');
-check('they are sound', /stable/.test(margins) && !/unstable/.test(margins) && Number(margins.match(/Ms(\d\.\d+)/)[1]) < 2, margins);
 await here.click('#modes button[value=tune]');
 await here.click('#rules tbody button');
 await frame(here);
@@ -102,8 +153,7 @@ await frame(here);
 check('a double click has kp of the plant as it is now', (await state(here)).KP === simcGains({ ...now, GAIN: 150 }).KP);
 
 now = await paste(-60, '50');
-check('a plant that falls is reverse acting', near(now.GAIN, -120) && (now.OPTIONS & 0x80) !== 0);
-check('and its loop is stable', !/unstable/.test(await text(here, '#margins')));
+check('a plant that falls is reverse acting, and its loop is stable', near(now.GAIN, -120) && (now.OPTIONS & 0x80) !== 0 && !/unstable/.test(await text(here, '#margins')));
 now = await paste(60, '50');
 check('a direction that is set stays, and it is said', (now.OPTIONS & 0x80) !== 0 && (await text(here, '#advice')).includes('change “reverse acting”'), await text(here, '#advice'));
 
@@ -118,4 +168,34 @@ await here.focus('#c-kp');
 await press(here, 'ArrowUp');
 check('its link has all of it', (await fragment(here)).startsWith('p=own&'), await fragment(here));
 checkNone('no error', here.noted.errors);
+
+// --- The slider, in the browser -----------------------------------------------------------
+const there = await open('p=own');
+const note = () => text(there, '#calm-note');
+check('first gains stand in the middle', (await there.inputValue('#c-calm')) === '60' && /^time constant .* s, as SIMC advises$/.test(await note()), await note());
+await there.focus('#c-calm');
+await press(there, ...new Array(12).fill('ArrowRight'));
+const quick = await state(there);
+const gainsOf = ({ KP, KI, KD, FILTER }) => [KP, KI, KD, FILTER].join();
+check('the arrow keys make it quicker', gainsOf(quick) === gainsOf(calmGains(quick, calmAt(72))) && (await there.inputValue('#c-kp')) === String(quick.KP), gainsOf(quick));
+check('and say its time constant', /^time constant \d+(\.\d+)? s$/.test(await note()) && (await there.getAttribute('#c-calm', 'aria-valuetext')) === await note(), await note());
+await there.fill('#c-ki', '0.5');
+await frame(there);
+check('a gain of one’s own is not on the line', (await note()) === 'these gains are not on its line', await note());
+await there.fill('#c-ms', '1,6');
+await there.press('#c-ms', 'Enter');
+await frame(there);
+check('an Ms that is wanted is set', /Ms1\.60/.test(await text(there, '#margins')) && (await text(there, '#ms-said')) === 'Ms 1.60 is set.', await text(there, '#ms-said'));
+checkNone('nothing is stale', (await stale(there)).filter((one) => !one.startsWith('fields')));
+const before = gainsOf(await state(there));
+for (const [wish, sentence] of [['1.01', /^Ms 1\.01 cannot be reached: from calm to quick it is 1\.\d\d to \d+\.\d\d\.$/], ['1', /^Ms is above 1\.$/], ['x', /is no number/]]) {
+    await there.fill('#c-ms', wish);
+    await there.click('#take-ms');
+    await frame(there);
+    check(`Ms ${wish} is refused with a sentence`, sentence.test(await text(there, '#ms-said')) && gainsOf(await state(there)) === before, await text(there, '#ms-said'));
+}
+await there.fill('#c-kp', '2');
+await frame(there);
+check('of other gains nothing is said', (await text(there, '#ms-said')) === '');
+checkNone('the slider: no error', there.noted.errors);
 await finish();

@@ -3,19 +3,10 @@
 // that spoils bytes, and what the card says.
 import { open, text } from './harness.mjs';
 
-// What becomes of a byte that is lost, has a wrong bit or is doubled.
-export const KINDS = 3;
-export function damaged(byte, kind, draw) {
-    return kind === 0 ? [] : kind === 1 ? [byte ^ (1 << Math.floor(8 * draw()))] : [byte, byte];
-}
-
-// One of a hundred bytes is damaged.
+// One of a hundred bytes is lost, has a wrong bit or is doubled.
 export function spoiled(bytes, draw) {
-    const found = [];
-    for (const byte of bytes) {
-        found.push(...(draw() < 0.01 ? damaged(byte, Math.floor(KINDS * draw()), draw) : [byte]));
-    }
-    return Uint8Array.from(found);
+    const damaged = [() => [], (byte) => [byte ^ (1 << Math.floor(8 * draw()))], (byte) => [byte, byte]];
+    return Uint8Array.from([...bytes].flatMap((byte) => (draw() < 0.01 ? damaged[Math.floor(3 * draw())](byte) : [byte])));
 }
 
 // In the page: a port as Web Serial has it, whose bytes go through the test.
@@ -63,8 +54,7 @@ export async function connect(board, { answers, spoil = (bytes) => bytes, option
         const bytes = Buffer.from(spoil(await board.run(steps), true)).toString('base64');
         await here.evaluate((base64) => window.port.give(base64), bytes);
     }
-    await here.click('#live-connect');
-    await said(here, /^Connected\.$/);
+    await pressed(here, 'connect', /^Connected\.$/);
     return { here, board, run };
 }
 
@@ -75,3 +65,14 @@ export const verdict = async (here) => {
 };
 export const equalOf = (sentence) => Number((sentence.match(/([\d\u202F]+) steps? equal/) ?? ['', '0'])[1].replaceAll('\u202F', ''));
 export const left = (here) => text(here, '#live-left');
+
+// A button of the card, and what it then says.
+export async function pressed(here, button, sentence) {
+    await here.click(`#live-${button}`);
+    await said(here, sentence);
+}
+
+export async function setSetpoint(here, value, answer = new RegExp(`^The setpoint is ${value}\\.$`)) {
+    await here.fill('#live-setpoint', String(value));
+    await pressed(here, 'set', answer);
+}

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The C that the page computes with, and how it is compiled: to WebAssembly, and
-# natively with the same arithmetic.
+# The C that the page computes with, and how it is compiled to WebAssembly.
 module Sources
   LIBRARY = (Dir['src/*/*.c'] - Dir['src/*/*_{pic14,pic18}.c']).sort.freeze
   PLANTS = Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort.freeze
@@ -19,11 +18,6 @@ module Sources
       ['clang', '--target=wasm32', '-O2', *EXACT, '-ffreestanding', '-nostdlib', '-mbulk-memory', *PATHS, *LIBRARY,
        *PLANTS, *TUNER, *LINK, '-Wl,--no-entry,--strip-all,--gc-sections',
        *exports.map { |name| "-Wl,--export=#{name}" }, '-o', output]
-    end
-
-    def native(compiler, level, output)
-      [compiler, level, *EXACT, '-fno-builtin', '-D_DEFAULT_SOURCE', '-D_ISOC11_SOURCE', *PATHS, *LIBRARY, *PLANTS, *TUNER,
-       'sim/tuner/main.c', '-lm', '-o', output]
     end
   end
 end

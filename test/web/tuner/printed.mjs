@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// What the page prints in C, under four compilers: the header, each rule's gains in it, guards
+// and tables of sensors, whose numbers Python's package chooses as well; and the costs that it states.
+import { spawnSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { check, checkNone, finish, moduleOf, random, WORK } from './harness.mjs';
+
+const { experiment, run, startEngine } = await moduleOf('engine');
+const { PRESETS, presetState, ofLink } = await moduleOf('state');
+const { wholeHeaderOf: headerOf } = await moduleOf('header');
+const { guardOf, guardRule, guardText } = await moduleOf('guard');
+const { tableOf, tableText } = await moduleOf('sensor');
+const { gainsOfRule } = await moduleOf('rules');
+const { costsOf } = await moduleOf('cards');
+await startEngine();
+
+const COMPILERS = [['gcc', '-std=c99', '-x', 'c'], ['clang', '-std=c99', '-x', 'c'], ['g++', '-std=c++98', '-x', 'c++'],
+    ['g++', '-std=c++17', '-x', 'c++'], ['avr-g++', '-mmcu=atmega328p', '-Os', '-x', 'c++']];
+const FOLDER = `${WORK}/printed`;
+mkdirSync(FOLDER, { recursive: true });
+
+function command(name, ...more) {
+    const ran = spawnSync(name, more, { encoding: 'utf8' });
+    return ran.status === 0 ? ran.stdout : `${name}: ${ran.stderr || ran.error || ran.status}`;
+}
+
+// A constant configuration folds: on the AVR the whole program is `return 0`, which its code
+// shows, as there is nothing to run it on here.
+const returnsZero = (object) => /<main>:\s+\S+:\s+80 e0\s+ldi\s+r24, 0x00[^\n]*\n\s+\S+:\s+90 e0\s+ldi\s+r25, 0x00[^\n]*\n\s+\S+:\s+08 95\s+ret/.test(command('avr-objdump', '-d', object));
+
+// What is wrong with `text`, where `conditions(isAvr)`, expressions of C, all hold. `library`
+// is a module that they call, which is only compiled for the AVR.
+function faultsOf(name, text, conditions, library = null) {
+    const object = `${FOLDER}/library.o`;
+    if (library !== null) {
+        command('gcc', '-std=c99', '-Iinclude', '-DFIXPID_NO_ASSEMBLY', '-c', `src/${library}/fixpid_${library}.c`, '-o', object);
+    }
+    return COMPILERS.flatMap(([compiler, ...options]) => {
+        const avr = compiler === 'avr-g++';
+        writeFileSync(`${FOLDER}/use.txt`, `${text}\nint main(void) {\n    int good = 1;\n${conditions(avr).map((one) => `    good &= (${one});\n`).join('')}    return good ? 0 : 1;\n}\n`);
+        const said = command(compiler, ...options, '-O2', '-Wall', '-Wextra', '-Werror', '-Iinclude', ...(avr ? ['-c'] : library ? ['-DFIXPID_NO_ASSEMBLY'] : []),
+            `${FOLDER}/use.txt`, ...(library && !avr ? ['-x', 'none', object] : []), '-o', `${FOLDER}/use`);
+        if (said !== '') {
+            return [`${name}, ${compiler}: ${said}`];
+        }
+        const good = avr ? library !== null || returnsZero(`${FOLDER}/use`) : spawnSync(`${FOLDER}/use`).status === 0;
+        return good ? [] : [`${name}, ${compiler}: other integers`];
+    });
+}
+
+// --- Headers ------------------------------------------------------------------------
+const NOUNS = ['fixpid_pid', 'fixpid_an937', 'fixpid_an964'];
+const MEMBERS = {
+    fixpid_pid: ['gains.kp_q8', 'gains.ki_q24', 'gains.kd_q8', 'gains.derivative_filter', 'output_min', 'output_max', 'integral_min', 'integral_max',
+        'setpoint_weight_q8', 'reverse', 'derivative_on_error', 'proportional_on_measurement'],
+    fixpid_an937: ['kp_q4', 'ki_q4', 'kd_q4', 'accumulated_error_limit', 'derivative_period_ticks'],
+    fixpid_an964: ['kp', 'ki', 'kd'],
+};
+const TYPES = { fixpid_pid: 'fixpid_pid_config', fixpid_an937: 'fixpid_an937_config', fixpid_an964: 'fixpid_an964_gains' };
+
+// The header of a state: its members are the run's integers, its macro of gains folds to them,
+// and its counts are the sensor's.
+function headerFaults(state, scaleOf = (scale) => scale) {
+    const { results: r } = run(state);
+    const header = headerOf(state, r);
+    const noun = NOUNS[state.CONTROLLER];
+    const wanted = [[r.KP, r.KI, r.KD, r.FILTER, state.OUTPUT_MIN, state.OUTPUT_MAX, state.INTEGRAL_MIN, state.INTEGRAL_MAX, r.WEIGHT,
+        ...[0x80, 0x40, 0x20].map((bit) => Number((r.OPTIONS & bit) !== 0))], [r.KP, r.KI, r.KD, state.INTEGRAL_MAX, r.FILTER], [r.KP, r.KI, r.KD]][state.CONTROLLER];
+    const counts = [0, 0.123, 0.5, 0.77, 1].map((part) => state.SENSOR_LOW + Number((part * state.SENSOR_RANGE).toPrecision(4)))
+        .map((x) => [`LOOP_COUNTS(${x})`, Math.floor((x - state.SENSOR_LOW) / state.SENSOR_RANGE * (2 ** state.SENSOR_BITS - 1) + 0.5)]);
+    const macro = header.match(/FIXPID_PID_GAINS\([^)]*\)/)?.[0];
+    const text = `${header}\nstatic const struct ${TYPES[noun]} config = LOOP_CONFIG;\n${macro ? `#ifndef __AVR__\nstatic const struct fixpid_pid_gains folded = ${macro};\n#endif\n` : ''}`;
+    // Where double has 32 bits the macro may fold to a neighbour.
+    return faultsOf(state.preset, text, (avr) => [...MEMBERS[noun].map((member, i) => `config.${member} == ${wanted[i]}`),
+        ...(avr ? [] : scaleOf([...counts, ['LOOP_RATE', state.RATE]]).map(([one, value]) => `${one} == ${value}`)),
+        ...(macro && !avr ? ['kp_q8', 'ki_q24', 'kd_q8', 'derivative_filter'].map((name) => `folded.${name} == config.gains.${name}`) : [])]);
+}
+
+for (const preset of PRESETS) {
+    checkNone(`header of ${preset.preset}: ${COMPILERS.length} compilers`, headerFaults(preset));
+}
+const draw = random(7);
+checkNone('headers of random settings', ['°C', 'a*/b\\', '', '??/'].flatMap((unit, i) => headerFaults({ ...PRESETS[1], KP: 0.1 + 3 * draw(), KI: 0.1 + draw(), KD: 0.1 + draw(),
+    WEIGHT: 0.1 + 0.9 * draw(), RATE: 7 + i, OPTIONS: i % 3 === 0 ? 0x80 : 0, unit })));
+// A setpoint beyond the sensor is no constant of the firmware.
+const beyond = ['LOOP_COUNTS(500)', 'LOOP_COUNTS(-1)'].map((one) => headerFaults(PRESETS[0], () => [[one, 0]]));
+check('LOOP_COUNTS beyond the sensor compiles nowhere', beyond.every((faults) => faults.length === 4 && !faults.some((fault) => fault.includes('other integers'))), `${beyond}`);
+
+// Each rule's gains fold to the very integers that the autotuner gave. A motor without dead
+// time swings too fast for it, and it says so.
+for (const preset of PRESETS.filter((one) => one.CONTROLLER === 0 && one.preset !== 'spring')) {
+    const { results: { STATUS }, rules } = experiment(preset);
+    const had = rules.filter(({ has }) => has);
+    const [status, has] = preset.preset === 'motor' ? [6, 0] : [2, 6];
+    check(`autotune of ${preset.preset}: status ${STATUS}, ${had.length} of 6 gains`, STATUS === status && had.length === has, `not status ${status} and ${has}`);
+    checkNone(`rules of ${preset.preset} keep their integers`, had.filter(({ results }) => {
+        const again = run({ ...preset, ...gainsOfRule(preset, results) }).results;
+        return ['KP', 'KI', 'KD', 'FILTER'].some((name) => again[name] !== results[name]);
+    }).map(({ rule }) => rule));
+}
+
+// --- Guards and tables ---------------------------------------------------------------
+function python(asked) {
+    const ran = spawnSync('build/python/venv/bin/python', ['-B', 'python/test/choices.py'], { input: JSON.stringify(asked), encoding: 'utf8', maxBuffer: 2 ** 28 });
+    if (ran.status !== 0) {
+        throw new Error(`python/test/choices.py: ${ran.stderr}`);
+    }
+    return JSON.parse(ran.stdout);
+}
+
+const chosen = random(20261124);
+const whole = (least, spread) => Math.round(least * Math.exp(chosen() * Math.log(spread)));
+// The specification's plant, and others: integrating, quiet, noisy, quick, too slow.
+const guards = [38379, 0, 10].map((slope) => ({ model: { gain_q8: 703, dead_q4: 960, slope_q24: slope, noise_q4: 8 }, output_min: 0, output_max: 255 }));
+for (let i = 0; i < 400; i++) {
+    guards.push({ model: { gain_q8: i % 3 === 0 ? 2 ** 32 - 1 : whole(20, 500), dead_q4: whole(16, 500), slope_q24: whole(1000, 20000),
+        noise_q4: Math.floor(chosen() * 50) }, output_min: -Math.floor(chosen() * 500), output_max: whole(10, 1000) });
+}
+const NTC = { kind: 'ntc', r25: 10, beta: 3950, series: 10, supply: true, bits: 10, low: 0, high: 150, scale: 100, points: 16 };
+const K = { kind: 'k', microvolts: 2, low: 0, high: 1372, scale: 10, points: 16 };
+const sensors = [[NTC, 0.147], [{ ...NTC, points: 24 }, 0.063], [{ ...NTC, bits: 12, scale: 10 }, 0.184], [{ ...NTC, supply: false, low: -20, high: 100 }],
+    [{ ...NTC, r25: 100, beta: 4190, series: 4.7, high: 250, points: 12 }], [K, 0.178], [{ ...K, low: -200 }, 0.414], [{ ...K, microvolts: 10, points: 8 }]];
+const theirs = process.env.NOPY ? { guards: [], tables: [] } : python({ guards, tables: sensors.map(([sensor]) => sensor) });
+
+const rule = (config) => (config === null ? 'none' : `band ${config.band}, patience ${config.patience}, ${config.noisy}`);
+const ours = guards.map(({ model, output_min: low, output_max: high }) => guardRule({ GAIN: model.gain_q8, DEAD: model.dead_q4, SLOPE: model.slope_q24, NOISE: model.noise_q4 }, low, high));
+checkNone(`${guards.length} guards are Python’s`, ours.map(rule).map((one, i) => [one, rule(theirs.guards[i])]).filter(([a, b]) => a !== b).map(([a, b]) => `${a}, Python: ${b}`));
+check('the specified guard, and some plants have none', rule(ours[0]) === 'band 8, patience 395, false' && ours.filter((one) => one === null).length > 2, rule(ours[0]));
+for (const id of ['oven', 'axis']) {
+    const { results } = experiment(presetState(id));
+    const config = guardOf(results, { outputMin: 0, outputMax: 1000, reverse: id === 'axis', top: 4095, rest: 0, setpoint: null });
+    checkNone(`the library takes a guard of ${id}`, faultsOf('guard', `${guardText(config)}\nstatic struct fixpid_guard guard;`, () => ['fixpid_guard_init(&guard, &guard_config)'], 'guard'));
+}
+for (const [i, { points, error }] of theirs.tables.entries()) {
+    const [sensor, most = Infinity] = sensors[i];
+    const table = tableOf(sensor);
+    const printed = tableText(table, 'sensor', sensor.scale);
+    check(`table ${i + 1}, ${sensor.kind}: within ${(table.error / sensor.scale).toFixed(4)} degrees, as Python’s`, Math.abs(table.error - error) < 1e-6 * error && table.error / sensor.scale <= most, `Python: ${error}, at most ${most}`);
+    const same = JSON.stringify(table.points) === JSON.stringify(points); // another is as good
+    checkNone(`table ${i + 1} in C`, [...printed.split('\n').filter((line) => line.length > 52), ...faultsOf('table', printed, () => [`sensor.count == ${table.points.length}`,
+        `fixpid_table_at(&sensor, ${points[0][0]}) == ${points[0][1]}`, ...(same ? points.map(([x, y], k) => `sensor.points[${k}].x == ${x} && sensor.points[${k}].y == ${y}`) : [])], 'table')]);
+}
+
+// --- Costs ----------------------------------------------------------------------
+// The card's figures are those of the documents: of one noun on each chip, and with a feature
+// for each chip that docs/choosing.md has.
+function documented(path, name) {
+    const [, part] = readFileSync(path, 'utf8').split(new RegExp(`<!-- ${name}:(?:begin|end) -->`));
+    return part.trim().split('\n').map((line) => line.split('|').slice(1, -1).map((cell) => cell.trim()));
+}
+
+const [titles, , ...steps] = documented('docs/cost.md', 'steps');
+const features = documented('docs/choosing.md', 'features');
+
+function costOf(noun, chip) {
+    const row = steps.find((one) => one[0] === noun && one[1] === chip && ['object', '-O2'].includes(one[2]));
+    return ['bound', 'with init', 'RAM each'].map((title) => Number(row?.[titles.indexOf(title)]));
+}
+
+function withFilter(chip) {
+    const at = features[0].findIndex((title) => title.startsWith(chip));
+    const sum = (column) => Number(features[2][column]) + Number(features[3][column]);
+    return at < 0 ? costOf('PID', chip) : [sum(at), sum(at + 1), costOf('PID', chip)[2]];
+}
+
+for (const [link, wanted] of [['p=an937', (chip) => costOf('AN937', chip)], ['p=an964', (chip) => costOf('AN964', chip)],
+    ['p=flow&filter=0', (chip) => costOf('PID, typical', chip)], ['p=flow&filter=3', withFilter]]) {
+    const rows = costsOf(ofLink(link), run(ofLink(link)).results);
+    checkNone(`${link}: costs on ${rows.length} chips`, rows.length < 7 ? ['too few'] : rows.filter(({ chip, most, flash, ram }) => [most, flash, ram].join() !== wanted(chip).join())
+        .map(({ chip, ...costs }) => `${chip}: ${Object.values(costs)}, not ${wanted(chip)}`));
+}
+await finish();
