@@ -9,7 +9,6 @@ require 'fileutils'
 require 'open3'
 require_relative '../named_figures'
 require_relative 'docs/assurance'
-require_relative 'docs/bounds'
 require_relative 'docs/chip_choices'
 require_relative 'docs/code_blocks'
 require_relative 'docs/commands'
@@ -70,7 +69,7 @@ def renewed(path, text)
   when Requirements::PAGE
     Requirements.renewed(text)
   when 'docs/arithmetic.md'
-    part(part(text, 'bounds', Bounds.table), 'forms', Forms.table)
+    part(text, 'forms', Forms.table)
   when 'docs/ports.md'
     part(part(text, 'other chips', OtherChips.table), 'levels', Levels.table)
   when 'docs/recipes.md'
