@@ -17,7 +17,8 @@ RUN apt-get update && \
         gnuplot-nox gpsim-dev gputils libboost-dev libboost-graph-dev \
         libc6-dev libclang-rt-14-dev libsimavr-dev libxml2-utils lld make \
         meson mkdocs mkdocs-material mspdebug ninja-build nodejs npm patch \
-        pkg-config pmccabe python3-cffi python3-dev python3-kconfiglib \
+        picolibc-arm-none-eabi picolibc-riscv64-unknown-elf pkg-config \
+        pmccabe python3-cffi python3-dev python3-kconfiglib \
         python3-matplotlib python3-numpy python3-scipy python3-setuptools \
         python3-venv python3-wheel qemu-system-arm qemu-system-misc ruby sdcc \
         sdcc-libraries sdcc-ucsim shellcheck simavr tcc util-linux wine \

@@ -14,7 +14,7 @@ void vectors_open(const char *name);
 
 // The same of a file that is known here, as VECTORS_OPEN(pid): a program for a
 // chip keeps the tables of no others.
-#ifdef __AVR__
+#ifdef VECTORS_IN_FLASH
 #define VECTORS_OPEN(name)                                                     \
     do {                                                                       \
         void vectors_open_##name(void);                                        \

@@ -546,10 +546,10 @@ void test_step_same_error_both_ways_leaves_the_integral_as_it_was(void)
         TEST_ASSERT_TRUE(init());
         step(1000, 993);
         before = integral();
-        for (int n = 0; n < 3000; n++) {
+        for (int n = 0; n < 1000; n++) {
             step(0, -1);
         }
-        for (int n = 0; n < 3000; n++) {
+        for (int n = 0; n < 1000; n++) {
             step(0, 1);
         }
         TEST_ASSERT_EQUAL_INT32(before, integral());

@@ -99,6 +99,12 @@ has_package() {
 #endif' c++ -lgpsim
         ;;
     avr-libc) builds '#include <avr/io.h>' avr-gcc -mmcu=atmega328p ;;
+    picolibc-arm-none-eabi)
+        builds '#include <picolibc.h>' arm-none-eabi-gcc --specs=picolibc.specs
+        ;;
+    picolibc-riscv64-unknown-elf)
+        builds '#include <picolibc.h>' riscv64-unknown-elf-gcc --specs=picolibc.specs
+        ;;
     arduino-core-avr) [ -f /usr/share/arduino/hardware/arduino/avr/boards.txt ] ;;
     python3-kconfiglib) has_module kconfiglib ;;
     libclang-rt-14-dev) builds '' clang -fsanitize=address,undefined ;;

@@ -3,7 +3,6 @@
 
 require_relative 'harness'
 require_relative '../../../tools/lib/measure/meters'
-require_relative '../../../tools/lib/measure/old_rows'
 
 # The experiment of fixpid_autotune alone, for chips that are too small for what makes
 # gains of it: the same experiments there and here, bit for bit, and what the library
@@ -15,7 +14,7 @@ module Alone
   ALONE = [*EXPERIMENT, 'autotune_record'].freeze
   WHOLE = [*EXPERIMENT, 'autotune_result'].freeze
   PARTS = { 'nothing' => [%w[-DBARE_NOTHING], []], 'alone' => [[], ALONE], 'whole' => [%w[-DBARE_WHOLE], WHOLE] }.freeze
-  MODES = { 'pointer' => [], 'object' => %w[-DFIXPID_AUTOTUNE_OBJECT=tuner] }.freeze
+  MODE = %w[-DFIXPID_AUTOTUNE_OBJECT=tuner].freeze # which adds less than a pointer
   INCLUDES = %W[-Iinclude -I#{FOLDER}].freeze
 
   # Files of the library.
@@ -26,20 +25,20 @@ module Alone
   # Bytes that a program takes.
   Size = Struct.new(:flash, :ram)
 
-  # One chip. `folder` is of one of its modes.
+  # One chip.
   Chip = Struct.new(:name, :title, :flash, :runs, :most, keyword_init: true) do
     # What the library adds, of each part; nil where the chip's linker refuses.
-    def added(parts, mode, folder)
-      nothing, *sizes = ['nothing', *parts].map { |part| build(part, mode, "#{folder}/#{part}") }
+    def added(parts, folder)
+      nothing, *sizes = ['nothing', *parts].map { |part| build(part, "#{folder}/#{part}") }
       sizes.map { |size| size && Size.new(size.flash - nothing.flash, size.ram - nothing.ram) }
     end
 
     private
 
-    def build(part, mode, folder)
+    def build(part, folder)
       FileUtils.mkdir_p(folder)
       flags, names = PARTS.fetch(part)
-      size([*flags, *MODES.fetch(mode), *INCLUDES], [BARE, *Alone.sources(names)], folder)
+      size([*flags, *MODE, *INCLUDES], [BARE, *Alone.sources(names)], folder)
     end
 
     # Only bare.c asks what is in the program: all others are the same for each part, and
@@ -165,7 +164,7 @@ module Alone
 
     private
 
-    # By the part that was built before it, in the same mode.
+    # By the part that was built before it.
     def compiled(source, folder)
       Dir["#{File.dirname(folder)}/*/bare.d/#{File.basename(source, '.c')}.o"].first unless source == BARE
     end
@@ -182,8 +181,8 @@ module Alone
     end
   end
 
-  # `most` is what the experiment alone may add to the flash, in the mode where it adds
-  # less; the flash is the chip's. What runs, does so in this test.
+  # `most` is what the experiment alone may add to the flash; the flash is the chip's. What
+  # runs, does so in this test.
   CHIPS = [
     Avr.new(name: 'attiny85', title: 'ATtiny85', flash: 8192, runs: true, most: 3300),
     Avr.new(name: 'atmega328p', title: 'ATmega328P', flash: 32_768, runs: true, most: 3400),
@@ -194,7 +193,7 @@ module Alone
     CortexM0.new(name: 'cortex-m0', title: 'Cortex-M0 with 16 KB', flash: 16_384, runs: false, most: 2400)
   ].freeze
 
-  # What a chip's runs and builds have shown, by chip and mode.
+  # What a chip's runs and builds have shown.
   Found = Struct.new(:alone, :whole, :stack)
 
   # The tests, and what they have found.
@@ -204,49 +203,39 @@ module Alone
     WHOLE_MOST = 0.6
     HEAD = ['', 'flash', 'experiment alone adds', 'its RAM, and stack', 'the whole tuner adds', 'take', 'the whole tuner from'].freeze
 
-    # `broken` makes a library with a fault, and gives its folder.
-    def initialize(folder, broken, update)
+    def initialize(folder, update)
       @folder = folder
-      @broken = broken
       @update = update
       @found = {}
       @mutex = Mutex.new
     end
 
     def add(tests)
-      CHIPS.product(MODES.keys).each { |chip, mode| tests.add(name(chip, mode)) { try(chip, mode) } }
-      CHIPS.select(&:runs).each { |chip| tests.add("seeded alone #{chip.name}") { notice(chip) } }
-      needs = tests.names.grep(/\Aalone /)
-      tests.add('alone document', needs: needs) do
-        @left_out = needs - tests.running
-        @update ? rewrite : check
-      end
+      CHIPS.each { |chip| tests.add("alone #{chip.name}") { try(chip) } }
+      tests.add('seeded alone') { notice(CHIPS.first, Faults.of('alone').first) }
+      tests.add('alone document', needs: tests.names.grep(/\Aalone /)) { @update ? rewrite : check }
     end
 
     private
 
-    def name(chip, mode)
-      "alone #{chip.name} #{mode}"
-    end
-
-    def try(chip, mode)
-      folder = "#{@folder}/alone-#{chip.name}-#{mode}"
-      found = Found.new(*chip.added(%w[alone whole], mode, folder))
-      text = compare(chip, mode, 'src', "#{folder}/run", found) if chip.runs
-      @mutex.synchronize { @found[[chip.name, mode]] = found }
+    def try(chip)
+      folder = "#{@folder}/alone-#{chip.name}"
+      found = Found.new(*chip.added(%w[alone whole], folder))
+      text = compare(chip, "#{folder}/run", found) if chip.runs
+      @mutex.synchronize { @found[chip.name] = found }
       "#{text} alone #{found.alone.flash} whole #{found.whole&.flash || 'none'} of #{chip.flash}".strip
     end
 
-    def compare(chip, mode, source, folder, found)
-      text = ran(chip, mode, source, folder, found)
+    def compare(chip, folder, found)
+      text = ran(chip, 'src', folder, found)
       raise Host::Failure, text unless text.match?(/ different 0 gains 3$/)
 
       "#{text} stack #{found.stack}"
     end
 
-    def ran(chip, mode, source, folder, found)
+    def ran(chip, source, folder, found)
       FileUtils.mkdir_p(folder)
-      flags = [*MODES.fetch(mode), *INCLUDES]
+      flags = [*MODE, *INCLUDES]
       found.stack = chip.run(flags, ["#{FOLDER}/alone.c", *Alone.sources(ALONE, source)], folder)
       Host.output(host, "#{folder}/results").strip
     end
@@ -261,43 +250,25 @@ module Alone
       end
     end
 
-    def notice(chip)
-      text = ran(chip, 'pointer', @broken.call, "#{@folder}/alone-#{chip.name}-seeded", Found.new)
+    def notice(chip, fault)
+      text = ran(chip, Families.broken("#{@folder}/faulty-alone", fault), "#{@folder}/alone-seeded", Found.new)
       raise Host::Failure, "not noticed: #{text}" if text.include?('different 0')
 
       text
     end
 
-    # In the mode that adds less.
-    def best(chip)
-      MODES.keys.map { |mode| @found.fetch([chip.name, mode]) }.min_by { |found| found.alone.flash }
-    end
-
-    # A chip that did not run in all modes has no figures: its row stays.
-    def table(old)
-      rows = CHIPS.map { |chip| left_out?(chip) ? old.of(chip.title) : row(chip, best(chip)) }
+    def table
+      rows = CHIPS.map { |chip| row(chip, @found.fetch(chip.name)) }
       [HEAD, HEAD.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
-    end
-
-    def left_out?(chip)
-      names = MODES.keys.map { |mode| name(chip, mode) }
-      ran = names - @left_out
-      raise Host::Failure, "#{ran.join} alone gives no row: test/weekly.txt names both modes or none" if ran.any? && ran != names
-
-      ran.empty?
     end
 
     def row(chip, found)
       raise Host::Failure, "#{chip.title}: #{found.alone.flash} bytes, at most #{chip.most} allowed" if found.alone.flash > chip.most
 
-      whole = whole_of(chip)
+      whole = found.whole&.flash
       fits = whole && whole <= WHOLE_MOST * chip.flash
       [chip.title, "#{chip.flash / 1024} KB", found.alone.flash, [found.alone.ram, found.stack].compact.join(' + '), whole || 'does not link',
        fits ? 'the whole tuner' : 'the experiment alone', whole ? "#{least(whole)} KB" : '']
-    end
-
-    def whole_of(chip)
-      MODES.keys.filter_map { |mode| @found.fetch([chip.name, mode]).whole&.flash }.min
     end
 
     # The smallest power of two of which it takes no more.
@@ -308,8 +279,7 @@ module Alone
     end
 
     def renewed(text)
-      old = OldRows.new(text, 'alone')
-      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table(old)}#{$2}" }
+      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table}#{$2}" }
     end
 
     def rewrite

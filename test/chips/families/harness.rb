@@ -3,7 +3,7 @@
 
 require_relative '../../../tools/lib/measure/host'
 
-# What a run of one controller in one mode on one family has shown. `different`
+# What a run of one controller on one family has shown. `different`
 # counts answers, missing ones among them; cycles are of a step, `mean` of the
 # recorded rows; flash is of the controller's own file, RAM in all.
 Result = Struct.new(:rows, :steps, :different, :least, :mean, :worst, :flash, :ram, keyword_init: true) do
@@ -38,38 +38,33 @@ class Questions
     end
   end
 
-  # `apart` is the distance of the rows that are asked.
-  def initialize(folder, steps, apart = 1)
+  def initialize(folder, steps)
     @folder = folder
     @steps = steps
-    @apart = apart
     @mutex = Mutex.new
     @written = {}
     Host.output('gcc', *FLAGS, *SOURCES, '-o', "#{folder}/questions")
   end
 
-  # Each mode has its own random steps.
-  def of(controller, order, mode)
-    @mutex.synchronize { @written[[controller, order, mode]] ||= write(controller, order, mode) }
+  def of(controller, order)
+    @mutex.synchronize { @written[[controller, order]] ||= write(controller, order) }
   end
 
   private
 
-  def write(controller, order, mode)
-    base = "#{@folder}/#{controller}.#{order}.#{mode}"
-    seed = mode == 'object' ? 1 : 2
-    text = Host.output("#{@folder}/questions", controller, order, @apart.to_s, @steps.to_s, seed.to_s, "#{base}.asked", "#{base}.expected")
+  def write(controller, order)
+    base = "#{@folder}/#{controller}.#{order}"
+    text = Host.output("#{@folder}/questions", controller, order, @steps.to_s, "#{base}.asked", "#{base}.expected")
     numbers = text.scan(/(\w+) (\d+)/).to_h { |name, number| [name.to_sym, number.to_i] }
     Asked.new(questions: "#{base}.asked", answers: "#{base}.expected", **numbers)
   end
 end
 
-# One controller in one mode on one family. `source` is the folder of the library.
+# One controller, by its object's name, on one family. `source` is the folder of the library.
 class Run
-  def initialize(family, controller, mode, source, folder)
+  def initialize(family, controller, source, folder)
     @family = family
     @controller = controller
-    @mode = mode
     @source = source
     @folder = folder
     FileUtils.rm_rf(folder)
@@ -78,12 +73,11 @@ class Run
 
   private
 
-  attr_reader :family, :controller, :mode, :source, :folder
+  attr_reader :family, :controller, :source, :folder
 
   def options
-    object = mode == 'object' ? ["-DFIXPID_#{controller.upcase}_OBJECT=#{controller}_controller"] : []
     %w[include test/chips/target test/chips/families].map { |path| "-I#{path}" } +
-      ["-I#{source}", "-DCONTROLLER=#{controller}", "-DASKED_#{controller.upcase}", *object]
+      ["-I#{source}", "-DCONTROLLER=#{controller}", "-DASKED_#{controller.upcase}", "-DFIXPID_#{controller.upcase}_OBJECT=#{controller}_controller"]
   end
 
   # The driver, which calls the meter's step.

@@ -5,8 +5,8 @@ require_relative '../../../tools/lib/measure/meters'
 require_relative 'harness'
 
 # A chip that tools/cost measures, too, by its meter, whose random steps are its
-# own: the same in both modes.
-MeteredChip = Struct.new(:name, :title, :run, :modes, :refused, :limits, keyword_init: true) do
+# own.
+MeteredChip = Struct.new(:name, :title, :run, :controllers, :refused, :limits, keyword_init: true) do
   def costs_listed?
     false
   end
@@ -16,7 +16,7 @@ end
 class MeteredRun < Run
   def result(questions)
     Harness.build(kind)
-    asked = questions.of(controller, 'little', mode)
+    asked = questions.of(controller, 'little')
     build("#{folder}/firmware")
     text, = Host.run("#{Host.folder}/#{kind}", *arguments("#{folder}/firmware"), 'none', asked.steps.to_s, *%w[0 0 1 0 0]) # no search
     read(text, asked)

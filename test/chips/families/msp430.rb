@@ -4,7 +4,7 @@
 require_relative 'harness'
 
 # An MSP430 without a multiplier: clang and lld, in mspdebug's simulator.
-Msp430 = Struct.new(:name, :title, :modes, :refused, :limits, :options, keyword_init: true) do
+Msp430 = Struct.new(:name, :title, :controllers, :refused, :limits, :options, keyword_init: true) do
   def run
     Msp430Run
   end
@@ -33,7 +33,7 @@ class Msp430Run < Run
              -Itest/chips/target/qemu].freeze
 
   def result(questions)
-    asked = questions.of(controller, family.order, mode)
+    asked = questions.of(controller, family.order)
     objects = build
     batches = simulate(asked)
     given = read(batches, 'answers')

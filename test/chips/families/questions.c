@@ -2,9 +2,9 @@
 // The questions of test/chips/target/cases.c and the answers to them, as files
 // of bytes in the order of a chip:
 //
-//   questions CONTROLLER little|big APART STEPS SEED QUESTIONS ANSWERS
+//   questions CONTROLLER little|big STEPS QUESTIONS ANSWERS
 //
-// Every APARTth recorded row, then random steps. Prints
+// Every recorded row, then random steps. Prints
 //
 //   rows 2000 steps 1000 question 10 answer 10 object 20
 //
@@ -71,35 +71,32 @@ static void put_both(void)
     put(answers, &answer, layout->answer);
 }
 
-static unsigned put_rows(unsigned apart)
+static unsigned put_rows(void)
 {
     int32_t columns[VECTORS_COLUMNS_MAX];
     unsigned rows = 0;
 
     for (const struct recording *from = controller->recordings;
          from->name != NULL; from++) {
-        unsigned here = 0;
+        const unsigned before = rows;
 
         cases_begin(1);
         vectors_open(from->name);
         while (vectors_next(columns)) {
-            if (here % apart == 0u) {
-                from->row(columns, &question, &answer);
-                put_both();
-                rows++;
-            }
-            here++;
+            from->row(columns, &question, &answer);
+            put_both();
+            rows++;
         }
-        if (here != from->rows) {
+        if (rows - before != from->rows) {
             die("a recording has not its rows");
         }
     }
     return rows;
 }
 
-static void put_steps(unsigned steps, uint32_t seed)
+static void put_steps(unsigned steps)
 {
-    cases_begin(seed);
+    cases_begin(1);
     for (unsigned step = 0; step < steps; step++) {
         controller->ask(&question);
         controller->define(&question, &answer);
@@ -112,7 +109,7 @@ int main(int argc, char *argv[])
     unsigned rows;
     unsigned steps;
 
-    if (argc != 8) {
+    if (argc != 6) {
         die("wrong use");
     }
     controller = controller_named(argv[1]);
@@ -126,14 +123,14 @@ int main(int argc, char *argv[])
         die("exchange.h has other members");
     }
     big_endian = strcmp(argv[2], "big") == 0;
-    steps = (unsigned)strtoul(argv[4], NULL, 10);
-    questions = fopen(argv[6], "wb");
-    answers = fopen(argv[7], "wb");
+    steps = (unsigned)strtoul(argv[3], NULL, 10);
+    questions = fopen(argv[4], "wb");
+    answers = fopen(argv[5], "wb");
     if (questions == NULL || answers == NULL) {
         die("cannot write");
     }
-    rows = put_rows((unsigned)strtoul(argv[3], NULL, 10));
-    put_steps(steps, (uint32_t)strtoul(argv[5], NULL, 10));
+    rows = put_rows();
+    put_steps(steps);
     if (fclose(questions) != 0 || fclose(answers) != 0) {
         die("cannot write");
     }

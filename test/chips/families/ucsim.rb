@@ -6,7 +6,7 @@ require_relative 'harness'
 # A family of SDCC's in ucsim: the compiler's options and the linker's, the
 # simulator with its options, the memory of its interface and of the mark, and
 # what a cycle takes of the simulator's time; nil, where it shows no memory.
-Ucsim = Struct.new(:name, :title, :modes, :refused, :limits, :compiler, :linker, :simulator, :order, :interface,
+Ucsim = Struct.new(:name, :title, :controllers, :refused, :limits, :compiler, :linker, :simulator, :order, :interface,
                    :memory, :cycle_ns, keyword_init: true) do
   def run
     UcsimRun
@@ -27,7 +27,7 @@ class UcsimRun < Run
   NO_RAM = /\A(?:_?REG_BANK|SSEG|BSEG_BYTES)/.freeze
 
   def result(questions)
-    asked = questions.of(controller, family.order, mode)
+    asked = questions.of(controller, family.order)
     objects = build
     simulate(asked)
     given = File.exist?(path('answers')) ? File.binread(path('answers')) : ''

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Tables of docs/chips.md from what test/chips/target/run has measured:
 #
-#   figures.rb LOGS SIZES.json DOCUMENT [--update] [NAME]...
+#   figures.rb LOGS SIZES.json DOCUMENT [--update]
 #
 # Fails if the document says something else, which --update rewrites, or if a limit of the
-# firmware is exceeded. NAMEs are of runs that were not made this time: a row that one of
-# them belongs to is left as it stands.
+# firmware is exceeded.
 require 'json'
 require_relative '../../../tools/bound/bound'
 require_relative '../../../tools/lib/measure/subjects'
@@ -15,9 +14,7 @@ TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
 NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(&:name).freeze
 PROCESSORS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
 POINTER_AND_OBJECT = MODES.reverse.freeze
-MACHINES = { 'avr' => 'AVR', 'xc8_pic14' => 'AVR, as XC8 for a PIC16', 'xc8_pic18' => 'AVR, as XC8 for a PIC18',
-             'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3',
-             'cortex-m4' => 'Cortex-M4', 'rv32imc' => 'RV32IMC', 'rv32ec' => 'RV32EC' }.freeze
+MACHINES = { 'atmega328p' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3', 'cortex-m4' => 'Cortex-M4' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,
              'motor_pic18f26k22' => 10_000, 'oven_pic18f26k22' => 10_000,
@@ -25,24 +22,17 @@ EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'ov
 
 # What one of the runs printed.
 class Logs
-  class NotRun < StandardError; end
-
-  def initialize(folder, not_run)
+  def initialize(folder)
     @folder = folder
-    @not_run = not_run
   end
 
   def read(name)
-    raise NotRun if @not_run.include?(name)
-
     File.read("#{@folder}/#{name}.log")
   rescue Errno::ENOENT
     abort "figures: #{name} was not run"
   end
 
   def names(pattern)
-    raise NotRun if @not_run.any? { |name| File.fnmatch(pattern, name, File::FNM_EXTGLOB) }
-
     Dir.glob("#{@folder}/#{pattern}.log").map { |path| File.basename(path, '.log') }
   end
 
@@ -54,7 +44,7 @@ class Logs
 end
 
 UPDATE = ARGV.delete('--update')
-LOGS = Logs.new(ARGV[0], ARGV.drop(3))
+LOGS = Logs.new(ARGV[0])
 SIZES = JSON.parse(File.read(ARGV[1]))
 FIRMWARE = File.dirname(ARGV[1])
 
@@ -65,14 +55,6 @@ end
 def table(head, rows)
   lines = [head, head.map { '---' }] + rows
   lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join
-end
-
-# A row of a table of the document: its title and what the block gives.
-def row(name, title)
-  [title, *yield]
-rescue Logs::NotRun
-  rows = File.read(ARGV[2])[/<!-- #{name}:begin -->.*?<!-- #{name}:end -->/m]
-  rows[/^\| (#{Regexp.escape(title)} \| .*) \|$/, 1]&.split(' | ') or abort "figures: #{ARGV[2]} has no row #{title}"
 end
 
 # [rows, random steps, different] of all modes.
@@ -96,17 +78,8 @@ def on_chip(controller, chip)
   exact_cell(POINTER_AND_OBJECT.map { |mode| "replay-#{controller}-#{chip}-#{mode}" }, /rows .* cycles/)
 end
 
-def on_machine(controller, machine)
-  names = POINTER_AND_OBJECT.map { |mode| "machine-#{machine}-#{mode}" }
-  exact_cell(names, /^#{controller} .*$/)
-end
-
 def exact
-  rows = PROCESSORS.map { |chip, name| row('exact', name) { TITLES.keys.map { |controller| on_chip(controller, chip) } } }
-  rows += MACHINES.map do |machine, name|
-    row('exact', name) { TITLES.keys.map { |controller| on_machine(controller, machine) } }
-  end
-  table(['', *TITLES.values], rows)
+  table(['', *TITLES.values], PROCESSORS.map { |chip, name| [name, *TITLES.keys.map { |controller| on_chip(controller, chip) }] })
 end
 
 INTERRUPTED = PROCESSORS.merge('atmega328p' => 'AVR').freeze
@@ -125,25 +98,17 @@ end
 
 def interrupts
   rows = pairs.map do |chip, controller|
-    row('interrupts', "#{INTERRUPTED[chip]} #{TITLES[controller]}") do
-      good = all_interrupts('tick', controller, chip)
-      racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
-      [good['interrupts'], good['lost'], good['changed'], racy['lost']]
-    end
+    good = all_interrupts('tick', controller, chip)
+    racy = LOGS.numbers("interrupts_racy-#{controller}-#{chip}-object", /interrupts .*/).to_h
+    ["#{INTERRUPTED[chip]} #{TITLES[controller]}", good['interrupts'], good['lost'], good['changed'], racy['lost']]
   end
-  rows << row('interrupts', "PIC18 #{TICKING}") do
-    ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
-    [ticking['interrupts'], '-', ticking['changed'], '-']
+  ticking = all_interrupts('ticking', 'an937', 'pic18f4520')
+  rows << ["PIC18 #{TICKING}", ticking['interrupts'], '-', ticking['changed'], '-']
+  MACHINES.each do |machine, name|
+    calls = LOGS.names("interrupted-#{machine}-*").flat_map { |log| LOGS.read(log).scan(/interrupts (\d+) .* neither (\d+)/) }
+    came, neither = [0, 1].map { |at| calls.sum { |call| call[at].to_i } }
+    rows << ["#{name} #{TICKING}", came, '-', neither, '-']
   end
-  MACHINES.merge('atmega328p' => 'AVR').each do |machine, name|
-    rows << row('interrupts', "#{name} #{TICKING}") do
-      calls = LOGS.names("interrupted-#{machine}-*").flat_map { |log| LOGS.read(log).scan(/interrupts (\d+) .* neither (\d+)/) }
-      next [] if calls.empty?
-
-      [0, 1].map { |at| calls.sum { |call| call[at].to_i } }.insert(1, '-').push('-')
-    end
-  end
-  rows.reject! { |cells| cells.size == 1 }
   table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
 end
 
@@ -186,13 +151,11 @@ end
 def examples
   EXAMPLES.map do |name, tick|
     size = SIZES.fetch(name)
-    row('firmware', "#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}") do
-      figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
-      idle = figures['idle'] > 100 ? figures['idle'] : '-'
-      ["#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
-       "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
-       idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
-    end
+    figures = LOGS.numbers("firmware-#{name}", /tick .*/).to_h
+    idle = figures['idle'] > 100 ? figures['idle'] : '-'
+    ["#{name.delete_suffix("_#{size['chip']}")}, #{title_of_chip(size['chip'])}", "#{size['flash']} of #{size['flash_size']} #{size['flash_unit']}",
+     "#{size['ram']} of #{size['ram_size']}", stacks(name, size, figures), figures['step'], figures['tick'],
+     idle, figures['interrupt'], format('%.0f %%', 100.0 * (figures['tick'] + figures['interrupt']) / tick)]
   end
 end
 

@@ -33,7 +33,7 @@ module Broken
   class << self
     # src/ with a fault in each form of the arithmetic.
     def library
-      "#{with('broken', Faults.of('forms both') + Faults.of('forms target'))}/src"
+      "#{with('broken', Faults.of('forms'))}/src"
     end
 
     # src/ with a step that loses ticks.

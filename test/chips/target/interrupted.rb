@@ -1,7 +1,59 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'machines'
+require_relative 'images'
+
+# A program that prints, on this machine, an AVR or a Cortex-M.
+class Machine
+  SHARED = %W[-std=c99 -O2 -Wall -Wextra -Werror -Iinclude -Itest/support -I#{HERE}].freeze
+
+  # `after` are words of the compiler that come last.
+  def initialize(name, compiler, after = [], &run)
+    @name = name
+    @compiler = compiler
+    @after = after
+    @run = run
+  end
+
+  # Addresses of a program's instructions and their text, by function.
+  def instructions(program)
+    functions = Hash.new { |all, name| all[name] = {} }
+    name = nil
+    said(@compiler.first.sub(/gcc\z/, 'objdump'), '-d', program).each_line do |line|
+      name = Regexp.last_match(1) if line =~ /\A\h+ <(.+)>:/
+      functions[name][Regexp.last_match(1).hex] = Regexp.last_match(2) if line =~ /\A *(\h+):\t[\h ]+\t(\S.*)/
+    end
+    functions
+  end
+
+  # A program of these words, which are sources and options.
+  def program(name, words)
+    output = "#{WORK}/#{name}.#{@name}.elf"
+    compiler, *options = @compiler
+    BUILT.command(output, compiler, *SHARED, *options, *words, '-o', output, *@after)
+  end
+
+  # What it prints, with more words for its simulator. Some answer may be wrong: then
+  # its exit status says so, and whoever compares sees it.
+  def printed(program, *words)
+    Open3.capture2e('timeout', '600', *@run.call(program), *words, stdin_data: '').first.lines.grep_v(/^Timer with period zero/).join
+  end
+
+  def self.avr(chip)
+    new(chip, ['avr-gcc', "-mmcu=#{chip}"], %w[test/chips/cores/avr_stdio.c]) { |program| ['test/chips/cores/simavr', chip, program] }
+  end
+
+  def self.arm(core, board)
+    new(core, ['arm-none-eabi-gcc', "-mcpu=#{core}", '-mthumb', '-ffreestanding', '-nostdlib', "-I#{HERE}/qemu"],
+        ["#{HERE}/arm/start.c", "#{HERE}/qemu/runtime.c", '-T', "#{HERE}/arm/flash.ld", '-lgcc']) do |program|
+      ['qemu-system-arm', '-M', board, '-nographic', '-semihosting', '-kernel', program]
+    end
+  end
+
+  ALL = { 'host' => new('host', %w[gcc]) { |program| [program] }, 'atmega2560' => avr('atmega2560'), 'atmega328p' => avr('atmega328p'),
+          'cortex-m0' => arm('cortex-m0', 'microbit'), 'cortex-m3' => arm('cortex-m3', 'lm3s6965evb'),
+          'cortex-m4' => arm('cortex-m4', 'mps2-an386') }.freeze
+end
 
 # fixpid_an937_tick from an interrupt before every instruction of its controller:
 # interrupted.c on an AVR and on Cortex-M.

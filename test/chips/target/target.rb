@@ -6,7 +6,6 @@ require_relative '../../../tools/lib/measure/subjects'
 require_relative '../../../tools/lib/test/named'
 require_relative 'firmware_limits'
 require_relative 'interrupted'
-require_relative 'machines'
 
 ROOT = File.expand_path('../../..', __dir__)
 VECTORS = 'test/support/vectors'
@@ -19,21 +18,19 @@ PLACED = [%w[an937 pic18f4520], %w[pid pic18f4520]].freeze
 INTERRUPTED = (ON_CHIPS + CONTROLLERS.map(&:name).uniq.product(%w[atmega328p])).freeze
 TICKING = %w[an937 pic18f4520].freeze
 PORTS = %w[pic16f684 pic18f4520 pic18f26k22 pic18f4431 atmega328p].freeze
-MACHINES = %w[cortex-m0 cortex-m3 cortex-m4 rv32imc rv32ec avr].freeze
-XC8 = %w[xc8_pic14 xc8_pic18].freeze
-# Of fixpid_pid: none of its features, and all but one.
-FEATURE_SETS = %w[0x00 0xFE 0xFD 0xFB 0xF7 0xEF 0xDF 0xBF 0x7F].freeze
 EXAMPLES = { 'pendulum' => 'an964', 'pendulum_8bit' => 'an964_8bit', 'motor' => 'an937', 'oven' => 'an937',
              'motor_pic18f26k22' => 'an937', 'oven_pic18f26k22' => 'an937',
              'motor_atmega328p' => 'an937', 'oven_atmega328p' => 'an937' }.freeze
 PLAIN = '-DFIXPID_NO_ASSEMBLY'
-NARROW = '-D_PIC14'
+# A source as XC8 preprocesses it for a class of PICs.
+AS_XC8 = %w[avr-gcc -mmcu=atmega2560 -std=c99 -ffreestanding -funsigned-char -include test/support/as_xc8.h -E -P -Iinclude].freeze
+XC8_CLASSES = %w[_PIC14 _PIC14E _PIC14EX _PIC18].freeze
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.
-Amount = Struct.new(:random, :machine, :avr, :xc8, :sanitized, :calls, :rows_apart, :placed_apart, :unoptimised_apart, :streamed)
-SHORT = Amount.new(20_000, 50_000, 10_000, 1000, 1_000_000, 1_000_000, 31, 7, 8, 5000).freeze
-LONG = Amount.new(500_000, 1_000_000, 50_000, 50_000, 20_000_000, 10_000_000, 1, 1, 1, 200_000).freeze
+Amount = Struct.new(:random, :rows_apart, :placed_apart, :unoptimised_apart, :streamed)
+SHORT = Amount.new(20_000, 31, 7, 8, 5000).freeze
+LONG = Amount.new(500_000, 1, 1, 1, 200_000).freeze
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
@@ -165,44 +162,18 @@ module Target
       replay(Images.driver('an964', 'pic16f684', 'object'), 'an964', 1000, rows: [rows])
     end
 
-    # --- on machines ---
+    # --- here ---
 
-    # A program of all controllers, with the questions.
-    def questions(machine, mode, source, steps, compared, options)
-      controllers = CONTROLLERS.map(&:name).uniq
-      objects = mode == 'object' ? controllers.map { |controller| Images.object(controller) } : []
-      name = ['questions', mode, source.tr('/', '_'), *options, steps, compared].join('-').gsub(/[^-\w]/, '')
-      machine.program(name, [*options, "-I#{source}", "-DMACHINE_STEPS=#{steps}", "-DMACHINE_COMPARED=#{compared}", "#{HERE}/machine.c",
-                             "#{HERE}/cases.c", *%w[reference reference_pid numbers numbers_pid].map { |file| "test/support/#{file}.c" },
-                             vectors, *Dir.glob("#{source}/{#{controllers.join(',')}}/fixpid_*.c").sort,
-                             *controllers.map { |controller| "#{HERE}/driver_#{controller}.c" }, *objects])
+    # An AVR's arithmetic alone is this machine's.
+    def arithmetic_of_avr(*options)
+      words = [*Images::EVERY_BIT, '-Isrc', *Dir.glob("#{HERE}/arith*.c").sort, *options]
+      same(*%w[host atmega2560].map { |name| Machine::ALL.fetch(name) }.map { |one| one.printed(one.program(['arith', *options].join.delete('='), words)) })
     end
 
-    # The recorded rows as C, without the firmware's own cycles.
-    def vectors
-      recorded = %w[an937_firmware an964_firmware].map do |name|
-        written("#{WORK}/#{name}.csv", File.readlines("#{VECTORS}/#{name}.csv").map { |line| "#{line.chomp.split(',', -1).first(12).join(',')}\n" }.join)
-      end
-      files = [*recorded, "#{VECTORS}/pid_definition.csv", "#{VECTORS}/track.csv"]
-      maker = 'test/chips/avr/vectors_table.rb'
-      BUILT.make("#{WORK}/vectors_table.c", [Inputs.digest([maker, *files])]) { File.write("#{WORK}/vectors_table.c", said('ruby', maker, *files)) }
-    end
-
-    # A machine prints the same lines as this one, which has the library of src/.
-    def machine(name, mode, *options, source: 'src', steps: nil)
-      slow = { 'avr' => amount.avr, **XC8.to_h { |xc8| [xc8, amount.xc8] } }[name]
-      compared = steps || (slow ? 200 : amount.machine)
-      steps ||= slow || amount.machine
-      host, machine = [[Machine::ALL.fetch('host'), 'src'], [Machine::ALL.fetch(name), source]].map do |one, from|
-        one.printed(questions(one, mode, from, steps, compared, options))
-      end
-      same(host, machine)
-    end
-
-    # What XC8 makes of a source for a class is what it makes for one that runs, and has
-    # no other compiler's words.
+    # What XC8 makes of a source for a class is what it makes for one that test/chips/cores
+    # runs, and has no other compiler's words.
     def xc8_classes
-      Dir.glob('src/**/fixpid_*.c').sort.map { |source| classes_of(source, Machine::AsXc8::CLASSES.to_h { |one| [one, Machine::AsXc8.text(source, one)] }) }.join
+      Dir.glob('src/**/fixpid_*.c').sort.map { |source| classes_of(source, XC8_CLASSES.to_h { |one| [one, said(*AS_XC8, "-D#{one}", source)] }) }.join
     end
 
     def classes_of(source, texts)
@@ -210,22 +181,9 @@ module Target
       raise Host::Failure, "#{source} has #{words.join(' ')}" unless words.empty?
 
       others = texts.keys.reject { |one| texts[one] == texts['_PIC14'] }
-      name = source.split('/')[1]
-      both = CONTROLLERS.map(&:name).include?(name) || CalledModule::XC8_MACHINES[name] == XC8
-      raise Host::Failure, "#{source} is another one for #{others.join(', ')}, which does not run" unless others.empty? || (both && others == %w[_PIC18])
+      raise Host::Failure, "#{source} is another one for #{others.join(', ')}, which does not run" unless [[], %w[_PIC18]].include?(others)
 
       "#{source} #{others.join}\n"
-    end
-
-    # Every answer is the definition's, and nothing is undefined on the way.
-    def definition(mode, *options, steps: amount.sanitized)
-      said(questions(Machine::ALL.fetch('sanitized'), mode, 'src', steps, steps, options))
-    end
-
-    # An AVR's arithmetic alone is this machine's.
-    def arithmetic_of_avr(*options)
-      words = [*Images::EVERY_BIT, '-Isrc', *Dir.glob("#{HERE}/arith*.c").sort, *options]
-      same(*%w[host avr].map { |name| Machine::ALL.fetch(name) }.map { |one| one.printed(one.program(['arith', *options].join.delete('='), words)) })
     end
 
     def primitives
@@ -248,16 +206,16 @@ class Table
   def initialize(update)
     @tests = NamedTests.new('test/chips/target/run')
     @update = update
-    %i[replays arithmetic interrupts ports machines host seeded modules].each { |part| send(part) }
+    %i[replays arithmetic interrupts ports host seeded modules].each { |part| send(part) }
     figures unless Target.amount == LONG
   end
 
   private
 
-  # What a test prints is in a file of its own.
-  def test(part, *name, needs: [])
+  # What a test prints is in a file of its own. Most tests are weekly.
+  def test(part, *name, needs: [], daily: false)
     name = name.join('-')
-    @tests.add(name, part, needs: needs) do
+    @tests.add(name, part, *('weekly' unless daily), needs: needs) do
       FileUtils.rm_f("#{LOGS}/#{name}.log")
       text = begin
         yield
@@ -279,7 +237,7 @@ class Table
     { 'replay' => ['', ON_CHIPS, BOTH, 1], 'replay_plain' => ['plain', ON_CHIPS, BOTH, 4], # which is slower
       'replay_placed' => ['placed', PLACED, %w[object], 1] }.each do |name, (form, pairs, modes, part)|
       in_modes(modes, pairs) do |controller, chip, mode|
-        test('replay', name, controller, chip, mode) do
+        test('replay', name, controller, chip, mode, daily: name == 'replay' && mode == 'object') do
           Target.replay(Images.driver(controller, chip, mode, form: form), controller, Target.amount.random / part, mode: mode)
         end
       end
@@ -328,9 +286,9 @@ class Table
   # which may also leave the chip's memory or stack: gpsim 0.31 crashes where a pointer
   # of a PIC16 selects banks that the chip has not.
   def bad_interrupts
-    { 'racy' => /lost [1-9]/,
-      'replying' => /changed [1-9]|access outside the chip's RAM|stack overflow|SIGSEGV/ }.each do |name, pattern|
-      in_modes(%w[object], INTERRUPTED) do |controller, chip, mode|
+    { 'racy' => [/lost [1-9]/, INTERRUPTED],
+      'replying' => [/changed [1-9]|access outside the chip's RAM|stack overflow|SIGSEGV/, INTERRUPTED.first(1)] }.each do |name, (pattern, pairs)|
+      in_modes(%w[object], pairs) do |controller, chip, mode|
         test('interrupts', "interrupts_#{name}", controller, chip, mode) do
           image = Images.driver(controller, chip, mode, asks: :racy, calls: ("#{controller}_reply" if name == 'replying'))
           Target.noticed(pattern) { Target.interrupts(image, controller) }
@@ -341,7 +299,7 @@ class Table
 
   def ports
     PORTS.each do |chip|
-      test('port', 'port', chip) { Target.port(Images.port(chip), chip) }
+      test('port', 'port', chip, daily: chip == 'pic16f684') { Target.port(Images.port(chip), chip) }
       test('port', 'port_unfed', chip) { Target.port(Images.port(chip), chip, 'unfed') }
       next if chip == 'atmega328p' # an AVR has fuses
 
@@ -355,72 +313,42 @@ class Table
     test('port', 'port_page', needs: needs) { said('ruby', "#{HERE}/port_page.rb", WORK, 'docs/ports.md') }
   end
 
-  def machines
-    BOTH.product(MACHINES) { |mode, name| test('machines', 'machine', name, mode) { Target.machine(name, mode) } }
-    BOTH.product(XC8) { |mode, name| test('machines', 'machine', name, mode) { Target.machine(name, mode) } }
-    test('machines', 'xc8_classes') { Target.xc8_classes }
-    # Where the machine has assembly: without.
-    test('machines', 'machine_plain-avr-object') { Target.machine('avr', 'object', PLAIN) }
-    # Without the features of fixpid_pid.
-    %w[avr cortex-m0].each do |name|
-      test('machines', 'machine_typical', name, 'pointer') { Target.machine(name, 'pointer', '-DFIXPID_PID_FEATURES=0x00') }
-    end
-  end
-
   def host
     test('host', 'primitives') { Target.primitives }
-    BOTH.each { |mode| test('host', 'definition', mode) { Target.definition(mode) } }
-    # In the form for the smallest chips.
-    test('host', 'definition_narrow-pointer') { Target.definition('pointer', NARROW) }
-    FEATURE_SETS.each do |features|
-      test('host', 'definition_features', features) do
-        Target.definition('pointer', "-DFIXPID_PID_FEATURES=#{features}", steps: Target.amount.machine)
-      end
-    end
+    test('host', 'xc8_classes') { Target.xc8_classes }
   end
 
   # Each goes the way of the test that must notice it.
   def seeded
-    seeded_replays
     in_modes(%w[object]) do |controller, chip, mode|
-      test('seeded', 'seeded_arith', controller, chip, mode) do
-        image = Images.arithmetic(controller, chip, source: Broken.library)
-        Target.noticed(/different [1-9]/) { Target.digests(image, controller, Target.amount.rows_apart) }
+      test('seeded', 'seeded_driver', controller, chip, mode, daily: [controller, chip] == %w[an937 pic18f4520]) do
+        image = Images.driver(controller, chip, mode, source: Broken.library)
+        Target.noticed(DIFFERENT) { Target.replay(image, controller, 1000) }
       end
     end
-    BOTH.each do |mode|
-      test('seeded', 'seeded_losing', *TICKING, mode) do
-        image = Images.driver(*TICKING, mode, asks: :racy, calls: 'an937_tick', source: Broken.losing)
-        Target.noticed(/changed [1-9]/) { Target.interrupts(image, TICKING.first, 'ticking') }
-      end
+    test('seeded', 'seeded_arith', *TICKING) do
+      image = Images.arithmetic(*TICKING, source: Broken.library)
+      Target.noticed(/different [1-9]/) { Target.digests(image, TICKING.first, Target.amount.rows_apart) }
+    end
+    test('seeded', 'seeded_losing', *TICKING) do
+      image = Images.driver(*TICKING, 'object', asks: :racy, calls: 'an937_tick', source: Broken.losing)
+      Target.noticed(/changed [1-9]/) { Target.interrupts(image, TICKING.first, 'ticking') }
     end
     seeded_interrupted
     seeded_ports
     seeded_links
-    seeded_machines
     seeded_rows
   end
 
   # A step that races with its tick; and a run that does not come to every instruction.
   def seeded_interrupted
-    Interrupted::MACHINES.each_key do |name|
+    %w[atmega328p cortex-m0].each do |name|
       test('seeded', 'seeded_interrupted', name) do
         Target.noticed(/^step .* neither [1-9]/) { Interrupted.run(name, 'pointer', source: Broken.racing) }
       end
-      test('seeded', 'seeded_uninterrupted', name) do
-        Target.noticed(/instructions were never interrupted/) { Interrupted.run(name, 'pointer', '-DSTATES=2u') }
-      end
     end
-  end
-
-  def seeded_replays
-    { 'seeded_driver' => ['', ON_CHIPS], 'seeded_plain' => ['plain', ON_CHIPS], 'seeded_placed' => ['placed', PLACED] }.each do |name, (form, pairs)|
-      in_modes(%w[object], pairs) do |controller, chip, mode|
-        test('seeded', name, controller, chip, mode) do
-          image = Images.driver(controller, chip, mode, form: form, source: Broken.library)
-          Target.noticed(DIFFERENT) { Target.replay(image, controller, 1000) }
-        end
-      end
+    test('seeded', 'seeded_uninterrupted') do
+      Target.noticed(/instructions were never interrupted/) { Interrupted.run('cortex-m0', 'pointer', '-DSTATES=2u') }
     end
   end
 
@@ -448,20 +376,6 @@ class Table
     end
   end
 
-  # Wrong answers to recorded rows, or to random questions.
-  def seeded_machines
-    { 'wide' => ['cortex-m0', %w[an937 an964 an964_8bit pid]], 'narrow' => ['host', %w[an937], NARROW],
-      'avr' => ['avr', %w[an937 an964 an964_8bit pid]], 'xc8' => ['xc8_pic18', %w[an964]], 'arm' => ['cortex-m4', %w[pid]] }.each do |form, (machine, controllers, *options)|
-      controllers.each do |controller|
-        test('seeded', "seeded_#{form}", controller) do
-          Target.noticed(/^#{controller} (rows|random) .*different [1-9]/) do
-            Target.machine(machine, 'object', *options, source: Broken.library, steps: 1000)
-          end
-        end
-      end
-    end
-  end
-
   # One number of one row, one more than it was; and a row that is missing.
   def seeded_rows
     test('seeded', 'seeded_row') do
@@ -475,16 +389,19 @@ class Table
   end
 
   def modules
-    CalledModule.all.map(&:tests).reduce(:merge).each { |name, done| test('modules', name, &done) }
+    CalledModule.all.each do |module_|
+      module_.modes.each { |mode, options| test('modules', "pic18#{mode}", module_.name, daily: mode.empty? && module_.name != 'guard') { module_.on_pic18(mode, *options) } }
+    end
+    test('seeded', 'seeded_module') { Target.noticed(/line 1: .*expected/) { CalledModule.new('slew').on_pic18('-broken', source: Broken.module('slew')) } }
   end
 
   def figures
     FirmwareLimits::FAULTS.each_key { |fault| test('seeded', 'seeded_limit', fault) { FirmwareLimits.notice(fault) } }
     EXAMPLES.each_key { |name| test('figures', 'firmware', name) { Target.firmware(name) } }
-    needs = @tests.names.grep(/\A(replay|machine|interrupts_\w+|interrupted|firmware)-/)
+    needs = @tests.names.grep(/\A(replay|interrupts_\w+|interrupted|firmware)-/)
     test('figures', 'figures', needs: needs) do
       Images.firmware
-      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update, *(needs - @tests.running))
+      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update)
     end
   end
 end

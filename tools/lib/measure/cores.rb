@@ -26,7 +26,7 @@ Core = Struct.new(:tools, :options, :folder, :qemu, keyword_init: true) do
   end
 end
 
-Core::OPTIONS = %w[-std=c99 -ffreestanding -ffunction-sections -Itest/chips/target/qemu -Itest/chips/target/shim
+Core::OPTIONS = %w[-std=c99 -ffreestanding -ffunction-sections -Itest/chips/target/qemu
                    -Itest/tools/cost/qemu].freeze
 
 # Each instruction takes the same virtual time, which the counter of a Cortex-M

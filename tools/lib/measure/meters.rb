@@ -115,16 +115,9 @@ module Harness
       File.write("#{Host.folder}/kept.c", Kept.table)
     end
 
-    # Without the firmware's own cycles.
     def vectors_table
-      tables = %w[an937_firmware an964_firmware].map do |name|
-        rows = File.readlines("#{Host.root}/test/support/vectors/#{name}.csv", chomp: true)
-        path = "#{Host.folder}/#{name}.csv"
-        File.write(path, rows.map { |row| "#{row.split(',').take(12).join(',')}\n" }.join)
-        path
-      end
-      tables << 'test/support/vectors/pid_definition.csv' << 'test/support/vectors/track.csv'
-      File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/chips/avr/vectors_table.rb', *tables))
+      tables = %w[an937_firmware an964_firmware pid_definition track].map { |name| "test/support/vectors/#{name}.csv" }
+      File.write("#{Host.folder}/vectors_table.c", Host.output('ruby', 'test/chips/cores/vectors_table.rb', *tables))
     end
   end
 end

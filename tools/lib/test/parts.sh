@@ -103,24 +103,8 @@ part_fuzz() {
     runner test/fuzz/run daily
 }
 
-# The recorded rows as C, for a machine without files.
-rows_of_avr() {
-    mkdir -p build/avr/vectors
-    # The last columns are the firmware's own cycles: no test reads them.
-    for vectors in an937_firmware an964_firmware; do
-        cut -d , -f 1-12 "test/support/vectors/$vectors.csv" >"build/avr/$vectors.csv"
-    done
-    # shellcheck disable=SC2046 # a list of files
-    ruby test/chips/avr/vectors_table.rb build/avr/*_firmware.csv \
-        $(find test/support/vectors -name '*.csv' ! -name '*_firmware.csv' ! -name 'autotune*.csv') \
-        >build/avr/vectors/vectors.c
-}
-
-part_avr() {
-    need avr-gcc:gcc-avr :avr-libc simavr timeout:coreutils
-    need_ceedling
-    rows_of_avr
-    run_mode avr object "$first_form" test/chips/avr/avr.yml
+part_cores() {
+    runner test/chips/cores/run daily
 }
 
 check_formats() {
@@ -165,11 +149,7 @@ part_firmware() {
 }
 
 part_target() {
-    need qemu-system-arm simavr avr-gcc:gcc-avr
-    need_sdcc
-    build_gpsim
     runner test/chips/target/run daily
-    runner test/model/autotune/chips daily
 }
 
 part_python() {
@@ -181,9 +161,6 @@ part_site() {
 }
 
 part_families() {
-    need sdcc :sdcc-libraries sstm8:sdcc-ucsim clang ld.lld:lld mspdebug
-    need_sdcc
-    need_spdk
     runner test/chips/families/run
 }
 
@@ -271,16 +248,14 @@ part_variants() {
     need_spdk
     need_ceedling
     build_gpsim
-    rows_of_avr
     limits seven-turns 29999 127 1022 8190 126
     limits eight-turns 256 128 999 64 127
     for form in $forms; do
         run_mode unit object "$form"
         run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
-        run_mode avr pointer "$form" test/chips/avr/avr.yml
     done
     for path in use/consumers use/port_check use/packages use/firmware use/xc8_check use/notes \
-        use/python chips/target model/autotune web/site web/tuner; do
+        use/python chips/cores chips/target model/autotune web/site web/tuner; do
         runner "test/$path/run" weekly
     done
     runner test/model/autotune/chips weekly

@@ -112,13 +112,13 @@ module Assurance
     [Claim.new('tested', "the same as the notes' own firmware", "#{rows('*_firmware')} recorded steps",
                '`tools/test unit`'),
      Claim.new('tested', 'the same as the definition', "#{rows('*') - rows('*_firmware') - rows('autotune')} recorded rows, " \
-               'and a million random calls', '`test/chips/target/run host`'),
+               'and a million random calls', '`tools/test unit`'),
      Claim.new('tested', 'the same as the definition, on inputs that look for new ways through the code',
                "#{Faults.of('fuzz').size} defects found", '`tools/test fuzz long`'),
      Claim.new('tested', 'the autotuner does what its model in another language does',
                "#{rows('autotune')} recorded experiments, and thousands of random ones", '`tools/test autotune`'),
      Claim.new('tested', 'each sentence of the headers, where `int` has 32 bits and where it has 16',
-               'every line and branch', '`tools/test unit avr`'),
+               'every line and branch', '`tools/test unit cores`'),
      Claim.new('tested', 'nothing that C leaves undefined',
                "all targets of the fuzzer and the unit tests, under clang's sanitizers",
                '`tools/test fuzz sanitize long variants`'),
@@ -131,7 +131,7 @@ module Assurance
 
   def of_the_chips
     [Claim.new('tested', 'the compiled library, and its assembly, the same on every chip as here',
-               'recorded rows and unit tests on simulated chips', '`tools/test target avr families variants`'),
+               'the unit tests on six cores, recorded rows and random steps on other chips', '`tools/test cores target families variants`'),
      Claim.new('tested', 'an interrupt before every instruction changes nothing',
                'every instruction of a turn on a PIC16, a PIC18 and an AVR',
                '`test/chips/target/run interrupts`'),

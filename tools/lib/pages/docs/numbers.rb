@@ -10,7 +10,8 @@ require_relative '../../prove/proofs'
 module Numbers
   FAMILIES = 'test/chips/families/families.rb'.freeze
   BESIDE = ['model', PRIMITIVES, THEOREMS].freeze # of no function
-  CORES = 'test/chips/target/figures.rb'.freeze
+  PICS = 'test/chips/target/figures.rb'.freeze
+  CORES = 'test/chips/cores/cores.rb'.freeze
 
   class << self
     def counted
@@ -24,8 +25,9 @@ module Numbers
 
     # A chip may be tried in several ways, one for each memory model.
     def chips
-      cores = File.read(CORES)[/^PROCESSORS = .*?^MACHINES = .*?\}/m].scan(/=> '([^,']+)/)
-      (cores + File.read(FAMILIES).scan(/\btitle: '([^,']+)/)).flatten.uniq
+      pics = File.read(PICS)[/^PROCESSORS = .*?\}/].scan(/=> '([^,']+)/)
+      cores = File.read(CORES)[/^  ALL = \{.*?\}/m].scan(/^ +'([^']+)' =>/)
+      (pics + cores + File.read(FAMILIES).scan(/\btitle: '([^,']+)/)).flatten.uniq
     end
 
     # Of the daily parts, on two cores.
