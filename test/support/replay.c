@@ -29,114 +29,13 @@
 #include "fixpid_slew.h"
 #include "fixpid_table.h"
 #include "fixpid_tpo.h"
+#include "vectors.h"
+#include "vectors_columns.h"
 #include "vectors_pid.h"
 
 #define REPORTED_MAX 10 // differing values; the rest is only counted
 #define EXIT_WRONG_FILE 2
 #define EXIT_SKIPPED 77
-
-// Columns of an937_firmware.csv; the terms are magnitudes.
-enum {
-    AN937_RUN,
-    AN937_KP,
-    AN937_KI,
-    AN937_KD,
-    AN937_ERROR,
-    AN937_TICK,
-    AN937_PID_OUT,
-    AN937_A_ERROR,
-    AN937_D_ERROR,
-    AN937_PROP,
-    AN937_INTEG,
-    AN937_DERIV,
-    AN937_COLUMNS = AN937_DERIV + 3 // two more: the firmware's own cost
-};
-
-// Columns of an964_firmware.csv.
-enum {
-    AN964_RUN,
-    AN964_KP,
-    AN964_KI,
-    AN964_KD,
-    AN964_ERROR,
-    AN964_SUM,
-    AN964_INTEGRAL,
-    AN964_DERIVATIVE,
-    AN964_OUT,
-    AN964_COLUMNS
-};
-
-// Columns of slew.csv.
-enum {
-    SLEW_RUN,
-    SLEW_EVENT,
-    SLEW_RISE,
-    SLEW_FALL,
-    SLEW_SEED,
-    SLEW_TARGET,
-    SLEW_OUTPUT,
-    SLEW_VALUE,
-    SLEW_COLUMNS
-};
-
-// Columns of tpo.csv.
-enum {
-    TPO_RUN,
-    TPO_EVENT,
-    TPO_ACCEPTED,
-    TPO_FULL,
-    TPO_WINDOW,
-    TPO_MINIMUM_ON,
-    TPO_MINIMUM_OFF,
-    TPO_DUTY,
-    TPO_ON,
-    TPO_COLUMNS = TPO_ON + 2 // one more: the definition's carry
-};
-
-// Columns of guard.csv.
-enum {
-    GUARD_RUN,
-    GUARD_EVENT,
-    GUARD_ACCEPTED,
-    GUARD_OUTPUT_MIN,
-    GUARD_OUTPUT_MAX,
-    GUARD_MEASUREMENT_MIN,
-    GUARD_MEASUREMENT_MAX,
-    GUARD_REACH_MIN,
-    GUARD_REACH_MAX,
-    GUARD_BAND,
-    GUARD_PATIENCE,
-    GUARD_OPTIONS,
-    GUARD_FLAGS_BEFORE,
-    GUARD_SETPOINT,
-    GUARD_MEASUREMENT,
-    GUARD_OUTPUT,
-    GUARD_REPEAT,
-    GUARD_FLAGS,
-    GUARD_COLUMNS
-};
-
-// Columns of gains.csv.
-enum {
-    GAINS_KP_MILLI,
-    GAINS_KI_MILLI,
-    GAINS_KD_MILLI,
-    GAINS_RATE,
-    GAINS_FILTER,
-    GAINS_ACCEPTED,
-    GAINS_KP,
-    GAINS_KI,
-    GAINS_KD,
-    GAINS_BACK_ACCEPTED,
-    GAINS_KP_BACK,
-    GAINS_KI_BACK,
-    GAINS_KD_BACK,
-    GAINS_COLUMNS
-};
-
-// Columns of table.csv, and its kinds of rows.
-enum { TABLE, TABLE_KIND, TABLE_X, TABLE_Y, TABLE_COLUMNS };
-enum { TABLE_POINT, TABLE_VERDICT, TABLE_LOOKUP };
 
 // What was called before the row's step of a slew, a tpo or a guard.
 enum {
@@ -155,24 +54,6 @@ static void stop(const char *why)
 {
     fprintf(stderr, "replay: %s, row %d: %s\n", path, row, why);
     exit(EXIT_WRONG_FILE);
-}
-
-// `count` numbers between commas and nothing else; any line ending.
-static void parse(char *line, int32_t columns[], int count)
-{
-    const char *text = line;
-
-    line[strcspn(line, "\r\n")] = '\0';
-    for (int column = 0; column < count; column++) {
-        char *end;
-        const long long value = strtoll(text, &end, 10);
-
-        if (end == text || *end != (column + 1 < count ? ',' : '\0')) {
-            stop("does not have the columns of this recording");
-        }
-        columns[column] = (int32_t)value;
-        text = end + 1;
-    }
 }
 
 // True if equal; else says what differs.
@@ -592,25 +473,22 @@ static bool step_error_row_is_same(const int32_t at[], bool fresh)
 #define track_row_is_same pid_row_is_same
 #endif
 
-static int replay(const char *name, int rows, int columns,
+static int replay(const char *name, int rows, unsigned columns,
                   bool (*row_is_same)(const int32_t at[], bool fresh))
 {
-    FILE *const file = fopen(path, "r");
-    char line[256];
-    int32_t at[TRACK_COLUMNS]; // the others have fewer
+    int32_t at[VECTORS_COLUMNS_MAX];
     int32_t run = -1;
     int different = 0;
 
-    if (file == NULL || fgets(line, sizeof line, file) == NULL) {
-        stop("cannot be read");
-    }
-    while (fgets(line, sizeof line, file) != NULL) {
+    vectors_open_file(path);
+    while (vectors_next(at)) {
         row++;
-        parse(line, at, columns);
+        if (vectors_columns != columns) {
+            stop("does not have the columns of this recording");
+        }
         different += row_is_same(at, at[0] != run) ? 0 : 1;
         run = at[0];
     }
-    fclose(file);
     if (row != rows) {
         stop("is not the last one that is expected");
     }

@@ -1,46 +1,71 @@
 // SPDX-License-Identifier: MIT
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "unity.h"
 #include "vectors.h"
 
-static FILE *file;
+#include <stdio.h>
+#include <stdlib.h>
 
-void vectors_open(const char *name)
+unsigned vectors_columns;
+
+static FILE *file;
+static const char *opened;
+static unsigned row; // the header is row 0
+
+static void stop(const char *why)
 {
-    char path[128];
+    (void)fprintf(stderr, "%s, row %u: %s\n", opened, row, why);
+    exit(2);
+}
+
+void vectors_open_file(const char *path)
+{
     char header[512];
 
     if (file != NULL) {
-        fclose(file);
+        (void)fclose(file);
     }
-    snprintf(path, sizeof path, "test/support/vectors/%s.csv", name);
+    opened = path;
+    row = 0;
     file = fopen(path, "r");
-    TEST_ASSERT_NOT_NULL_MESSAGE(file, path);
-    TEST_ASSERT_NOT_NULL_MESSAGE(fgets(header, sizeof header, file), path);
+    if (file == NULL || fgets(header, sizeof header, file) == NULL) {
+        stop("cannot be read");
+    }
+}
+
+void vectors_open(const char *name)
+{
+    static char path[128];
+
+    (void)snprintf(path, sizeof path, "test/support/vectors/%s.csv", name);
+    vectors_open_file(path);
 }
 
 bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX])
 {
     char line[512];
     char *rest = line;
+    bool more = true;
 
     if (fgets(line, sizeof line, file) == NULL) {
-        fclose(file);
+        (void)fclose(file);
         file = NULL;
         return false;
     }
-    for (unsigned column = 0; column < VECTORS_COLUMNS_MAX; column++) {
+    row++;
+    for (vectors_columns = 0; more; vectors_columns++) {
         char *const number = rest;
-        columns[column] = (int32_t)strtol(number, &rest, 10);
-        TEST_ASSERT_TRUE_MESSAGE(rest != number, line);
-        if (*rest != ',') {
-            break;
+
+        if (vectors_columns == VECTORS_COLUMNS_MAX) {
+            stop("has too many columns");
         }
-        rest++;
+        columns[vectors_columns] = (int32_t)strtoll(number, &rest, 10);
+        if (rest == number) {
+            stop("is not all numbers");
+        }
+        more = *rest == ',';
+        rest += more ? 1 : 0;
     }
-    TEST_ASSERT_TRUE_MESSAGE(*rest == '\r' || *rest == '\n', line);
+    if (*rest != '\r' && *rest != '\n') {
+        stop("is not all numbers");
+    }
     return true;
 }

@@ -11,6 +11,7 @@
 
 // The first row comes next. `name` is the file's, without folder and ending.
 void vectors_open(const char *name);
+void vectors_open_file(const char *path); // any, on the host
 
 // The same of a file that is known here, as VECTORS_OPEN(pid): a program for a
 // chip keeps the tables of no others.
@@ -25,7 +26,9 @@ void vectors_open(const char *name);
 #endif
 
 // The next row's columns; false after the last one. A file that is missing or
-// a row that is not all numbers fails the test.
+// a row that is not all numbers ends the program.
 bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX]);
+
+extern unsigned vectors_columns; // how many the last row had, on the host
 
 #endif

@@ -6,6 +6,7 @@
 #include "reference.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
@@ -80,50 +81,40 @@ void tearDown(void)
 
 void test_step_recorded_rows_match_the_firmware(void)
 {
-    enum {
-        RUN,
-        KP,
-        KI,
-        KD,
-        ERROR,
-        TICK,
-        OUT,
-        A_ERROR,
-        D_ERROR,
-        PROP,
-        INTEG,
-        DERIV
-    };
     int32_t row[VECTORS_COLUMNS_MAX];
     int32_t run = -1;
     unsigned rows = 0;
 
     VECTORS_OPEN(an937_firmware);
     while (vectors_next(row)) {
-        const uint8_t kp = (uint8_t)row[KP];
-        const uint8_t ki = (uint8_t)row[KI];
-        const uint8_t kd = (uint8_t)row[KD];
+        const uint8_t kp = (uint8_t)row[AN937_KP];
+        const uint8_t ki = (uint8_t)row[AN937_KI];
+        const uint8_t kd = (uint8_t)row[AN937_KD];
 
-        if (row[RUN] != run) {
-            run = row[RUN];
+        if (row[AN937_RUN] != run) {
+            run = row[AN937_RUN];
             start(kp, ki, kd, 4000, 4);
         }
         TEST_ASSERT_TRUE(fixpid_an937_set_gains(&an937_controller, kp, ki, kd));
-        if (row[TICK] != 0) {
+        if (row[AN937_TICK] != 0) {
             fixpid_an937_tick(&an937_controller);
         }
         TEST_ASSERT_EQUAL_INT32(
-            row[OUT],
-            fixpid_an937_step(&an937_controller, (int16_t)row[ERROR]));
+            row[AN937_PID_OUT],
+            fixpid_an937_step(&an937_controller, (int16_t)row[AN937_ERROR]));
         TEST_ASSERT_EQUAL_INT32(
-            row[A_ERROR], fixpid_an937_accumulated_error(&an937_controller));
-        TEST_ASSERT_EQUAL_INT32(row[ERROR] < 0 ? -row[PROP] : row[PROP],
+            row[AN937_A_ERROR],
+            fixpid_an937_accumulated_error(&an937_controller));
+        TEST_ASSERT_EQUAL_INT32(row[AN937_ERROR] < 0 ? -row[AN937_PROP]
+                                                     : row[AN937_PROP],
                                 fixpid_an937_proportional(&an937_controller));
-        TEST_ASSERT_EQUAL_INT32(row[A_ERROR] < 0 ? -row[INTEG] : row[INTEG],
+        TEST_ASSERT_EQUAL_INT32(row[AN937_A_ERROR] < 0 ? -row[AN937_INTEG]
+                                                       : row[AN937_INTEG],
                                 fixpid_an937_integral(&an937_controller));
-        TEST_ASSERT_EQUAL_INT32(row[D_ERROR] < 0 ? -row[DERIV] : row[DERIV],
+        TEST_ASSERT_EQUAL_INT32(row[AN937_D_ERROR] < 0 ? -row[AN937_DERIV]
+                                                       : row[AN937_DERIV],
                                 fixpid_an937_derivative(&an937_controller));
-        TEST_ASSERT_EQUAL_INT32(row[D_ERROR] * kd,
+        TEST_ASSERT_EQUAL_INT32(row[AN937_D_ERROR] * kd,
                                 fixpid_an937_derivative(&an937_controller));
         rows++;
     }

@@ -5,6 +5,7 @@
 #include "reference.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("src/an964/fixpid_an964.c")
 TEST_SOURCE_FILE("src/an964/fixpid_an964_more.c")
@@ -64,29 +65,29 @@ void tearDown(void)
 
 void test_step_recorded_rows_match_the_firmware(void)
 {
-    enum { RUN, KP, KI, KD, ERROR, SUM, INTEGRAL, DERIVATIVE, OUT };
     int32_t row[VECTORS_COLUMNS_MAX];
     int32_t run = -1;
     unsigned rows = 0;
 
     VECTORS_OPEN(an964_firmware);
     while (vectors_next(row)) {
-        if (row[RUN] != run) {
-            run = row[RUN];
-            start((uint16_t)row[KP], (uint16_t)row[KI], (uint16_t)row[KD]);
+        if (row[AN964_RUN] != run) {
+            run = row[AN964_RUN];
+            start((uint16_t)row[AN964_KP], (uint16_t)row[AN964_KI],
+                  (uint16_t)row[AN964_KD]);
         }
-        TEST_ASSERT_TRUE(
-            fixpid_an964_set_gains(&an964_controller, (uint16_t)row[KP],
-                                   (uint16_t)row[KI], (uint16_t)row[KD]));
+        TEST_ASSERT_TRUE(fixpid_an964_set_gains(
+            &an964_controller, (uint16_t)row[AN964_KP], (uint16_t)row[AN964_KI],
+            (uint16_t)row[AN964_KD]));
         TEST_ASSERT_EQUAL_INT16(
-            row[OUT],
-            fixpid_an964_step(&an964_controller, (int16_t)row[ERROR]));
-        TEST_ASSERT_EQUAL_INT16(row[ERROR],
+            row[AN964_OUT],
+            fixpid_an964_step(&an964_controller, (int16_t)row[AN964_ERROR]));
+        TEST_ASSERT_EQUAL_INT16(row[AN964_ERROR],
                                 fixpid_an964_proportional(&an964_controller));
-        TEST_ASSERT_EQUAL_INT16(row[SUM], an964_controller.sum);
-        TEST_ASSERT_EQUAL_INT16(row[INTEGRAL],
+        TEST_ASSERT_EQUAL_INT16(row[AN964_SUM], an964_controller.sum);
+        TEST_ASSERT_EQUAL_INT16(row[AN964_INTEGRAL],
                                 fixpid_an964_integral(&an964_controller));
-        TEST_ASSERT_EQUAL_INT16(row[DERIVATIVE],
+        TEST_ASSERT_EQUAL_INT16(row[AN964_DERIVATIVE],
                                 fixpid_an964_derivative(&an964_controller));
         rows++;
     }

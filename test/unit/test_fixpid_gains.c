@@ -8,6 +8,7 @@
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("test/support/numbers_gains.c")
 TEST_SOURCE_FILE("src/gains/fixpid_gains.c")
@@ -21,23 +22,6 @@ TEST_SOURCE_FILE("src/gains/fixpid_gains.c")
 
 #define ROWS 1000
 #define UNTOUCHED 0xA5
-
-// Columns of gains.csv.
-enum {
-    KP_MILLI,
-    KI_MILLI,
-    KD_MILLI,
-    RATE_MILLI,
-    FILTER,
-    ACCEPTED,
-    KP,
-    KI,
-    KD,
-    BACK_ACCEPTED,
-    KP_BACK,
-    KI_BACK,
-    KD_BACK
-};
 
 static struct fixpid_pid_gains gains;
 static struct fixpid_gains_milli back;
@@ -294,21 +278,21 @@ void test_from_and_to_milli_recorded_rows_match_the_definition(void)
 
     VECTORS_OPEN(gains);
     while (vectors_next(row)) {
-        const uint32_t rate_milli = (uint32_t)row[RATE_MILLI];
-        const uint8_t filter = (uint8_t)row[FILTER];
+        const uint32_t rate_milli = (uint32_t)row[GAINS_RATE];
+        const uint8_t filter = (uint8_t)row[GAINS_FILTER];
 
         gains = (struct fixpid_pid_gains){0, 0, 0, filter};
         back = (struct fixpid_gains_milli){0, 0, 0};
-        TEST_ASSERT_EQUAL_INT32(row[ACCEPTED], from((uint32_t)row[KP_MILLI],
-                                                    (uint32_t)row[KI_MILLI],
-                                                    (uint32_t)row[KD_MILLI],
-                                                    rate_milli, filter));
-        gains_are((uint16_t)row[KP], (uint32_t)row[KI], (uint16_t)row[KD],
-                  filter);
-        if (row[ACCEPTED] != 0) {
-            TEST_ASSERT_EQUAL_INT32(row[BACK_ACCEPTED], to(rate_milli));
-            back_is((uint32_t)row[KP_BACK], (uint32_t)row[KI_BACK],
-                    (uint32_t)row[KD_BACK]);
+        TEST_ASSERT_EQUAL_INT32(
+            row[GAINS_ACCEPTED],
+            from((uint32_t)row[GAINS_KP_MILLI], (uint32_t)row[GAINS_KI_MILLI],
+                 (uint32_t)row[GAINS_KD_MILLI], rate_milli, filter));
+        gains_are((uint16_t)row[GAINS_KP], (uint32_t)row[GAINS_KI],
+                  (uint16_t)row[GAINS_KD], filter);
+        if (row[GAINS_ACCEPTED] != 0) {
+            TEST_ASSERT_EQUAL_INT32(row[GAINS_BACK_ACCEPTED], to(rate_milli));
+            back_is((uint32_t)row[GAINS_KP_BACK], (uint32_t)row[GAINS_KI_BACK],
+                    (uint32_t)row[GAINS_KD_BACK]);
         }
         rows++;
     }

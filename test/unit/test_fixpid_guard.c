@@ -9,6 +9,7 @@
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("test/support/numbers_guard.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
@@ -27,28 +28,6 @@ TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 #define HIGH FIXPID_GUARD_SENSOR_HIGH
 #define SETTLED FIXPID_GUARD_SETTLED
 #define REFUSED FIXPID_GUARD_REFUSED
-
-// Columns of guard.csv.
-enum {
-    RUN,
-    EVENT,
-    ACCEPTED,
-    OUTPUT_MIN,
-    OUTPUT_MAX,
-    MEASUREMENT_MIN,
-    MEASUREMENT_MAX,
-    REACH_MIN,
-    REACH_MAX,
-    BAND,
-    PATIENCE,
-    OPTIONS,
-    FLAGS_BEFORE,
-    SETPOINT,
-    MEASUREMENT,
-    OUTPUT,
-    REPEAT,
-    FLAGS
-};
 
 enum { EVENT_INIT = 1, EVENT_RESET, EVENT_ACKNOWLEDGE };
 
@@ -692,22 +671,22 @@ void test_step_widest_differences_do_not_wrap(void)
 
 static void take_row(const int32_t row[])
 {
-    const unsigned options = (unsigned)row[OPTIONS];
+    const unsigned options = (unsigned)row[GUARD_OPTIONS];
 
-    config.output_min = (int16_t)row[OUTPUT_MIN];
-    config.output_max = (int16_t)row[OUTPUT_MAX];
-    config.measurement_min = (int16_t)row[MEASUREMENT_MIN];
-    config.measurement_max = (int16_t)row[MEASUREMENT_MAX];
-    config.reach_min = (int16_t)row[REACH_MIN];
-    config.reach_max = (int16_t)row[REACH_MAX];
-    config.band = (uint16_t)row[BAND];
-    config.patience = (uint16_t)row[PATIENCE];
+    config.output_min = (int16_t)row[GUARD_OUTPUT_MIN];
+    config.output_max = (int16_t)row[GUARD_OUTPUT_MAX];
+    config.measurement_min = (int16_t)row[GUARD_MEASUREMENT_MIN];
+    config.measurement_max = (int16_t)row[GUARD_MEASUREMENT_MAX];
+    config.reach_min = (int16_t)row[GUARD_REACH_MIN];
+    config.reach_max = (int16_t)row[GUARD_REACH_MAX];
+    config.band = (uint16_t)row[GUARD_BAND];
+    config.patience = (uint16_t)row[GUARD_PATIENCE];
     config.reverse = (options & 0x80u) != 0u;
     config.noisy = (options & 0x40u) != 0u;
     if ((options & 0x3Fu) != 0u) { // it stands for what is refused
         config.patience = 0;
     }
-    setpoint = (int16_t)row[SETPOINT];
+    setpoint = (int16_t)row[GUARD_SETPOINT];
 }
 
 void test_step_recorded_rows_match_the_definition(void)
@@ -720,19 +699,20 @@ void test_step_recorded_rows_match_the_definition(void)
         bool accepted = true;
 
         take_row(row);
-        if (row[EVENT] == EVENT_INIT) {
+        if (row[GUARD_EVENT] == EVENT_INIT) {
             accepted = init();
-        } else if (row[EVENT] == EVENT_RESET) {
+        } else if (row[GUARD_EVENT] == EVENT_RESET) {
             reset();
-        } else if (row[EVENT] == EVENT_ACKNOWLEDGE) {
+        } else if (row[GUARD_EVENT] == EVENT_ACKNOWLEDGE) {
             acknowledge();
         }
-        TEST_ASSERT_EQUAL_INT32(row[ACCEPTED], accepted);
-        flags_are((unsigned)row[FLAGS_BEFORE]);
-        for (int32_t at = 0; at < row[REPEAT]; at++) {
-            (void)step((int16_t)row[MEASUREMENT], (int16_t)row[OUTPUT]);
+        TEST_ASSERT_EQUAL_INT32(row[GUARD_ACCEPTED], accepted);
+        flags_are((unsigned)row[GUARD_FLAGS_BEFORE]);
+        for (int32_t at = 0; at < row[GUARD_REPEAT]; at++) {
+            (void)step((int16_t)row[GUARD_MEASUREMENT],
+                       (int16_t)row[GUARD_OUTPUT]);
         }
-        flags_are((unsigned)row[FLAGS]);
+        flags_are((unsigned)row[GUARD_FLAGS]);
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(ROWS, rows);

@@ -9,6 +9,7 @@
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("test/support/numbers_slew.c")
 TEST_SOURCE_FILE("src/slew/fixpid_slew.c")
@@ -19,9 +20,6 @@ TEST_SOURCE_FILE("src/slew/fixpid_slew.c")
 
 #define ROWS 1000
 #define INSTANCES 5
-
-// Columns of slew.csv.
-enum { RUN, EVENT, RISE, FALL, SEED, TARGET, OUTPUT, VALUE };
 
 static FIXPID_DATA struct fixpid_slew slew;
 static struct reference_slew reference;
@@ -233,10 +231,10 @@ static int16_t step(int16_t target)
 
 static void make_event(const int32_t row[])
 {
-    const uint32_t rise = (uint32_t)row[RISE];
-    const uint32_t fall = (uint32_t)row[FALL];
+    const uint32_t rise = (uint32_t)row[SLEW_RISE];
+    const uint32_t fall = (uint32_t)row[SLEW_FALL];
 
-    switch (row[EVENT]) {
+    switch (row[SLEW_EVENT]) {
     case 0:
         break;
     case 1:
@@ -250,7 +248,7 @@ static void make_event(const int32_t row[])
         set_rates(rise, fall);
         break;
     case 4:
-        seed((int16_t)row[SEED]);
+        seed((int16_t)row[SLEW_SEED]);
         break;
     default:
         TEST_FAIL_MESSAGE("unknown event");
@@ -265,8 +263,9 @@ void test_step_recorded_rows_match_the_definition(void)
     VECTORS_OPEN(slew);
     while (vectors_next(row)) {
         make_event(row);
-        TEST_ASSERT_EQUAL_INT16(row[OUTPUT], step((int16_t)row[TARGET]));
-        TEST_ASSERT_EQUAL_INT32(row[VALUE], fixpid_slew_value(&slew));
+        TEST_ASSERT_EQUAL_INT16(row[SLEW_OUTPUT],
+                                step((int16_t)row[SLEW_TARGET]));
+        TEST_ASSERT_EQUAL_INT32(row[SLEW_VALUE], fixpid_slew_value(&slew));
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(ROWS, rows);

@@ -6,6 +6,7 @@
 #include "table_in_flash.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("test/support/numbers_table.c")
 TEST_SOURCE_FILE("src/table/fixpid_table.c")
@@ -21,10 +22,6 @@ TEST_SOURCE_FILE("test/support/reference.c")
 
 #define ROWS 800
 #define MOST 255u
-
-// Columns of table.csv, and its kinds of rows.
-enum { TABLE, KIND, X, Y };
-enum { POINT, VERDICT, LOOKUP };
 
 static struct fixpid_table_point points[MOST + 1u];
 static struct fixpid_table table;
@@ -70,18 +67,18 @@ void test_at_is_each_recorded_row(void)
     VECTORS_OPEN(table);
     while (vectors_next(row)) {
         rows++;
-        if (row[TABLE] != last) {
-            last = row[TABLE];
+        if (row[TABLE_TABLE] != last) {
+            last = row[TABLE_TABLE];
             table.count = 0;
         }
-        if (row[KIND] == POINT) {
-            add((int16_t)row[X], (int16_t)row[Y]);
-        } else if (row[KIND] == VERDICT) {
-            TEST_ASSERT_EQUAL_INT32(row[X], table.count);
-            TEST_ASSERT_EQUAL_INT32(row[Y], fixpid_table_valid(&table));
+        if (row[TABLE_KIND] == TABLE_POINT) {
+            add((int16_t)row[TABLE_X], (int16_t)row[TABLE_Y]);
+        } else if (row[TABLE_KIND] == TABLE_VERDICT) {
+            TEST_ASSERT_EQUAL_INT32(row[TABLE_X], table.count);
+            TEST_ASSERT_EQUAL_INT32(row[TABLE_Y], fixpid_table_valid(&table));
         } else {
-            TEST_ASSERT_EQUAL_INT32(LOOKUP, row[KIND]);
-            TEST_ASSERT_EQUAL_INT32(row[Y], at((int16_t)row[X]));
+            TEST_ASSERT_EQUAL_INT32(TABLE_LOOKUP, row[TABLE_KIND]);
+            TEST_ASSERT_EQUAL_INT32(row[TABLE_Y], at((int16_t)row[TABLE_X]));
         }
     }
     TEST_ASSERT_EQUAL_UINT(ROWS, rows);

@@ -9,6 +9,7 @@
 #include "reference_control.h"
 #include "unity.h"
 #include "vectors.h"
+#include "vectors_columns.h"
 
 TEST_SOURCE_FILE("test/support/numbers_tpo.c")
 TEST_SOURCE_FILE("src/tpo/fixpid_tpo.c")
@@ -20,20 +21,6 @@ TEST_SOURCE_FILE("src/tpo/fixpid_tpo_check.c")
 
 #define ROWS 1000
 #define INSTANCES 5
-
-// Columns of tpo.csv.
-enum {
-    RUN,
-    EVENT,
-    ACCEPTED,
-    FULL,
-    WINDOW,
-    MINIMUM_ON,
-    MINIMUM_OFF,
-    DUTY,
-    ON,
-    CARRY
-};
 
 static FIXPID_DATA struct fixpid_tpo tpo;
 static struct reference_tpo reference;
@@ -315,17 +302,17 @@ void test_step_recorded_rows_match_the_definition(void)
 
     VECTORS_OPEN(tpo);
     while (vectors_next(row)) {
-        config.full = (int16_t)row[FULL];
-        config.window = (uint16_t)row[WINDOW];
-        config.minimum_on = (uint16_t)row[MINIMUM_ON];
-        config.minimum_off = (uint16_t)row[MINIMUM_OFF];
-        if (row[EVENT] == 1) {
-            TEST_ASSERT_EQUAL_INT32(row[ACCEPTED], init());
-        } else if (row[EVENT] == 2) {
+        config.full = (int16_t)row[TPO_FULL];
+        config.window = (uint16_t)row[TPO_WINDOW];
+        config.minimum_on = (uint16_t)row[TPO_MINIMUM_ON];
+        config.minimum_off = (uint16_t)row[TPO_MINIMUM_OFF];
+        if (row[TPO_EVENT] == 1) {
+            TEST_ASSERT_EQUAL_INT32(row[TPO_ACCEPTED], init());
+        } else if (row[TPO_EVENT] == 2) {
             reset();
         }
-        TEST_ASSERT_EQUAL_INT32(row[ON], step((int16_t)row[DUTY]));
-        TEST_ASSERT_EQUAL_INT32(row[CARRY], reference.carry);
+        TEST_ASSERT_EQUAL_INT32(row[TPO_ON], step((int16_t)row[TPO_DUTY]));
+        TEST_ASSERT_EQUAL_INT32(row[TPO_CARRY], reference.carry);
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(ROWS, rows);

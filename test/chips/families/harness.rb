@@ -18,7 +18,7 @@ class Questions
   SOURCES = %w[test/chips/families/questions.c test/chips/target/cases.c test/support/reference.c test/support/reference_pid.c
                test/support/numbers.c test/support/numbers_pid.c test/support/vectors.c].freeze
   FLAGS = %w[-std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Itest/support
-             -Itest/chips/target -Itest/tools/cost/host].freeze
+             -Itest/chips/target].freeze
   # A set of questions: its files, and what is in them.
   Asked = Struct.new(:questions, :answers, :rows, :steps, :question, :answer, :object, keyword_init: true) do
     def count

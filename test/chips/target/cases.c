@@ -9,6 +9,7 @@
 #include "numbers_pid.h"
 #include "reference.h"
 #include "reference_pid.h"
+#include "vectors_columns.h"
 #include "vectors_pid.h"
 
 static bool first;         // no question has been asked yet
@@ -248,22 +249,25 @@ static void an937_row(const int32_t columns[], union question *question,
 {
     const struct an937_question asked = {
         .limit = 4000,
-        .error = (int16_t)columns[4],
-        .kp_q4 = (uint8_t)columns[1],
-        .ki_q4 = (uint8_t)columns[2],
-        .kd_q4 = (uint8_t)columns[3],
+        .error = (int16_t)columns[AN937_ERROR],
+        .kp_q4 = (uint8_t)columns[AN937_KP],
+        .ki_q4 = (uint8_t)columns[AN937_KI],
+        .kd_q4 = (uint8_t)columns[AN937_KD],
         .period = 4,
-        .calls = CALL_GETTERS | (fresh(columns[0]) ? CALL_INIT : 0u),
-        .ticks = (uint8_t)columns[5],
+        .calls = CALL_GETTERS | (fresh(columns[AN937_RUN]) ? CALL_INIT : 0u),
+        .ticks = (uint8_t)columns[AN937_TICK],
     };
 
     question->an937 = asked;
     an937_define(question, answer); // flags and registers are not recorded
-    answer->an937.output = columns[6];
-    answer->an937.accumulated = columns[7];
-    answer->an937.proportional = with_sign_of(columns[4], columns[9]);
-    answer->an937.integral = with_sign_of(columns[7], columns[10]);
-    answer->an937.derivative = with_sign_of(columns[8], columns[11]);
+    answer->an937.output = columns[AN937_PID_OUT];
+    answer->an937.accumulated = columns[AN937_A_ERROR];
+    answer->an937.proportional =
+        with_sign_of(columns[AN937_ERROR], columns[AN937_PROP]);
+    answer->an937.integral =
+        with_sign_of(columns[AN937_A_ERROR], columns[AN937_INTEG]);
+    answer->an937.derivative =
+        with_sign_of(columns[AN937_D_ERROR], columns[AN937_DERIV]);
 }
 
 // ---- AN964, both forms ----
@@ -362,18 +366,18 @@ static void an964_row(const int32_t columns[], union question *question,
                       union answer *answer)
 {
     const struct an964_question asked = {
-        .gains = {(uint16_t)columns[1], (uint16_t)columns[2],
-                  (uint16_t)columns[3]},
-        .error = (int16_t)columns[4],
-        .calls = fresh(columns[0]) ? CALL_INIT : 0u,
+        .gains = {(uint16_t)columns[AN964_KP], (uint16_t)columns[AN964_KI],
+                  (uint16_t)columns[AN964_KD]},
+        .error = (int16_t)columns[AN964_ERROR],
+        .calls = fresh(columns[AN964_RUN]) ? CALL_INIT : 0u,
     };
 
     question->an964 = asked;
     an964_define(question, answer); // the flags are not recorded
-    answer->an964.output = (int16_t)columns[8];
-    answer->an964.proportional = (int16_t)columns[4];
-    answer->an964.integral = (int16_t)columns[6];
-    answer->an964.derivative = (int16_t)columns[7];
+    answer->an964.output = (int16_t)columns[AN964_OUT];
+    answer->an964.proportional = (int16_t)columns[AN964_ERROR];
+    answer->an964.integral = (int16_t)columns[AN964_INTEGRAL];
+    answer->an964.derivative = (int16_t)columns[AN964_DERIVATIVE];
 }
 
 static void an964_8bit_ask(union question *question)
@@ -408,10 +412,11 @@ static void an964_8bit_row(const int32_t columns[], union question *question,
                            union answer *answer)
 {
     const struct an964_8bit_question asked = {
-        .gains = {(uint8_t)(columns[1] / 8), (uint8_t)(columns[2] / 8),
-                  (uint8_t)(columns[3] / 8)},
-        .error = (int8_t)columns[4],
-        .calls = fresh(columns[0]) ? CALL_INIT : 0u,
+        .gains = {(uint8_t)(columns[AN964_KP] / 8),
+                  (uint8_t)(columns[AN964_KI] / 8),
+                  (uint8_t)(columns[AN964_KD] / 8)},
+        .error = (int8_t)columns[AN964_ERROR],
+        .calls = fresh(columns[AN964_RUN]) ? CALL_INIT : 0u,
     };
 
     question->an964_8bit = asked;
@@ -634,20 +639,21 @@ static void pid_row(const int32_t columns[], union question *question,
                     union answer *answer)
 {
     struct pid_question asked = {
-        .ki_q24 = (uint32_t)columns[2],
-        .kp_q8 = (uint16_t)columns[1],
-        .kd_q8 = (uint16_t)columns[3],
-        .output_min = (int16_t)columns[5],
-        .output_max = (int16_t)columns[6],
-        .integral_min = (int16_t)columns[7],
-        .integral_max = (int16_t)columns[8],
-        .setpoint_weight_q8 = (uint16_t)columns[9],
-        .value = (int16_t)columns[12],
-        .setpoint = (int16_t)columns[13],
-        .measurement = (int16_t)columns[14],
-        .calls = (uint16_t)((1u << columns[11]) >> 1),
-        .derivative_filter = (uint8_t)columns[4],
-        .options = vectors_pid_options(columns[10], columns[9]),
+        .ki_q24 = (uint32_t)columns[PID_KI],
+        .kp_q8 = (uint16_t)columns[PID_KP],
+        .kd_q8 = (uint16_t)columns[PID_KD],
+        .output_min = (int16_t)columns[PID_OUTPUT_MIN],
+        .output_max = (int16_t)columns[PID_OUTPUT_MAX],
+        .integral_min = (int16_t)columns[PID_INTEGRAL_MIN],
+        .integral_max = (int16_t)columns[PID_INTEGRAL_MAX],
+        .setpoint_weight_q8 = (uint16_t)columns[PID_WEIGHT],
+        .value = (int16_t)columns[PID_VALUE],
+        .setpoint = (int16_t)columns[PID_SETPOINT],
+        .measurement = (int16_t)columns[PID_MEASUREMENT],
+        .calls = (uint16_t)((1u << columns[PID_EVENT]) >> 1),
+        .derivative_filter = (uint8_t)columns[PID_FILTER],
+        .options =
+            vectors_pid_options(columns[PID_OPTIONS], columns[PID_WEIGHT]),
     };
 
     const bool holds = recording_holds(&asked);
@@ -657,18 +663,15 @@ static void pid_row(const int32_t columns[], union question *question,
     if (!holds) {
         return;
     }
-    answer->pid.output = (int16_t)columns[15];
-    answer->pid.proportional = columns[16];
-    answer->pid.integral = columns[17];
-    answer->pid.derivative = columns[18];
+    answer->pid.output = (int16_t)columns[PID_OUTPUT];
+    answer->pid.proportional = columns[PID_P];
+    answer->pid.integral = columns[PID_I];
+    answer->pid.derivative = columns[PID_D];
     answer->pid.flags = (uint8_t)((answer->pid.flags & ~VECTORS_PID_FLAGS) |
-                                  (uint8_t)columns[19]);
+                                  (uint8_t)columns[PID_STATUS]);
 }
 
-// Columns: those of pid_row to the event, value, value2, accepted, setpoint,
-// measurement, output, event2, value3, tracked, applied, shift, last_output,
-// p_q8, i_q16, d_q8, status. The event is numbered as in pid_row, and event2,
-// after the step, too; the limits that were set are the values.
+// The limits that were set are the values.
 static void track_row(const int32_t columns[], union question *question,
                       union answer *answer)
 {
@@ -682,29 +685,32 @@ static void track_row(const int32_t columns[], union question *question,
                                            CALL_SET_MANUAL_AFTER,
                                            CALL_SET_AUTO_AFTER,
                                            CALL_SEED_AFTER};
-    const bool outputs = columns[11] == 4;
-    const bool integrals = columns[11] == 5;
+    const bool outputs = columns[TRACK_EVENT] == PID_SET_LIMITS;
+    const bool integrals = columns[TRACK_EVENT] == PID_SET_INTEGRAL_LIMITS;
     struct pid_question asked = {
-        .ki_q24 = (uint32_t)columns[2],
-        .kp_q8 = (uint16_t)columns[1],
-        .kd_q8 = (uint16_t)columns[3],
-        .output_min = (int16_t)columns[outputs ? 12 : 5],
-        .output_max = (int16_t)columns[outputs ? 13 : 6],
-        .integral_min = (int16_t)columns[integrals ? 12 : 7],
-        .integral_max = (int16_t)columns[integrals ? 13 : 8],
-        .setpoint_weight_q8 = (uint16_t)columns[9],
-        .value = (int16_t)columns[12],
-        .value_after = (int16_t)columns[19],
-        .applied = (int16_t)columns[21],
-        .setpoint = (int16_t)columns[15],
-        .measurement = (int16_t)columns[16],
+        .ki_q24 = (uint32_t)columns[PID_KI],
+        .kp_q8 = (uint16_t)columns[PID_KP],
+        .kd_q8 = (uint16_t)columns[PID_KD],
+        .output_min = (int16_t)columns[outputs ? TRACK_VALUE : PID_OUTPUT_MIN],
+        .output_max = (int16_t)columns[outputs ? TRACK_VALUE2 : PID_OUTPUT_MAX],
+        .integral_min =
+            (int16_t)columns[integrals ? TRACK_VALUE : PID_INTEGRAL_MIN],
+        .integral_max =
+            (int16_t)columns[integrals ? TRACK_VALUE2 : PID_INTEGRAL_MAX],
+        .setpoint_weight_q8 = (uint16_t)columns[PID_WEIGHT],
+        .value = (int16_t)columns[TRACK_VALUE],
+        .value_after = (int16_t)columns[TRACK_VALUE3],
+        .applied = (int16_t)columns[TRACK_APPLIED],
+        .setpoint = (int16_t)columns[TRACK_SETPOINT],
+        .measurement = (int16_t)columns[TRACK_MEASUREMENT],
         .calls =
-            (uint16_t)(((1u << columns[11]) >> 1) | calls_after[columns[18]] |
-                       (columns[20] != 0 ? CALL_TRACK_AFTER : 0u)),
-        .derivative_filter = (uint8_t)columns[4],
-        .options = (uint8_t)columns[10],
-        .shift_before = (uint8_t)columns[13],
-        .shift = (uint8_t)columns[22],
+            (uint16_t)(((1u << columns[TRACK_EVENT]) >> 1) |
+                       calls_after[columns[TRACK_EVENT2]] |
+                       (columns[TRACK_TRACKED] != 0 ? CALL_TRACK_AFTER : 0u)),
+        .derivative_filter = (uint8_t)columns[PID_FILTER],
+        .options = (uint8_t)columns[PID_OPTIONS],
+        .shift_before = (uint8_t)columns[TRACK_VALUE2],
+        .shift = (uint8_t)columns[TRACK_SHIFT],
     };
     const bool holds = recording_holds(&asked);
     const uint8_t before = (uint8_t)(asked.calls & 0x1Fu);
@@ -717,14 +723,14 @@ static void track_row(const int32_t columns[], union question *question,
     // An event that has a result is one of these.
     if ((before & (CALL_INIT | CALL_SET_GAINS | CALL_SET_LIMITS |
                    CALL_SET_INTEGRAL_LIMITS)) != 0u) {
-        answer->pid.accepted = columns[14] != 0 ? before : 0u;
+        answer->pid.accepted = columns[TRACK_ACCEPTED] != 0 ? before : 0u;
     }
-    answer->pid.output = (int16_t)columns[17];
-    answer->pid.last_output = (int16_t)columns[23];
-    answer->pid.proportional = columns[24];
-    answer->pid.integral = columns[25];
-    answer->pid.derivative = columns[26];
-    answer->pid.flags = (uint8_t)columns[27];
+    answer->pid.output = (int16_t)columns[TRACK_OUTPUT];
+    answer->pid.last_output = (int16_t)columns[TRACK_LAST_OUTPUT];
+    answer->pid.proportional = columns[TRACK_P];
+    answer->pid.integral = columns[TRACK_I];
+    answer->pid.derivative = columns[TRACK_D];
+    answer->pid.flags = (uint8_t)columns[TRACK_STATUS];
 }
 
 static const struct recording an937_recordings[] = {

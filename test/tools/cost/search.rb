@@ -18,7 +18,7 @@ KNOWN = 1000 # what a step costs that is to be found: MOST of needles.c
 # needles.c with a table of sequences, and the controllers in a form.
 class Needles
   FORMS = { wide: [], narrow: %w[-D_PIC14 -DFIXPID_NO_ASSEMBLY] }.freeze
-  INCLUDES = [*Harness::INCLUDES, '-Itest/tools/cost/host'].freeze
+  INCLUDES = [*Harness::INCLUDES].freeze
   STEPS_WRAPPED = CONTROLLERS.map { |one| "-Wl,--wrap=#{one.function('step')}" }.uniq.freeze
   FOLDER = "#{PROJECT}/build/cost/needles"
 

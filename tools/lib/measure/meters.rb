@@ -97,7 +97,7 @@ module Harness
 
     def compile(file)
       object = "#{Host.folder}/#{File.basename(file, '.c')}.o"
-      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, '-Itest/tools/cost/host', *INCLUDES, '-c', file, '-o', object)
+      Host.output('gcc', '-std=c99', '-O2', *WARNINGS, *INCLUDES, '-c', file, '-o', object)
       object
     end
 
