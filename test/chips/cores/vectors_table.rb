@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Prints a C file that implements test/support/vectors.h over flash tables made
 # of recorded files: ruby vectors_table.rb FILE.csv...
+require_relative '../../support/recorded'
 
 # Each column takes the smallest type that holds it: [C type, range, read, size].
 TYPES = [['uint8_t', 0..255, 'byte', 1], ['int8_t', -128..127, 'byte', 1],
@@ -20,12 +21,11 @@ def column_of(values)
   Column.new(type, read, size, starts, values.values_at(*starts))
 end
 
+# No test reads the firmware's own cycles, the last columns of its files.
 def columns_of(path)
-  used = path.end_with?('_firmware.csv') ? 12 : nil # no test reads the firmware's own cycles
-  rows = File.readlines(path, chomp: true).drop(1).map do |line|
-    line.strip.split(',').first(*used || 99).map { |number| Integer(number, 10) }
-  end
-  [rows.size, rows.transpose.map { |values| column_of(values) }]
+  recorded = Recorded.new(path)
+  names = path.end_with?('_firmware.csv') ? recorded.names.first(12) : recorded.names
+  [recorded.rows.size, names.map { |name| column_of(recorded.numbers(name)) }]
 end
 
 def flash(type, read, size, table, index)

@@ -4,6 +4,7 @@
 # are tables of what differs, and `rows_shared` says which is a row's: ruby rows.rb MODULE.csv or
 # PART.csv, with a number: of the first rows only.
 require_relative '../../../tools/lib/modules'
+require_relative '../../support/recorded'
 
 # C has no literal for these.
 LEAST = { -32_768 => '(-32767 - 1)', -2_147_483_648 => '(-2147483647 - 1)' }.freeze
@@ -18,13 +19,10 @@ end
 
 path = ARGV.fetch(0)
 entry = Modules.entry(File.basename(path, '.csv'))
-head, *rows = File.readlines(path, chomp: true).map { |line| line.split(',') }
-rows = rows.first(Integer(ARGV[1])) if ARGV[1]
-values = lambda do |column|
-  at = head.index(column[/\w+/]) or abort "#{path} has no column #{column[/\w+/]}"
-  rows.map { |row| Integer(row[at], 10) }
-end
-puts '// Made by rows.rb: do not edit.', '#include <stdint.h>', "#define ROWS #{rows.size}u"
+recorded = Recorded.new(path)
+count = ARGV[1] ? Integer(ARGV[1]) : recorded.rows.size
+values = ->(column) { recorded.numbers(column[/\w+/]).first(count) }
+puts '// Made by rows.rb: do not edit.', '#include <stdint.h>', "#define ROWS #{count}u"
 puts '#ifdef __AVR__ // its RAM has no room for them', '#define IN_FLASH __flash', '#else', '#define IN_FLASH', '#endif'
 entry[:rows].each { |column| table(column, values.call(column), 'ROWS') }
 if entry[:shared]

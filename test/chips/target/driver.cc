@@ -3,8 +3,6 @@
 
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 namespace
 {
@@ -187,26 +185,6 @@ bool same_answer(const controller &tested, const std::string &what,
         }
     }
     return false;
-}
-
-std::vector<std::vector<int32_t>> recorded_rows(const std::string &path)
-{
-    std::ifstream file(path);
-    std::vector<std::vector<int32_t>> rows;
-    std::string line;
-    std::string cell;
-
-    if (!std::getline(file, line)) {
-        throw ChipError(path + " cannot be read");
-    }
-    while (std::getline(file, line)) {
-        std::istringstream cells(line);
-        rows.emplace_back();
-        while (std::getline(cells, cell, ',')) {
-            rows.back().push_back(std::stoi(cell));
-        }
-    }
-    return rows;
 }
 
 const controller &find_controller(const std::string &name)

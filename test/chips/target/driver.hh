@@ -61,10 +61,6 @@ class Driver
 bool same_answer(const controller &tested, const std::string &what,
                  const answer &expected, const answer &given);
 
-// The rows of a recorded file. Throws ChipError for one that is not all
-// numbers, has no row or no header.
-std::vector<std::vector<int32_t>> recorded_rows(const std::string &path);
-
 // A controller by name; throws ChipError.
 const controller &find_controller(const std::string &name);
 

@@ -14,6 +14,10 @@
 
 #include "driver.hh"
 
+extern "C" {
+#include "vectors.h"
+}
+
 namespace
 {
 
@@ -37,13 +41,15 @@ std::vector<Row> rows_of(const controller &which,
         if (from->name == nullptr) {
             throw ChipError(path + " is no recording of it");
         }
-        const std::vector<std::vector<int32_t>> columns = recorded_rows(path);
-        if (columns.size() != from->rows) {
+        const size_t before = rows.size();
+        std::vector<int32_t> row(VECTORS_COLUMNS_MAX);
+        vectors_open_file(path.c_str());
+        while (vectors_next(row.data())) {
+            rows.push_back({from, row});
+        }
+        if (rows.size() - before != from->rows) {
             throw ChipError(path + " has not " + std::to_string(from->rows) +
                             " rows");
-        }
-        for (const std::vector<int32_t> &row : columns) {
-            rows.push_back({from, row});
         }
         from++;
     }

@@ -37,7 +37,7 @@ module Programs
   C = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -Iinclude -Isrc -Isim/link -Itest/support -I#{HERE}].freeze
   CC = %W[g++ -std=c++17 -O2 -Wall -Wextra -Wpedantic -Wshadow -Werror -Isim/chip -Isim/link -Iinclude -Itest/support -I#{HERE}].freeze
   ASKING = [*%w[cases arith arith_an937 arith_an964 arith_an964_8bit arith_pid].map { |name| "#{HERE}/#{name}.c" },
-            *%w[numbers numbers_pid reference reference_pid].map { |name| "test/support/#{name}.c" }].freeze
+            *%w[numbers numbers_pid reference reference_pid vectors].map { |name| "test/support/#{name}.c" }].freeze
   SIMULATORS = { 'gpsim' => %w[build/gpsim/libchip.a -lgpsim], 'simavr' => %w[build/gpsim/libchip_avr.a -lsimavr] }.freeze
   # Of examples/kept: all of it is one object, which exports only what is asked.
   KEPT = %W[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -I. -Iinclude -Isrc -Iport -Iport/pic/pic18f4520 -r

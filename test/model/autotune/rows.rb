@@ -5,6 +5,7 @@
 #   ruby rows.rb FILE.csv...
 #
 # Prints the first rows that differ, and how many do.
+require_relative '../../support/recorded'
 require_relative 'columns'
 require_relative 'model'
 require_relative 'plant'
@@ -73,7 +74,7 @@ class Played
 end
 
 # A row that is a record: its bytes are as include/fixpid_autotune.h says.
-class Recorded
+class Record
   VERSION = 3
   SUMS = 'l<2s<S<2'
   FORMAT = "Cs<5S<2C3#{SUMS}#{SUMS}s<S<4s<2".freeze
@@ -107,17 +108,17 @@ end
 
 # [recorded, found] of each column that differs
 def differences(row, recorded)
-  found = (row.key?('record') ? Recorded : Played).new(row).found
+  found = (row.key?('record') ? Record : Played).new(row).found
   recorded.zip(found).reject { |one, other| one == other }
 end
 
 rows = wrong = 0
 ARGV.each do |file|
-  names, *lines = File.readlines(file, chomp: true).map { |line| line.split(',', -1) }
-  given = names.index('status')
-  rows += lines.size
-  lines.each.with_index(1) do |fields, number|
-    recorded, found = differences(names.zip(fields).first(given).to_h, fields.drop(given)).first
+  file_rows = Recorded.new(file)
+  given = file_rows.names.index('status')
+  rows += file_rows.rows.size
+  file_rows.rows.each.with_index(1) do |fields, number|
+    recorded, found = differences(file_rows.names.zip(fields).first(given).to_h, fields.drop(given)).first
     next unless recorded
 
     wrong += 1

@@ -3,6 +3,7 @@
 #
 #   ruby table.rb FILE.csv [STEPS [COUNT]]     all rows, or those of at most so
 #                                              many steps, or so many of them
+require_relative '../../support/recorded'
 require_relative 'columns'
 
 PLANT = %w[integrating growth_q16 delay lags pole_q16 ratio_q8 lead_q16 leads spring_q16 damp_q16 fall_q16 backlash
@@ -41,8 +42,7 @@ def table_row(row)
    "{{{#{config.join(', ')}}, {#{plant.join(', ')}}, #{row['setpoint']}, #{row['robustness_q4']}}, #{digest}u},"]
 end
 
-names, *lines = File.readlines(ARGV[0], chomp: true).map { |line| line.split(',', -1) }
-rows = lines.map { |line| names.zip(line).to_h }
+rows = Recorded.new(ARGV[0]).by_name
 rows.select! { |row| Integer(row['steps']) <= Integer(ARGV[1]) } if ARGV[1]
 rows = rows.first(Integer(ARGV[2])) if ARGV[2]
 puts '// Made by table.rb: do not edit.', '#include "table.h"'
