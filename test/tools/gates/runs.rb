@@ -92,6 +92,22 @@ end
 Gate.refused('what needs another, which failed', said(NEEDS, "'last'"), /^ok good: seen$/, /^FAILED last;.*\n    bad failed, which it needs/)
 Gate.said('comes after it', said(NEEDS, 'rm fault', "'last'"), /ok bad\nok last: after\n\z/)
 
+# Rows of test/matrix.txt: a step that is not quiet, and one of two that is refused for another reason.
+MATRIX = <<~TEXT
+  test/use/things/run
+  good daily
+      quiet true
+  loud daily
+      quiet echo noise
+  refused_* daily sh weekly dash
+      refused no $CC -c 'echo {no;yes}; exit 1'
+TEXT
+TABLE_FILES = Dir.chdir(PROJECT) { Dir['tools/lib/{setup.sh,build/*.sh,test/{matrix.rb,named.rb,*.sh}}'] }.freeze
+Gate.refused('rows of the table', lambda {
+  files = TABLE_FILES.to_h { |path| [path, File.read("#{PROJECT}/#{path}")] }
+  Gate.tree(files.merge('test/matrix.txt' => MATRIX)) { Gate.run('ruby', 'tools/lib/test/matrix.rb', 'test/use/things/run', 'daily') }
+}, /^ok good$/, /^FAILED loud;.*\n    noise\n    not silent: echo noise$/, /^FAILED refused_sh;.*\n    yes\n    failed, but without 'no'/, /\A(?!.*dash;)/m)
+
 # Two programs of three sources and two headers, made by a compiler that is a script, as
 # often as it says in `made`.
 COMPILER = "#!/bin/sh\nout=$1\nshift\necho \"$out\" >>made\n[ ! -e fault ] || exit 1\ncat \"$@\" 2>/dev/null >\"$out\"\nexit 0\n"
