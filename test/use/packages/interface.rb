@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The interface as it is recorded in interface.txt: each function, each constant's
+# The interface as it is recorded in interface.csv: each function, each constant's
 # value, each structure's size and its members' places on an ATmega, a Cortex-M and a
 # PC. docs/installing.md promises when it may change. With --update it is recorded anew.
 require 'fileutils'
 require 'open3'
 
 PROJECT = File.expand_path('../../..', __dir__)
-RECORD = "#{__dir__}/interface.txt"
+RECORD = "#{__dir__}/interface.csv"
+COLUMNS = "header,kind,name,atmega328p,cortex_m0,pc\n"
 FOLDER = "#{PROJECT}/build/interface"
 CHIPS = { 'avr-gcc' => ['S<', %w[-mmcu=atmega328p]], 'arm-none-eabi-gcc' => ['L<', %w[-mcpu=cortex-m0 -mthumb -ffreestanding]],
           'gcc' => ['L<', []] }.freeze
@@ -25,17 +26,17 @@ end
 # [what, C expression] that a compiler has to tell.
 def measures(text)
   structures(text).flat_map do |name, members|
-    [["struct #{name}", "sizeof(struct #{name})"]] + members.map { |member| ["    #{member}", "offsetof(struct #{name}, #{member})"] }
+    [["struct,#{name}", "sizeof(struct #{name})"]] + members.map { |member| ["member,#{name}.#{member}", "offsetof(struct #{name}, #{member})"] }
   end
 end
 
 def constants(text)
   names = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
-  names.flatten.uniq.grep_v(/_VERSION_/).map { |name| ["constant #{name}", "(unsigned long)(#{name})"] }
+  names.flatten.uniq.grep_v(/_VERSION_/).map { |name| ["constant,#{name}", "(unsigned long)(#{name})"] }
 end
 
 def functions(text)
-  text.scan(/^(?:FIXPID_INLINE )?((?:bool|void|u?int\d+_t)\s+fixpid_\w+\([^;{]*\))(?:;| *\n\{)/).flatten.map { |function| "function #{function.gsub(/\s+/, ' ')}" }
+  text.scan(/^(?:FIXPID_INLINE )?((?:bool|void|u?int\d+_t)\s+fixpid_\w+\([^;{]*\))(?:;| *\n\{)/).flatten.map { |function| "function,\"#{function.gsub(/\s+/, ' ')}\"" }
 end
 
 # The numbers that a compiler has for these expressions: in a constant of the object.
@@ -57,15 +58,17 @@ def run(*command)
   status.success? or abort "FAILED #{command.join(' ')}\n#{output}"
 end
 
+# A row for each, with what the three compilers say; of a constant, with what a PC's does.
 def interface
-  HEADERS.map do |header, text|
+  rows = HEADERS.flat_map do |header, text|
     places = measures(text)
     values = constants(text)
     columns = CHIPS.map { |compiler, (pack, options)| places.empty? ? [] : told(compiler, pack, options, places.map(&:last)) }
-    rows = places.each_index.map { |at| "#{places[at].first} #{columns.map { |column| column[at] }.join(' ')}\n" }
-    rows += values.empty? ? [] : values.map(&:first).zip(told('gcc', 'L<', [], values.map(&:last))).map { |name, value| "#{name} #{value}\n" }
-    "#{header}\n#{rows.join}#{functions(text).map { |function| "#{function}\n" }.join}"
-  end.join("\n")
+    sizes = places.map(&:first).zip(*columns).map { |row| row.join(',') }
+    numbers = values.empty? ? [] : values.map(&:first).zip(told('gcc', 'L<', [], values.map(&:last))).map { |name, value| "#{name},,,#{value}" }
+    [*sizes, *numbers, *functions(text).map { |function| "#{function},,," }].map { |row| "#{header},#{row}\n" }
+  end
+  COLUMNS + rows.join
 end
 
 FileUtils.mkdir_p(FOLDER)
