@@ -9,7 +9,6 @@ require_relative 'prove/coverage'
 require_relative 'prove/eva'
 require_relative 'prove/exhaustion'
 require_relative 'prove/proofs'
-require_relative 'prove/reach'
 require_relative 'prove/seeded'
 
 Encoding.default_external = 'UTF-8' # CBMC's, whatever the locale

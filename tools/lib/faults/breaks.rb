@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative 'mutant'
+# A break of a file. `source` is the whole text with the break in it.
+Mutant = Struct.new(:file, :line, :place, :from, :to, :source) do
+  def to_s
+    "#{file}:#{line}: `#{from}` -> `#{to}`"
+  end
+end
 
 # Every small break of a file: an operator, a number, a name, a bound moved by
 # one, a statement left out.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative '../../faults/breaks'
 require_relative '../../faults/equivalents'
-require_relative '../../faults/mutant'
 require_relative '../seeded'
 
 # Whether the claims notice an instruction that is left out. Of each function of assembly
