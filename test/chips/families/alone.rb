@@ -170,7 +170,7 @@ module Alone
     end
   end
 
-  # A Cortex-M0, which test/model/autotune/chips runs.
+  # A Cortex-M0, which test/chips/cores runs.
   class CortexM0 < Chip
     OPTIONS = %w[-mcpu=cortex-m0 -mthumb -Os -std=c99 -ffreestanding -Wall -Wextra -Werror -ffunction-sections -fdata-sections
                  -Wl,--gc-sections -nostdlib -Wl,-e,main].freeze

@@ -3,7 +3,7 @@
 
 require_relative 'images'
 
-# A program that prints, on this machine, an AVR or a Cortex-M.
+# A program that prints, on an AVR or a Cortex-M.
 class Machine
   SHARED = %W[-std=c99 -O2 -Wall -Wextra -Werror -Iinclude -Itest/support -I#{HERE}].freeze
 
@@ -50,7 +50,7 @@ class Machine
     end
   end
 
-  ALL = { 'host' => new('host', %w[gcc]) { |program| [program] }, 'atmega2560' => avr('atmega2560'), 'atmega328p' => avr('atmega328p'),
+  ALL = { 'atmega328p' => avr('atmega328p'),
           'cortex-m0' => arm('cortex-m0', 'microbit'), 'cortex-m3' => arm('cortex-m3', 'lm3s6965evb'),
           'cortex-m4' => arm('cortex-m4', 'mps2-an386') }.freeze
 end

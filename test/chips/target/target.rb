@@ -21,16 +21,15 @@ PORTS = %w[pic16f684 pic18f4520 pic18f26k22 pic18f4431 atmega328p].freeze
 EXAMPLES = { 'pendulum' => 'an964', 'pendulum_8bit' => 'an964_8bit', 'motor' => 'an937', 'oven' => 'an937',
              'motor_pic18f26k22' => 'an937', 'oven_pic18f26k22' => 'an937',
              'motor_atmega328p' => 'an937', 'oven_atmega328p' => 'an937' }.freeze
-PLAIN = '-DFIXPID_NO_ASSEMBLY'
 # A source as XC8 preprocesses it for a class of PICs.
 AS_XC8 = %w[avr-gcc -mmcu=atmega2560 -std=c99 -ffreestanding -funsigned-char -include test/support/as_xc8.h -E -P -Iinclude].freeze
 XC8_CLASSES = %w[_PIC14 _PIC14E _PIC14EX _PIC18].freeze
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.
-Amount = Struct.new(:random, :rows_apart, :placed_apart, :unoptimised_apart, :streamed)
-SHORT = Amount.new(20_000, 31, 7, 8, 5000).freeze
-LONG = Amount.new(500_000, 1, 1, 1, 200_000).freeze
+Amount = Struct.new(:random, :rows_apart, :placed_apart, :streamed)
+SHORT = Amount.new(20_000, 31, 7, 5000).freeze
+LONG = Amount.new(500_000, 1, 1, 200_000).freeze
 
 # The programs of this machine that ask: test/chips/target/NAME.cc.
 module Programs
@@ -164,12 +163,6 @@ module Target
 
     # --- here ---
 
-    # An AVR's arithmetic alone is this machine's.
-    def arithmetic_of_avr(*options)
-      words = [*Images::EVERY_BIT, '-Isrc', *Dir.glob("#{HERE}/arith*.c").sort, *options]
-      same(*%w[host atmega2560].map { |name| Machine::ALL.fetch(name) }.map { |one| one.printed(one.program(['arith', *options].join.delete('='), words)) })
-    end
-
     # What XC8 makes of a source for a class is what it makes for one that test/chips/cores
     # runs, and has no other compiler's words.
     def xc8_classes
@@ -184,14 +177,6 @@ module Target
       raise Host::Failure, "#{source} is another one for #{others.join(', ')}, which does not run" unless [[], %w[_PIC18]].include?(others)
 
       "#{source} #{others.join}\n"
-    end
-
-    def primitives
-      %w[_PIC14 PRIMITIVES_PORTABLE].map do |form|
-        output = "#{WORK}/primitives.#{form}"
-        said(BUILT.command(output, *%w[gcc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror -Iinclude -Isrc -Itest/support], "-D#{form}",
-                           "#{HERE}/primitives.c", 'test/support/numbers.c', '-o', output))
-      end.join
     end
   end
 end
@@ -255,11 +240,6 @@ class Table
         end
       end
     end
-    # As the Arduino IDE compiles, and where no function is inlined.
-    { 'arith_avr' => [], 'arith_avr_plain' => [PLAIN], 'arith_avr_arduino' => %w[-Os -flto -std=gnu11],
-      'arith_avr_unoptimised' => ['-O0', "-DARITH_ROWS_APART=#{amount.unoptimised_apart}"] }.each do |name, options|
-      test('arith', name) { Target.arithmetic_of_avr(*options) }
-    end
   end
 
   def interrupts
@@ -314,7 +294,6 @@ class Table
   end
 
   def host
-    test('host', 'primitives') { Target.primitives }
     test('host', 'xc8_classes') { Target.xc8_classes }
   end
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Prints a C file that implements test/model/autotune/table.h:
 #
-#   ruby table.rb FILE.csv [STEPS [COUNT]]     all rows, or those of at most so
-#                                              many steps, or so many of them
+#   ruby table.rb FILE.csv
 require_relative '../../support/recorded'
 require_relative 'columns'
 
@@ -43,8 +42,6 @@ def table_row(row)
 end
 
 rows = Recorded.new(ARGV[0]).by_name
-rows.select! { |row| Integer(row['steps']) <= Integer(ARGV[1]) } if ARGV[1]
-rows = rows.first(Integer(ARGV[2])) if ARGV[2]
 puts '// Made by table.rb: do not edit.', '#include "table.h"'
 puts 'const struct table_row table_rows[] = {', rows.flat_map { |row| table_row(row) }, '};'
 puts "const uint16_t table_count = #{rows.size};"

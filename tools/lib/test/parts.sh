@@ -258,7 +258,6 @@ part_variants() {
         use/python chips/cores chips/target model/autotune web/site web/tuner; do
         runner "test/$path/run" weekly
     done
-    runner test/model/autotune/chips weekly
 }
 
 part_long() {
