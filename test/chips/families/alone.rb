@@ -14,7 +14,7 @@ module Alone
   ALONE = [*EXPERIMENT, 'autotune_record'].freeze
   WHOLE = [*EXPERIMENT, 'autotune_result'].freeze
   PARTS = { 'nothing' => [%w[-DBARE_NOTHING], []], 'alone' => [[], ALONE], 'whole' => [%w[-DBARE_WHOLE], WHOLE] }.freeze
-  MODE = %w[-DFIXPID_AUTOTUNE_OBJECT=tuner].freeze # which adds less than a pointer
+  MODES = { 'pointer' => [], 'object' => %w[-DFIXPID_AUTOTUNE_OBJECT=tuner] }.freeze
   INCLUDES = %W[-Iinclude -I#{FOLDER}].freeze
 
   # Files of the library.
@@ -26,7 +26,7 @@ module Alone
   Size = Struct.new(:flash, :ram)
 
   # One chip.
-  Chip = Struct.new(:name, :title, :flash, :runs, :most, keyword_init: true) do
+  Chip = Struct.new(:name, :title, :flash, :runs, :most, :mode, keyword_init: true) do
     # What the library adds, of each part; nil where the chip's linker refuses.
     def added(parts, folder)
       nothing, *sizes = ['nothing', *parts].map { |part| build(part, "#{folder}/#{part}") }
@@ -38,7 +38,7 @@ module Alone
     def build(part, folder)
       FileUtils.mkdir_p(folder)
       flags, names = PARTS.fetch(part)
-      size([*flags, *MODE, *INCLUDES], [BARE, *Alone.sources(names)], folder)
+      size([*flags, *MODES.fetch(mode), *INCLUDES], [BARE, *Alone.sources(names)], folder)
     end
 
     # Only bare.c asks what is in the program: all others are the same for each part, and
@@ -181,16 +181,16 @@ module Alone
     end
   end
 
-  # `most` is what the experiment alone may add to the flash; the flash is the chip's. What
-  # runs, does so in this test.
+  # `most` is what the experiment alone may add to the flash, in the mode where it adds
+  # less; the flash is the chip's. What runs, does so in this test.
   CHIPS = [
-    Avr.new(name: 'attiny85', title: 'ATtiny85', flash: 8192, runs: true, most: 3300),
-    Avr.new(name: 'atmega328p', title: 'ATmega328P', flash: 32_768, runs: true, most: 3400),
-    Stm8.new(name: 'stm8', title: 'STM8S103', flash: 8192, runs: true, most: 4300),
-    Msp430.new(name: 'msp430', title: 'MSP430G2553', flash: 16_384, runs: true, most: 3600),
-    Pic18.new(name: 'pic18f4520', title: 'PIC18F4520', flash: 32_768, runs: false, most: 16_000),
-    Pic18.new(name: 'pic18f26k22', title: 'PIC18F26K22', flash: 65_536, runs: false, most: 16_000),
-    CortexM0.new(name: 'cortex-m0', title: 'Cortex-M0 with 16 KB', flash: 16_384, runs: false, most: 2400)
+    Avr.new(name: 'attiny85', title: 'ATtiny85', flash: 8192, runs: true, most: 3300, mode: 'pointer'),
+    Avr.new(name: 'atmega328p', title: 'ATmega328P', flash: 32_768, runs: true, most: 3400, mode: 'pointer'),
+    Stm8.new(name: 'stm8', title: 'STM8S103', flash: 8192, runs: true, most: 4300, mode: 'object'),
+    Msp430.new(name: 'msp430', title: 'MSP430G2553', flash: 16_384, runs: true, most: 3600, mode: 'object'),
+    Pic18.new(name: 'pic18f4520', title: 'PIC18F4520', flash: 32_768, runs: false, most: 16_000, mode: 'object'),
+    Pic18.new(name: 'pic18f26k22', title: 'PIC18F26K22', flash: 65_536, runs: false, most: 16_000, mode: 'object'),
+    CortexM0.new(name: 'cortex-m0', title: 'Cortex-M0 with 16 KB', flash: 16_384, runs: false, most: 2400, mode: 'pointer')
   ].freeze
 
   # What a chip's runs and builds have shown.
@@ -235,7 +235,7 @@ module Alone
 
     def ran(chip, source, folder, found)
       FileUtils.mkdir_p(folder)
-      flags = [*MODE, *INCLUDES]
+      flags = [*MODES.fetch(chip.mode), *INCLUDES]
       found.stack = chip.run(flags, ["#{FOLDER}/alone.c", *Alone.sources(ALONE, source)], folder)
       Host.output(host, "#{folder}/results").strip
     end

@@ -14,7 +14,7 @@ TITLES = CONTROLLERS.to_h { |one| [one.name, one.title] }.freeze
 NOT_FOR_PIC14 = CONTROLLERS.reject { |one| one.pics.include?('pic16f684') }.map(&:name).freeze
 PROCESSORS = { 'pic16f684' => 'PIC14', 'pic18f4520' => 'PIC18' }.freeze
 POINTER_AND_OBJECT = MODES.reverse.freeze
-MACHINES = { 'atmega328p' => 'AVR', 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3', 'cortex-m4' => 'Cortex-M4' }.freeze
+MACHINES = { 'cortex-m0' => 'Cortex-M0', 'cortex-m3' => 'Cortex-M3', 'cortex-m4' => 'Cortex-M4', 'atmega328p' => 'AVR' }.freeze
 # Example, controller and cycles of a tick.
 EXAMPLES = { 'pendulum' => 7812, 'pendulum_8bit' => 7812, 'motor' => 10_000, 'oven' => 10_000,
              'motor_pic18f26k22' => 10_000, 'oven_pic18f26k22' => 10_000,
