@@ -144,8 +144,8 @@ const isSource = (name) => /^(examples|port|sim|test|tools)\//.test(name);
 // In the page: of a long table or program the first lines are like the others, and axe-core takes
 // milliseconds for each.
 function shorten() {
-    document.querySelectorAll('tbody').forEach((one) => [...one.rows].slice(20).forEach((row) => row.remove()));
-    document.querySelectorAll('article pre code').forEach((one) => [...one.querySelectorAll('span[class]')].slice(100).forEach((word) => word.replaceWith(word.textContent)));
+    document.querySelectorAll('tbody').forEach((one) => [...one.rows].slice(6).forEach((row) => row.remove()));
+    document.querySelectorAll('article pre code').forEach((one) => [...one.querySelectorAll('span[class]')].slice(25).forEach((word) => word.replaceWith(word.textContent)));
 }
 
 async function readPages(pages) {
