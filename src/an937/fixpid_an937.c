@@ -41,7 +41,7 @@ void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self)
     SELF.error.value = 0; // in sign-magnitude, too
     SELF.accumulated_error.value = 0;
     SELF.delta.value = 0;
-    SELF.previous_error = FIXPID_OFFSET_BINARY(0);
+    SELF.previous_error = FIXPID_AN937_NO_ERROR;
 }
 
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
@@ -78,7 +78,8 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error)
         if (SELF.derivative_countdown > 1u) {
             SELF.derivative_countdown--;
         } else {
-            const uint16_t now = FIXPID_OFFSET_BINARY(error);
+            const uint16_t now =
+                (uint16_t)((uint16_t)error ^ FIXPID_AN937_NO_ERROR);
 
             // Equation 3: delta = error - previous error, within +-65535
             SELF.derivative_countdown = SELF.derivative_period_ticks;

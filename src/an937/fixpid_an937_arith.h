@@ -14,8 +14,8 @@
 // below 0 before the division.
 #define FIXPID_AN937_SUM_NEGATIVE 0x80u
 
-// An error in offset binary, which compares without a sign: error + 32768.
-#define FIXPID_OFFSET_BINARY(error) ((uint16_t)((uint16_t)(error) ^ 0x8000u))
+// An error of 0 in offset binary, error + 32768, which compares without a sign.
+#define FIXPID_AN937_NO_ERROR ((uint16_t)FIXPID_SIGN_BIT)
 
 // The form that the chip gets, which has the primitives from here to
 // fixpid_sixteenth. An AVR and a RISC-V are faster in two's complement,

@@ -92,32 +92,36 @@ int32_t fixpid_an937_accumulated_error(
     return fixpid_number_value(&SELF.accumulated_error);
 }
 
-// A macro: a function makes the registers a quarter larger on a PIC18.
-#define BIT_IF(condition, bit) ((condition) ? (bit) : 0u)
-
 uint8_t fixpid_an937_stat1(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID_SELF);
-    return (uint8_t)(BIT_IF((SELF.step_flags & FIXPID_AN937_SUM_NEGATIVE) == 0u,
-                            FIXPID_AN937_PID_SIGN) |
-                     BIT_IF(fixpid_an937_derivative(self) >= 0,
-                            FIXPID_AN937_D_ERR_SIGN) |
-                     BIT_IF(SELF.previous_error >= FIXPID_OFFSET_BINARY(0),
-                            FIXPID_AN937_P_ERR_SIGN) |
-                     BIT_IF(fixpid_an937_accumulated_error(self) >= 0,
-                            FIXPID_AN937_A_ERR_SIGN) |
-                     BIT_IF(fixpid_number_value(&SELF.error) >= 0,
-                            FIXPID_AN937_ERR_SIGN) |
-                     BIT_IF(fixpid_an937_accumulated_error(self) == 0,
-                            FIXPID_AN937_A_ERR_ZERO) |
-                     BIT_IF(fixpid_number_value(&SELF.error) == 0,
-                            FIXPID_AN937_ERR_ZERO));
+    return (uint8_t)((((SELF.step_flags & FIXPID_AN937_SUM_NEGATIVE) == 0u)
+                          ? FIXPID_AN937_PID_SIGN
+                          : 0u) |
+                     ((fixpid_an937_derivative(self) >= 0)
+                          ? FIXPID_AN937_D_ERR_SIGN
+                          : 0u) |
+                     ((SELF.previous_error >= FIXPID_AN937_NO_ERROR)
+                          ? FIXPID_AN937_P_ERR_SIGN
+                          : 0u) |
+                     ((fixpid_an937_accumulated_error(self) >= 0)
+                          ? FIXPID_AN937_A_ERR_SIGN
+                          : 0u) |
+                     ((fixpid_number_value(&SELF.error) >= 0)
+                          ? FIXPID_AN937_ERR_SIGN
+                          : 0u) |
+                     ((fixpid_an937_accumulated_error(self) == 0)
+                          ? FIXPID_AN937_A_ERR_ZERO
+                          : 0u) |
+                     ((fixpid_number_value(&SELF.error) == 0)
+                          ? FIXPID_AN937_ERR_ZERO
+                          : 0u));
 }
 
 uint8_t fixpid_an937_stat2(FIXPID_DATA const struct fixpid_an937 *self)
 {
     FIXPID_ASSERT(VALID_SELF);
-    return BIT_IF(fixpid_number_value(&SELF.delta) == 0, FIXPID_AN937_D_ERR_Z);
+    return (fixpid_number_value(&SELF.delta) == 0) ? FIXPID_AN937_D_ERR_Z : 0u;
 }
 
 uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self)
@@ -125,7 +129,7 @@ uint8_t fixpid_an937_flags(FIXPID_DATA const struct fixpid_an937 *self)
     FIXPID_ASSERT(VALID_SELF);
     return (
         uint8_t)((SELF.step_flags & STEP_FLAGS) |
-                 BIT_IF(SELF.tick_overrun != 0u, FIXPID_AN937_TICK_OVERRUN));
+                 ((SELF.tick_overrun != 0u) ? FIXPID_AN937_TICK_OVERRUN : 0u));
 }
 
 void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The products of fixpid_an964_arith.h by shift and add, for chips without a
 // multiplier that is wide enough. The sum moves right once per bit of the one
-// factor, which
-// divides it; where all divisions are done, the other moves left instead. They
-// are unrolled, because a loop takes a third more.
+// factor, which divides it; where all divisions are done, the other moves left
+// instead. They are unrolled, because a loop takes a third more.
 #ifndef FIXPID_AN964_NARROW_H
 #define FIXPID_AN964_NARROW_H
 #include <stdint.h>

@@ -45,4 +45,21 @@ FIXPID_INLINE uint16_t fixpid_8x8(uint8_t a, uint8_t b)
 #define fixpid_8x8(a, b) ((a) * (b))
 #endif
 
+// Of fixpid_shift_add.h. SDCC copies the operands of an inline function and
+// makes a byte of the bit before it tests it: on a PIC16F684 a step of AN964
+// takes 856 cycles with functions and 630 with these.
+#define fixpid_add_byte_if(sum, x, bit)                                        \
+    do {                                                                       \
+        if ((bit) != 0u) {                                                     \
+            *(sum) = (uint8_t)(*(sum) + (x));                                  \
+        }                                                                      \
+    } while (0)
+
+#define fixpid_add_word_if(sum, x, bit)                                        \
+    do {                                                                       \
+        if ((bit) != 0u) {                                                     \
+            *(sum) = (uint16_t)(*(sum) + (x));                                 \
+        }                                                                      \
+    } while (0)
+
 #endif

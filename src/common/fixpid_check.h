@@ -5,16 +5,12 @@
 #define FIXPID_CHECK_H
 #include <stdint.h>
 
-#ifndef BYTES_DATA // as in fixpid_get.h
-#define BYTES_DATA
-#endif
-
 #define CHECK_BEGIN 0xFFFFu // else bytes of 0 at the front would change nothing
 #define CHECK_POLYNOMIAL 0x1021u
 
 // CRC-16 of the first bytes, the highest bit first. Its polynomial has a
 // Hamming distance of 4 up to 32751 bits; a record has 62 * 8 = 496 at most.
-static uint16_t check_of(BYTES_DATA const uint8_t *bytes, uint8_t count)
+static uint16_t check_of(FIXPID_BYTES_DATA const uint8_t *bytes, uint8_t count)
 {
     uint16_t check = CHECK_BEGIN;
     uint8_t at;

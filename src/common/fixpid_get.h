@@ -5,13 +5,7 @@
 #define FIXPID_GET_H
 #include <stdint.h>
 
-// The address space of the bytes: any, unless the source that includes this has
-// all of them in one and says which.
-#ifndef BYTES_DATA
-#define BYTES_DATA
-#endif
-
-static uint16_t get(BYTES_DATA const uint8_t *bytes)
+static uint16_t get(FIXPID_BYTES_DATA const uint8_t *bytes)
 {
     return (uint16_t)(bytes[0] | ((uint16_t)bytes[1] << 8));
 }

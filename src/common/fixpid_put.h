@@ -4,11 +4,7 @@
 #define FIXPID_PUT_H
 #include <stdint.h>
 
-#ifndef BYTES_DATA // as in fixpid_get.h
-#define BYTES_DATA
-#endif
-
-static void put(BYTES_DATA uint8_t *bytes, uint16_t value)
+static void put(FIXPID_BYTES_DATA uint8_t *bytes, uint16_t value)
 {
     bytes[0] = (uint8_t)(value & 0xFFu);
     bytes[1] = (uint8_t)(value >> 8);

@@ -7,9 +7,7 @@
 
 #include "fixpid_bits.h"
 
-#if defined(__SDCC)
-#include "fixpid_shift_add_sdcc.h"
-#else
+#if !defined(__SDCC) // which has macros in fixpid_bits_sdcc.h
 
 // sum += x if `bit` is not 0. pre: it fits
 FIXPID_INLINE void fixpid_add_byte_if(uint8_t *sum, uint8_t x, uint8_t bit)

@@ -19,11 +19,6 @@
 #endif
 #endif
 
-// A Cortex-M0, M0+ or M23.
-#if defined(__thumb__) && !defined(__thumb2__)
-#define FIXPID_THUMB1
-#endif
-
 // (Older compilers for ARM say that they have the instructions and do not.)
 #if defined(__AVR_HAVE_MOVW__) && !defined(FIXPID_NO_ASSEMBLY)
 #include "fixpid_signed_avr.h"
@@ -31,7 +26,8 @@
 #elif (INT_MAX <= 32767) || !defined(FIXPID_HAS_ADD_OVERFLOW) ||               \
     ((FIXPID_MULTIPLIER_BITS < 16) && !defined(__riscv))
 #include "fixpid_signed_narrow.h"
-#elif (defined(__ARM_FEATURE_SAT) || defined(FIXPID_THUMB1)) &&                \
+#elif (defined(__ARM_FEATURE_SAT) ||                                           \
+       (defined(__thumb__) && !defined(__thumb2__))) &&                        \
     !defined(FIXPID_NO_ASSEMBLY) &&                                            \
     (!defined(__GNUC__) || defined(__clang__) || (__GNUC__ >= 10))
 #include "fixpid_signed_arm.h"

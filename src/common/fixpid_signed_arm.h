@@ -9,7 +9,7 @@
 
 #include "fixpid_bits.h"
 
-#if defined(FIXPID_THUMB1)
+#if !defined(__ARM_FEATURE_SAT) // a Cortex-M0, M0+ or M23
 FIXPID_INLINE int32_t add32_sat(int32_t a, int32_t b)
 {
     int32_t sum;

@@ -195,10 +195,9 @@ static int32_t mul16(uint16_t gain, int16_t x)
 #if defined(__AVR_HAVE_MUL__)
 // a + gain * x, saturated; or, `fine`, of a word and a byte, which is its next
 // eight bits: their sum with gain * x in 40 bits.
-#define add_product(a, fraction, gain, x, fine)                                \
-    fixpid_add_product((a), &(fraction), (gain), (x), (fine))
-FIXPID_INLINE int32_t fixpid_add_product(int32_t a, uint8_t *fraction,
-                                         uint16_t gain, int16_t x, bool fine)
+#define FIXPID_HAS_ADD_PRODUCT
+FIXPID_INLINE int32_t add_product(int32_t a, uint8_t *fraction, uint16_t gain,
+                                  int16_t x, bool fine)
 {
     int32_t change = mul16(gain, x);
 

@@ -2,8 +2,8 @@
 // The stream, and the three commands that change nothing else.
 #include "fixpid_link.h"
 
-#undef BYTES_DATA
-#define BYTES_DATA FIXPID_DATA
+#undef FIXPID_BYTES_DATA
+#define FIXPID_BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_check.h"
 #include "../common/fixpid_put.h"
 #include "fixpid_link_private.h"
@@ -347,7 +347,12 @@ static void watch_hand(FIXPID_DATA struct fixpid_link *self,
     }
 }
 #else
-#define watch_hand(self, pid_self) ((void)0)
+FIXPID_INLINE void watch_hand(FIXPID_DATA struct fixpid_link *self,
+                              FIXPID_DATA struct fixpid_pid *pid_self)
+{
+    (void)self;
+    (void)pid_self;
+}
 #endif
 
 uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
@@ -357,7 +362,7 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
     uint8_t bytes = 0;
 
     FIXPID_ASSERT(VALID_SELF);
-    FIXPID_ASSERT(VALID_PID(pid_self));
+    FIXPID_ASSERT(FIXPID_PID_VALID_PID);
     if (is_due(self)) {
         bytes = KEY_BYTES;
         if (SELF.why != 0u) {

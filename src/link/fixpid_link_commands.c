@@ -3,8 +3,8 @@
 // own because SDCC links whole object files.
 #include "fixpid_link.h"
 
-#undef BYTES_DATA
-#define BYTES_DATA FIXPID_DATA
+#undef FIXPID_BYTES_DATA
+#define FIXPID_BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_get.h"
 #include "fixpid_link_private.h"
 #include "fixpid_record.h"
@@ -135,7 +135,15 @@ static uint8_t set_hand(FIXPID_DATA struct fixpid_link *self,
     return DONE;
 }
 #else
-#define set_hand(self, board, pid_self) NOT_ACCEPTED
+FIXPID_INLINE uint8_t set_hand(FIXPID_DATA struct fixpid_link *self,
+                               const struct fixpid_link_board *board,
+                               FIXPID_DATA struct fixpid_pid *pid_self)
+{
+    (void)self;
+    (void)board;
+    (void)pid_self;
+    return NOT_ACCEPTED;
+}
 #endif
 
 // What a command needs.
@@ -174,7 +182,7 @@ uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            struct fixpid_pid_config *config)
 {
     FIXPID_ASSERT(VALID_SELF);
-    FIXPID_ASSERT(VALID_PID(pid_self));
+    FIXPID_ASSERT(FIXPID_PID_VALID_PID);
     if (SELF.count == WAITS) {
         if (SELF.bytes[COMMAND_AT] > SET_STREAM) {
             if (fixpid_link_is_new(self)) {

@@ -10,13 +10,6 @@
 #ifndef FIXPID_LINK_PRIVATE_H
 #define FIXPID_LINK_PRIVATE_H
 
-// The controller is the program's one, or any.
-#ifdef FIXPID_PID_OBJECT
-#define VALID_PID(pid) ((pid) == &FIXPID_PID_OBJECT)
-#else
-#define VALID_PID(pid) ((pid) != 0)
-#endif
-
 // First bytes of commands.
 #define ASK_HELLO 0x40u
 #define ASK_RECORD 0x41u

@@ -3,8 +3,8 @@
 // files.
 #include "fixpid_link.h"
 
-#undef BYTES_DATA
-#define BYTES_DATA FIXPID_DATA
+#undef FIXPID_BYTES_DATA
+#define FIXPID_BYTES_DATA FIXPID_DATA
 #include "../common/fixpid_put.h"
 #include "fixpid_link_private.h"
 

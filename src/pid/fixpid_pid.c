@@ -316,7 +316,7 @@ static int32_t candidate_from(int32_t integral_q8)
 // Sets the candidate to I + ki * error. The limits of the integral are -32767
 // and 32767 at most, so a sum that saturates lies beyond them. (A PIC18's
 // product stays where it is, and gcc for an AVR keeps more registers.)
-#if defined(add_product)
+#if defined(FIXPID_HAS_ADD_PRODUCT)
 static void integrate(GIVEN)
 {
     SIGNALS.fraction = SELF.integral_fraction;
@@ -328,8 +328,8 @@ static void integrate(GIVEN)
         SIGNALS.integral += (int32_t)(uint8_t)SELF.integral;
     } else {
         SIGNALS.integral =
-            add_product(SELF.integral, SIGNALS.fraction, SELF.ki, SIGNALS.error,
-                        (SELF.options & KI_FINE) != 0u);
+            add_product(SELF.integral, &SIGNALS.fraction, SELF.ki,
+                        SIGNALS.error, (SELF.options & KI_FINE) != 0u);
     }
 }
 #else
@@ -415,8 +415,8 @@ static int16_t limit_and_remember(GIVEN)
 }
 
 // The output held by hand. set_manual and set_limits keep it within the
-// output's limits, but a flipped bit may move it out. Without the feature there
-// is no function, because SDCC would keep a copy of it.
+// output's limits, but a flipped bit may move it out. Without the feature it
+// does nothing, because SDCC would keep a copy of it.
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
 static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
 {
@@ -435,7 +435,11 @@ static int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
     return (int16_t)output;
 }
 #else
-#define held_output(self) ((int16_t)0)
+FIXPID_INLINE int16_t held_output(FIXPID_DATA const struct fixpid_pid *self)
+{
+    (void)self;
+    return 0;
+}
 #endif
 
 // P + D + feed-forward is within 2^30 - 2^15 + 2^30 - 2^24 + 2^23.

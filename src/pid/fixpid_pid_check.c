@@ -24,13 +24,18 @@ static enum fixpid_pid_problem gains_problem(
     return FIXPID_PID_OK;
 }
 
-// What this firmware lacks. With all features there is no function, because
+// What this firmware lacks. With all features it asks nothing, because
 // SDCC would warn of conditions that are never true.
 #if (FIXPID_PID_FEATURES & (FIXPID_PID_HAS_WEIGHT | FIXPID_PID_HAS_REVERSE |   \
                             FIXPID_PID_HAS_DERIVATIVE_ON_ERROR)) ==            \
     (FIXPID_PID_HAS_WEIGHT | FIXPID_PID_HAS_REVERSE |                          \
      FIXPID_PID_HAS_DERIVATIVE_ON_ERROR)
-#define feature_problem(config) FIXPID_PID_OK
+FIXPID_INLINE enum fixpid_pid_problem feature_problem(
+    const struct fixpid_pid_config *config)
+{
+    (void)config;
+    return FIXPID_PID_OK;
+}
 #else
 static bool lacks(unsigned feature, bool wanted)
 {

@@ -52,13 +52,14 @@ void fixpid_pid_shift_right(void); // wide >>= right & 7
     (fixpid_pid_operands.left.gain = (factor),                                 \
      fixpid_pid_operands.right.value = (x), fixpid_pid_mul16(),                \
      fixpid_pid_operands.wide)
+#define FIXPID_HAS_ADD_PRODUCT
 #define add_product(a, fraction, factor, x, fine)                              \
     (fixpid_pid_operands.left.gain = (factor),                                 \
      fixpid_pid_operands.right.value = (x),                                    \
      fixpid_pid_operands.wide_right = (a), fixpid_pid_mul16(),                 \
-     (void)((fine) ? (fixpid_pid_operands.right.shift = (fraction),            \
+     (void)((fine) ? (fixpid_pid_operands.right.shift = *(fraction),           \
                       fixpid_pid_add_byte(),                                   \
-                      (fraction) = fixpid_pid_operands.right.shift)            \
+                      *(fraction) = fixpid_pid_operands.right.shift)           \
                    : 0u),                                                      \
      fixpid_pid_add32_sat(), fixpid_pid_operands.wide)
 #define shift_right_by(x, places)                                              \

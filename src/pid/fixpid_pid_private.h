@@ -55,12 +55,7 @@
 #define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
 
 // `previous` before the first step: with 32 bits it says so itself.
-// Deviation 20.9: UINT_MAX is a macro of <limits.h>.
-#if UINT_MAX > 65535u
-#define NO_PREVIOUS INT32_C(0x7FFF7FFF)
-#else
-#define NO_PREVIOUS 0
-#endif
+#define NO_PREVIOUS ((int)((UINT_MAX > 65535u) ? INT32_C(0x7FFF7FFF) : 0))
 
 // The largest number of counts that 16 bits can hold, in 1/256.
 #define COUNTS_MAX_Q8 INT32_C(0x7FFFFF)

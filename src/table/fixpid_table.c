@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "fixpid_table.h"
 
-#define READ(value) (value)
+#define READ *
 #include "fixpid_table_text.h"

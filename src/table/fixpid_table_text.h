@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both functions, over READ, which reads a member of a point. An AVR has them
-// twice, so that this file has no include guard.
+// Both functions, over READ, which reads what a pointer points at. An AVR has
+// them twice, so that this file has no include guard.
 #include "fixpid_table_arith.h"
 
 bool fixpid_table_valid(const struct fixpid_table *self)
@@ -12,7 +12,7 @@ bool fixpid_table_valid(const struct fixpid_table *self)
         return false;
     }
     for (i = 1; i < self->count; i++) {
-        if (READ(self->points[i - 1u].x) >= READ(self->points[i].x)) {
+        if (READ(&self->points[i - 1u].x) >= READ(&self->points[i].x)) {
             return false;
         }
     }
@@ -36,11 +36,11 @@ int16_t fixpid_table_at(const struct fixpid_table *self, int16_t x)
         return 0;
     }
     high = (uint8_t)(self->count - 1u);
-    if (x <= READ(points[0].x)) {
-        return READ(points[0].y);
+    if (x <= READ(&points[0].x)) {
+        return READ(&points[0].y);
     }
-    if (x >= READ(points[high].x)) {
-        return READ(points[high].y);
+    if (x >= READ(&points[high].x)) {
+        return READ(&points[high].y);
     }
     for (turn = 8; turn != 0u; turn--) {
         const uint8_t middle = (uint8_t)(low + ((uint8_t)(high - low) >> 1));
@@ -48,16 +48,16 @@ int16_t fixpid_table_at(const struct fixpid_table *self, int16_t x)
         if (middle == low) {
             break;
         }
-        if (x < READ(points[middle].x)) {
+        if (x < READ(&points[middle].x)) {
             high = middle;
         } else {
             low = middle;
         }
     }
-    x0 = READ(points[low].x);
-    return height_at(READ(points[low].y), READ(points[high].y),
+    x0 = READ(&points[low].x);
+    return height_at(READ(&points[low].y), READ(&points[high].y),
                      fixpid_difference(x, x0),
-                     fixpid_difference(READ(points[high].x), x0));
+                     fixpid_difference(READ(&points[high].x), x0));
 }
 
 #undef READ
