@@ -171,8 +171,8 @@ void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self);
 // Sources that disagree about the object or its place do not link.
 //
 // Addresses for SDCC, where the application has the room: in a PIC18's access
-// RAM a step is a seventh faster. Compile the application and fixpid_an937*.c
-// with
+// RAM a step is a seventh faster. Compile the application and
+// fixpid_an937*.c with
 //   -DFIXPID_AN937_PLACE='__at(0x20)'          the object, 24 bytes
 //   -DFIXPID_AN937_SIGNALS_PLACE='__at(0x38)'  what a step works on, 2 bytes
 // or one of them, and define the object as

@@ -80,8 +80,8 @@ static const struct constant {
     {32768u, -15}, // 1: exact
     {32768u, -14}, // 2: exact
     {32768u, -13}, // 4: exact
-    // 1/2: exact; two processes if their slopes are so far apart: by trial on
-    // random plants
+    // 1/2: exact; two processes if their slopes are so far apart,
+    // by trial on random plants
     {32768u, -16},
     {32768u, -17}, // 1/4: exact
     // 1/32: exact: what the mean outputs leave open, of the relay
@@ -127,8 +127,8 @@ static const struct constant {
     {38935u, -15}, // 1.188: regression, lag: Q
     {39086u, -15}, // 1.193: regression, lag: R
     {39322u, -15}, // 1.2: regression, integrator: least delay of a flatter wave
-    // 1.5: most of CHI that is a lag or an integrator, by trial on random
-    // plants
+    // 1.5: most of CHI that is a lag or an integrator,
+    // by trial on random plants
     {49152u, -15},
     {33882u, -14}, // 2.068: regression, lag: I
     {37224u, -14}, // 2.272: regression, lag: FLATTER

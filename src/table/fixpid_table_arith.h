@@ -29,8 +29,8 @@ TABLE_INLINE uint16_t rise_at(uint16_t rise, uint16_t part, uint16_t run)
 #endif
 
 // The height at `part` of the `run` from y0 to y1, rounded half up. A line that
-// falls is one that rises from its other end. pre: part < run; post: between y0
-// and y1
+// falls is one that rises from its other end.
+// pre: part < run; post: between y0 and y1
 TABLE_INLINE int16_t height_at(int16_t y0, int16_t y1, uint16_t part,
                                uint16_t run)
 {
