@@ -8,7 +8,7 @@ import { check, checkNone, finish, frame, random, text, WORK } from './harness.m
 import { connect, equalOf, left, said, setSetpoint, spoiled, verdict } from './serial.mjs';
 
 const STEPS = Number(process.env.STEPS ?? 25000);
-const RATE = 2500; // steps per second, by fast_live of test/use/packages/arduino.sh
+const RATE = 2500; // steps per second, by fast_live of test/use/packages/steps.sh
 const AT_ONCE = 500; // steps: a page that gets none for 5 s asks its board again
 const NOISY = 5000;
 const NOISY_SETPOINTS = Array.from({ length: 12 }, (_, i) => 440 + i);
