@@ -2,13 +2,17 @@
 // With FIXPID_ASSERT as assert: every function stops a caller one of whose
 // pointers is wrong, and no other caller.
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "calls.h"
+// Of assert.rb: the text of each call, and a null pointer at the end; and what
+// makes one of them, with a wrong pointer or with a right one.
+extern const char *const calls[];
+void call(int number, bool wrong);
 
 // How a process ends that makes this one call: its wait status.
 static int outcome(int number, bool wrong)

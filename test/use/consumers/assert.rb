@@ -13,6 +13,9 @@ FUNCTIONS = TEXT.gsub(/^#.*(?:\\\n.*)*/, '').scan(/^\w[\w ]*\b(fixpid_\w+)(?<!_P
   [name, arguments.split(',').map { |one| one.end_with?('[]') ? 'bytes *' : one[/\A\s*(?:FIXPID_DATA )?(?:const )?((?:struct )?\w+ \*?)/, 1] }]
 end.freeze
 
+PROTOTYPES = ['#include <stdbool.h>', '#include <stddef.h>', '#ifdef __cplusplus', 'extern "C" {', '#endif', 'extern const char *const calls[];',
+              'void call(int number, bool wrong);', '#ifdef __cplusplus', '}', '#endif'].freeze
+
 STRUCTS = FUNCTIONS.flat_map(&:last).map { |type| type[/struct fixpid_(\w+) \*/, 1] }.compact.uniq.freeze
 
 def pointer(type, number, at)
@@ -26,7 +29,7 @@ calls = FUNCTIONS.flat_map do |function, types|
   end
 end
 
-puts HEADERS.map { |path| "#include \"#{File.basename(path)}\"" }, '#include "calls.h"'
+puts HEADERS.map { |path| "#include \"#{File.basename(path)}\"" }, PROTOTYPES
 STRUCTS.each do |name|
   object = "FIXPID_#{name.upcase}_OBJECT"
   puts "struct fixpid_#{name} #{name};"
