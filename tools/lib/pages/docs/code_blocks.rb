@@ -110,8 +110,8 @@ class CodeBlocks
     compilers = { 'C' => ->(code) { compile(code, '-Wno-unused', '-c', '-o', "#{name}.o") } }
     compilers['C++'] = ->(code) { cplusplus(code) } unless match[:c_only]
     compilers.each do |language, compiler|
-      complaints = forms.transform_values { |code| compiler.call(code) }
-      next if complaints.value?(nil)
+      complaints = {}
+      next if forms.any? { |form, code| (complaints[form] = compiler.call(code)).nil? }
 
       failures << "#{@path}, code block #{@number}, #{language}\n" +
                   complaints.map { |form, complaint| "as #{form}:\n#{complaint}" }.join

@@ -30,7 +30,7 @@ module Commands
       case program
       when 'tools/test' then (names - parts).empty?
       when 'tools/prove' then options.any? || proofs.any? { |proof| proof.matches?(names) }
-      when %r{\Atest/use/(?:consumers|packages|firmware|notes|python)/} then (names.grep_v(PLACE) - %w[daily weekly] - `#{program} --list`.split).empty?
+      when %r{\Atest/use/(?:consumers|packages|firmware|notes|python)/} then (names.grep_v(PLACE) - %w[daily weekly] - tests(program)).empty?
       else names.all? { |name| name.match?(PLACE) || named?(program, name.delete("'")) }
       end
     end
@@ -50,6 +50,11 @@ module Commands
         .map { |command| "#{path}: no #{command}" }
     end
 
+    def tests(runner)
+      @tests ||= Hash.new { |lists, one| lists[one] = `#{one} --list`.split }
+      @tests[runner]
+    end
+
     def proofs
       @proofs ||= Proofs.all
     end
@@ -59,7 +64,7 @@ module Commands
     end
 
     def fuzz_targets
-      @fuzz_targets ||= `#{FUZZ} --list`.split
+      tests(FUZZ)
     end
   end
 end
