@@ -44,15 +44,15 @@
 //   step    0 flags + 8, 1..2 number modulo 16384, 3..4 measurement,
 //           5..6 output, 7..8 setpoint if it is not that of the frame before
 //   tracked a step's, and behind it 2 applied, 1 shift
-//   key     0 1, 1 why, 2 tag of the last command, 3..6 number, 7..8 setpoint,
-//           9..10 measurement, 11..12 output, 13..24 bytes 2..13 of
-//           fixpid_pid_state
+//   key     0 1, 1 reasons, 2 tag of the last command, 3..6 number,
+//           7..8 setpoint, 9..10 measurement, 11..12 output,
+//           13..24 bytes 2..13 of fixpid_pid_state
 //   answer  0 2, 1 tag, 2 command, 3 result: 0 done, 1 not allowed, 2 refused
 //   hello   0 3, 1 tag, 2 version, 3..5 the library's version, 6 features,
 //           7 allowed, 8..11 period_us, 12..13 manual_steps, 14..23 name
 //   record  0 4, 1 tag, 2..24 the record of `config`
 //
-// `why` is a sum: 1 the 256th frame since the last key frame, 2 a stream
+// The reasons are a sum: 1 the 256th frame since the last key frame, 2 a stream
 // begins, 4 a command, 8 changed, 16 lost. Payloads of commands, the tag behind
 // the first byte, a number of 16 bits behind the tag:
 //
@@ -110,17 +110,17 @@ struct fixpid_link_board {
 struct fixpid_link {
     uint32_t steps;
     int16_t setpoint;
-    int16_t told;    // the setpoint that the other end knows
+    int16_t last_sent_setpoint; // which the other end knows
     uint16_t manual; // steps until the controller is automatic; 0: it is
     uint8_t allowed;
-    uint8_t every;   // each so many steps have a frame; 0: none has
-    uint8_t skipped; // steps since the last one that had a frame
-    uint8_t frames;  // until a key frame is due; 0: 256
-    uint8_t why;     // the next frame is a key frame, unless it is 0
-    uint8_t tag;     // of the last command of 0x42..0x47,
-    uint8_t command; // its first byte
-    uint8_t result;  // and what was answered
-    uint8_t count;   // of `bytes`, or private
+    uint8_t stream_interval; // steps from frame to frame; 0: no frames
+    uint8_t steps_since_frame;
+    uint8_t frames_until_key_frame; // 0: 256
+    uint8_t key_frame_reasons;      // 0: the next frame is no key frame
+    uint8_t tag;                    // of the last command of 0x42..0x47,
+    uint8_t command;                // its first byte
+    uint8_t result;                 // and what was answered
+    uint8_t count;                  // of `bytes`, or private
     uint8_t bytes[FIXPID_LINK_COMMAND];
     uint8_t frame[FIXPID_LINK_FRAME]; // to be sent
 };

@@ -287,7 +287,7 @@ def a_thinned_stream_has_no_twin():
     link.stream(0)
     count = len(link.read(10))
     same((count < 10, link.read(10)), (True, []))
-    same(board.link.every, 0)
+    same(board.link.stream_interval, 0)
     lost = Board(clock=CLOCK)
     link = fixpid.Link(lost)
     link.read(10)
@@ -319,7 +319,7 @@ def a_file_is_read_again():
             link.read(300)
             link.record()
             link.read(KEY_FRAMES)
-        same((board.link.every, link.equal), (0, True))
+        same((board.link.stream_interval, link.equal), (0, True))
         with open(path, "rb") as file:
             played = fixpid.Link(file)
             steps = list(played)

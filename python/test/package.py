@@ -350,7 +350,7 @@ def code_of_the_guide_runs():
     assert names["loop"].advice == [] and 1.2 < names["door"].margins["ms"] < 1.8, names["door"]
     assert names["kp"] > 0 and names["ki"] > 0 and names["kd"] == 0
     assert names["live"].worth == "fits well" and names["link"].equal and names["link"].compared > 800, names["link"]
-    same((board.config.gains.kp_q8, board.link.every), (names["tuned"].pid._said[1]["gains"]["kp_q8"], 0))
+    same((board.config.gains.kp_q8, board.link.stream_interval), (names["tuned"].pid._said[1]["gains"]["kp_q8"], 0))
     assert abs(names["step"].measurement - 300) < 10 and names["step"].setpoint == 300, names["step"]
     assert "LOOP_CONFIG" in names["header"] and names["url"].startswith("build/tuner/index.html#p=flow&")
 

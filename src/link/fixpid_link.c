@@ -27,24 +27,24 @@
 #define COBS_BYTES 1u    // in front of it
 #define NO_COMMAND 0xC0u // a length that none has
 
-// Adding it to a byte counts down, and from 0 to 255.
-#define ONE_LESS 0xFFu
+// Added to a byte it counts down modulo 256, and no sum wraps below 0.
+#define BYTE_MINUS_1 0xFFu
 
 uint8_t fixpid_link_framed(FIXPID_DATA uint8_t *frame, uint8_t bytes)
 {
     uint8_t at = (uint8_t)(bytes + 3u);
-    uint8_t way = 0;
+    uint8_t cobs_offset = 0;
 
     put(&frame[bytes + 1u], check_of(&frame[1], bytes));
     frame[0] = 0;
     frame[at] = 0;
-    // COBS: each 0 but the last one becomes the way to the next.
+    // COBS: each 0 but the last one becomes the offset of the next.
     while (at != 0u) {
         at--;
-        way = (uint8_t)(way + 1u);
+        cobs_offset = (uint8_t)(cobs_offset + 1u);
         if (frame[at] == 0u) {
-            frame[at] = way;
-            way = 0;
+            frame[at] = cobs_offset;
+            cobs_offset = 0;
         }
     }
     return (uint8_t)(bytes + 4u);
@@ -68,13 +68,13 @@ void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint)
     FIXPID_ASSERT(VALID_SELF);
     SELF.steps = 0;
     SELF.setpoint = setpoint;
-    SELF.told = setpoint;
+    SELF.last_sent_setpoint = setpoint;
     SELF.manual = 0;
     SELF.allowed = 0;
-    SELF.every = 0;
-    SELF.skipped = 0;
-    SELF.frames = 0;
-    SELF.why = 0;
+    SELF.stream_interval = 0;
+    SELF.steps_since_frame = 0;
+    SELF.frames_until_key_frame = 0;
+    SELF.key_frame_reasons = 0;
     SELF.tag = 0;
     SELF.command = 0;
     SELF.result = DONE;
@@ -94,13 +94,13 @@ void fixpid_link_allow(FIXPID_DATA struct fixpid_link *self, uint8_t allowed)
 void fixpid_link_changed(FIXPID_DATA struct fixpid_link *self)
 {
     FIXPID_ASSERT(VALID_SELF);
-    SELF.why |= CHANGED;
+    SELF.key_frame_reasons |= CHANGED;
 }
 
 void fixpid_link_lost(FIXPID_DATA struct fixpid_link *self)
 {
     FIXPID_ASSERT(VALID_SELF);
-    SELF.why |= LOST;
+    SELF.key_frame_reasons |= LOST;
 }
 
 int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self)
@@ -172,7 +172,7 @@ static bool is_whole(FIXPID_DATA struct fixpid_link *self, uint8_t count)
             left = SELF.bytes[at];
             SELF.bytes[at] = 0;
         } else {
-            left = (uint8_t)(left + ONE_LESS);
+            left = (uint8_t)(left + BYTE_MINUS_1);
         }
     }
     if (left != 1u) {
@@ -263,10 +263,10 @@ static uint8_t set_stream(FIXPID_DATA struct fixpid_link *self)
     if (SELF.command != SET_STREAM) {
         return NOT_ALLOWED;
     }
-    SELF.every = SELF.bytes[VALUE_AT];
+    SELF.stream_interval = SELF.bytes[VALUE_AT];
     // The next step has a frame.
-    SELF.skipped = (uint8_t)(SELF.every + ONE_LESS);
-    SELF.why |= STREAM_BEGAN;
+    SELF.steps_since_frame = (uint8_t)(SELF.stream_interval + BYTE_MINUS_1);
+    SELF.key_frame_reasons |= STREAM_BEGAN;
     return DONE;
 }
 
@@ -298,21 +298,22 @@ uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
 // True if the step has a frame.
 static bool is_due(FIXPID_DATA struct fixpid_link *self)
 {
-    SELF.skipped = (uint8_t)(SELF.skipped + 1u);
-    if (SELF.every == 0u) {
+    SELF.steps_since_frame = (uint8_t)(SELF.steps_since_frame + 1u);
+    if (SELF.stream_interval == 0u) {
         return false;
     }
     if (SELF.count == WAITS) {
-        SELF.why |= LOST;
+        SELF.key_frame_reasons |= LOST;
         return false;
     }
-    if (SELF.skipped < SELF.every) {
+    if (SELF.steps_since_frame < SELF.stream_interval) {
         return false;
     }
-    SELF.skipped = 0;
-    SELF.frames = (uint8_t)(SELF.frames + ONE_LESS);
-    if (SELF.frames == 0u) {
-        SELF.why |= IN_TURN;
+    SELF.steps_since_frame = 0;
+    SELF.frames_until_key_frame =
+        (uint8_t)(SELF.frames_until_key_frame + BYTE_MINUS_1);
+    if (SELF.frames_until_key_frame == 0u) {
+        SELF.key_frame_reasons |= IN_TURN;
     }
     return true;
 }
@@ -325,12 +326,12 @@ static void begin_key(FIXPID_DATA struct fixpid_link *self,
 {
     fixpid_pid_state(pid_self, &SELF.frame[KEY_OUTPUT_AT]);
     SELF.frame[1] = KEY_FRAME;
-    SELF.frame[2] = SELF.why;
+    SELF.frame[2] = SELF.key_frame_reasons;
     SELF.frame[3] = SELF.tag;
     put(&SELF.frame[4], (uint16_t)(SELF.steps & 0xFFFFu));
     put(&SELF.frame[6], (uint16_t)(SELF.steps >> 16));
-    SELF.why = 0;
-    SELF.frames = 0;
+    SELF.key_frame_reasons = 0;
+    SELF.frames_until_key_frame = 0;
 }
 
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
@@ -342,7 +343,7 @@ static void watch_hand(FIXPID_DATA struct fixpid_link *self,
         SELF.manual--;
         if (SELF.manual == 0u) {
             fixpid_pid_set_auto(pid_self);
-            SELF.why |= CHANGED;
+            SELF.key_frame_reasons |= CHANGED;
         }
     }
 }
@@ -365,18 +366,18 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
     FIXPID_ASSERT(FIXPID_PID_VALID_PID);
     if (is_due(self)) {
         bytes = KEY_BYTES;
-        if (SELF.why != 0u) {
+        if (SELF.key_frame_reasons != 0u) {
             begin_key(self, pid_self);
         } else {
             SELF.frame[1] = fixpid_pid_flags(pid_self) | STEP_FRAME;
             put(&SELF.frame[2], (uint16_t)(SELF.steps & STEP_MASK));
             bytes = STEP_BYTES;
-            if (setpoint != SELF.told) {
+            if (setpoint != SELF.last_sent_setpoint) {
                 bytes = STEP_BYTES + 2u;
             }
         }
         put(&SELF.frame[SETPOINT_AT], (uint16_t)setpoint);
-        SELF.told = setpoint;
+        SELF.last_sent_setpoint = setpoint;
     }
     SELF.steps++; // and round
     watch_hand(self, pid_self);

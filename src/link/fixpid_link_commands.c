@@ -166,7 +166,7 @@ static uint8_t carry_out(FIXPID_DATA struct fixpid_link *self,
     if ((SELF.allowed & permission_for(command)) == 0u) {
         return NOT_ALLOWED;
     }
-    SELF.why |= COMMANDED;
+    SELF.key_frame_reasons |= COMMANDED;
     if (command == WRITE_RECORD) {
         return write_record(self, board, pid_self, config);
     }

@@ -171,11 +171,14 @@ static bool alike(struct fixpid_link a, struct fixpid_link b)
         same_bytes = same_bytes && (a.bytes[at] == b.bytes[at]);
     }
     return same_bytes && (a.steps == b.steps) && (a.setpoint == b.setpoint) &&
-           (a.told == b.told) && (a.manual == b.manual) &&
-           (a.allowed == b.allowed) && (a.every == b.every) &&
-           (a.skipped == b.skipped) && (a.frames == b.frames) &&
-           (a.why == b.why) && (a.tag == b.tag) && (a.command == b.command) &&
-           (a.result == b.result) && (a.count == b.count);
+           (a.last_sent_setpoint == b.last_sent_setpoint) &&
+           (a.manual == b.manual) && (a.allowed == b.allowed) &&
+           (a.stream_interval == b.stream_interval) &&
+           (a.steps_since_frame == b.steps_since_frame) &&
+           (a.frames_until_key_frame == b.frames_until_key_frame) &&
+           (a.key_frame_reasons == b.key_frame_reasons) && (a.tag == b.tag) &&
+           (a.command == b.command) && (a.result == b.result) &&
+           (a.count == b.count);
 }
 
 static bool same_frame(struct fixpid_link a, struct fixpid_link b)
@@ -231,9 +234,9 @@ void prove_init(void)
     claim(c.setpoint == setpoint);
     claim(c.manual == 0u);
     claim(c.allowed == 0u);
-    claim(c.every == 0u);
-    claim(c.frames == 0u);
-    claim(c.why == 0u);
+    claim(c.stream_interval == 0u);
+    claim(c.frames_until_key_frame == 0u);
+    claim(c.key_frame_reasons == 0u);
     claim(c.count == 0u);
     c = nondet_link();
     fixpid_link_init(&c, setpoint);
@@ -254,11 +257,11 @@ void prove_setters(void)
     claim(alike(c, wanted) && same_frame(c, wanted));
     wanted = c;
     fixpid_link_changed(&c);
-    wanted.why |= 8u;
+    wanted.key_frame_reasons |= 8u;
     claim(alike(c, wanted) && same_frame(c, wanted));
     wanted = c;
     fixpid_link_lost(&c);
-    wanted.why |= 16u;
+    wanted.key_frame_reasons |= 16u;
     claim(alike(c, wanted) && same_frame(c, wanted));
     claim(fixpid_link_setpoint(&c) == c.setpoint);
 }
@@ -559,10 +562,11 @@ void prove_stream(void)
         bytes = fixpid_link_answer_stream(&c, &board, &config);
     }
     if (!is_again(&wanted, (kind == 0x42u) ? 0u : 1u) && (kind == 0x42u)) {
-        wanted.every = wanted.bytes[3];
-        wanted.why |= 2u;
-        claim((c.every == 0u) || (c.skipped == c.every - 1));
-        wanted.skipped = c.skipped;
+        wanted.stream_interval = wanted.bytes[3];
+        wanted.key_frame_reasons |= 2u;
+        claim((c.stream_interval == 0u) ||
+              (c.steps_since_frame == c.stream_interval - 1));
+        wanted.steps_since_frame = c.steps_since_frame;
     }
     claim_result(bytes, &wanted);
 }
@@ -573,7 +577,7 @@ static bool may(struct fixpid_link *wanted, uint8_t permission)
     const bool allowed = (wanted->allowed & permission) != 0u;
 
     if (allowed) {
-        wanted->why |= 4u;
+        wanted->key_frame_reasons |= 4u;
     }
     return allowed;
 }
@@ -685,26 +689,27 @@ void prove_step(void)
     was = c;
     wanted = c;
     wanted.steps++;
-    wanted.skipped++;
-    due = (was.every != 0u) && (was.count != 0xFFu) &&
-          (wanted.skipped >= was.every);
-    if ((was.every != 0u) && (was.count == 0xFFu)) {
-        wanted.why |= 16u;
+    wanted.steps_since_frame++;
+    due = (was.stream_interval != 0u) && (was.count != 0xFFu) &&
+          (wanted.steps_since_frame >= was.stream_interval);
+    if ((was.stream_interval != 0u) && (was.count == 0xFFu)) {
+        wanted.key_frame_reasons |= 16u;
     }
     if (due) {
-        wanted.skipped = 0;
-        wanted.told = setpoint;
-        wanted.frames--;
-        wanted.why |= (wanted.frames == 0u) ? 1u : 0u;
+        wanted.steps_since_frame = 0;
+        wanted.last_sent_setpoint = setpoint;
+        wanted.frames_until_key_frame--;
+        wanted.key_frame_reasons |=
+            (wanted.frames_until_key_frame == 0u) ? 1u : 0u;
     }
-    was.why = wanted.why;
-    if (due && (was.why != 0u)) {
-        wanted.why = 0;
-        wanted.frames = 0;
+    was.key_frame_reasons = wanted.key_frame_reasons;
+    if (due && (was.key_frame_reasons != 0u)) {
+        wanted.key_frame_reasons = 0;
+        wanted.frames_until_key_frame = 0;
     }
     if (HAS_HAND && (was.manual != 0u)) {
         wanted.manual--;
-        wanted.why |= (wanted.manual == 0u) ? 8u : 0u;
+        wanted.key_frame_reasons |= (wanted.manual == 0u) ? 8u : 0u;
     }
     sent_bytes = 0;
     bytes = tracked ? fixpid_link_step_tracked(&c, &pid, setpoint, measurement,
@@ -718,10 +723,11 @@ void prove_step(void)
         claim(same_frame(c, was));
         return;
     }
-    if (was.why != 0u) {
+    if (was.key_frame_reasons != 0u) {
         output_at = 11;
         end = 25;
-        claim((sent[0] == 1u) && (sent[1] == was.why) && (sent[2] == was.tag));
+        claim((sent[0] == 1u) && (sent[1] == was.key_frame_reasons) &&
+              (sent[2] == was.tag));
         claim(sent_number(3) + ((uint32_t)sent_number(5) << 16) == was.steps);
         for (unsigned at = 2; at < 14u; at++) {
             claim(sent[11u + at] == state_of[at]);
@@ -729,7 +735,7 @@ void prove_step(void)
     } else {
         claim(sent[0] == flags + 8u);
         claim(sent_number(1) == (was.steps & 0x3FFFu));
-        if (setpoint != was.told) {
+        if (setpoint != was.last_sent_setpoint) {
             end = 9;
         }
         if (tracked) {

@@ -806,7 +806,7 @@ void test_one_wrong_byte_costs_at_most_two_frames(void)
     uint8_t bytes[FRAMES * FIXPID_LINK_FRAME];
     unsigned count = 0;
 
-    link_of_board.every = 1;
+    link_of_board.stream_interval = 1;
     for (unsigned i = 0; i < FRAMES; i++) {
         uint8_t frame;
 
