@@ -10,13 +10,9 @@
 #include "fixpid_bits.h"
 
 // Defined if the compiler has __builtin_add_overflow, which is the CPU's flag:
-// GCC from version 5 on, clang. SDCC 4.5 can be asked, and then crashes.
-#if defined(__GNUC__) && (__GNUC__ >= 5)
+// GCC from version 5 on, clang.
+#if defined(__clang__) || (defined(__GNUC__) && (__GNUC__ >= 5))
 #define FIXPID_HAS_ADD_OVERFLOW
-#elif defined(__has_builtin) && !defined(__SDCC)
-#if __has_builtin(__builtin_add_overflow)
-#define FIXPID_HAS_ADD_OVERFLOW
-#endif
 #endif
 
 // (Older compilers for ARM say that they have the instructions and do not.)
