@@ -546,8 +546,8 @@ static bool pid_candidates_rise(const struct fixpid_pid *x,
 static bool pid_sums_rise(const struct signals *lower,
                           const struct signals *higher)
 {
-    return inside(lower->p_d_ff, -P_D_FF_MAX, higher->p_d_ff) &&
-           (higher->p_d_ff <= P_D_FF_MAX);
+    return inside(lower->p_d_ff, -P_D_FF_MAX, P_D_FF_MAX) &&
+           inside(higher->p_d_ff, lower->p_d_ff, P_D_FF_MAX);
 }
 
 // By contract: mul16.
