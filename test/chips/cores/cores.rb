@@ -30,9 +30,13 @@ end
 module Cores
   FOLDER = 'test/chips/cores'
   WORK = 'build/cores'
-  AVR = Core.new('avr-gcc', '-mmcu=atmega2560', "#{FOLDER}/avr_stdio.c", "#{FOLDER}/simavr atmega2560", '-DTEST_STRIDE=2039 -DTEST_MEMORIES=1000u')
+  # One with 8 KB of RAM, and one with 16: XC8's text has no PROGMEM, and the autotuner's tables
+  # are in RAM then.
+  AVRS = %w[atmega2560 atmega1284p].to_h do |chip|
+    [chip, Core.new('avr-gcc', "-mmcu=#{chip}", "#{FOLDER}/avr_stdio.c", "#{FOLDER}/simavr #{chip}", '-DTEST_STRIDE=2039 -DTEST_MEMORIES=1000u')]
+  end.freeze
   ALL = {
-    'atmega2560' => AVR,
+    'atmega2560' => AVRS['atmega2560'],
     'cortex-m0' => Core.arm('cortex-m0', 'microbit'),
     'cortex-m3' => Core.arm('cortex-m3', 'lm3s6965evb'),
     'cortex-m4' => Core.arm('cortex-m4', 'mps2-an386'),
@@ -53,7 +57,10 @@ module Cores
         tests.add("#{core}-#{mode}", *('weekly' unless mode == 'object' && DAILY.include?(core))) { run(core, mode) }
       end
       tests.add('atmega2560-narrow', 'weekly') { run('atmega2560', 'pointer', form: 'narrow') }
-      XC8.each { |name, options| tests.add(name, 'weekly') { run('atmega2560', 'object', library: options, pattern: 'test_fixpid') } }
+      XC8.each do |name, options|
+        tests.add(name, 'weekly') { run('atmega2560', 'object', library: options, pattern: 'test_fixpid_(?!autotune[.]c)') }
+        tests.add("#{name}-autotune", 'weekly') { run('atmega1284p', 'object', library: options, pattern: 'test_fixpid_autotune[.]c') }
+      end
       Faults.of('cores').each_with_index do |fault, number|
         core, mod = fault.words(1)
         tests.add("seeded-#{core}-#{number + 1}", 'seeded', 'weekly') { seeded(fault, core, "test_fixpid_#{mod}[.]c") }
@@ -67,7 +74,7 @@ module Cores
     def run(name, mode, form: 'wide', library: '', pattern: nil, tree: '.')
       build = "build/ceedling-#{[name, mode, form, *library[/_PIC\d+/], *('faulty' unless tree == '.')].join('-')}"
       vectors
-      core = ALL.fetch(name).to_h
+      core = ALL.fetch(name, AVRS[name]).to_h
       core[:amount] = "#{core[:amount]} -D__XC8" unless library.empty?
       mixins = { 'core' => format(File.read("#{FOLDER}/core.yml"), build: build, **core), 'mode' => text(mode, form) }.map do |part, said|
         File.write("#{WORK}/#{part}.yml", said)
