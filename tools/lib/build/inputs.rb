@@ -17,8 +17,6 @@ module Inputs
     'simavr' => %w[/usr/lib/*/libsimavr*.so*],
     'sdcc' => %w[/usr/bin/sd* /usr/share/sdcc/**/*]
   }.freeze
-  C_LIBRARY = %w[/usr/lib/*/{libc,libm,libstdc++}.so.6 /usr/lib/*/{libc.a,crt1.o} /usr/include/{stdio,features}.h].freeze
-  SETTLED_S = 2 # longer than any clock of a file system needs to tell two texts apart
   INCLUDE = /^[ \t]*#[ \t]*include[ \t]+["<]([^">]+)[">]/.freeze
 
   class << self
@@ -31,31 +29,10 @@ module Inputs
       end.join)
     end
 
-    # What these names and patterns find in a folder, by content, wherever it is. Another
-    # name counts, too, and whether it can be run.
-    def tree(patterns, folder = '.')
-      files = Dir.glob(patterns, File::FNM_DOTMATCH, base: folder).uniq.sort
-      Digest::SHA256.hexdigest(files.map { |file| "#{file} #{content("#{folder}/#{file}")}\n" }.join)
-    end
-
     # Of a program's name.
     def tool(name)
       path = found(name)
       [path, *(COMPILERS.include?(name) ? parts_of(name) : []), *Dir.glob(BESIDE.fetch(name, [])).sort].compact
-    end
-
-    # What this machine's programs are linked to, and compiled with.
-    def c_library
-      Dir.glob(C_LIBRARY).sort
-    end
-
-    # A Ruby gem, with those that it needs.
-    def gem(name)
-      require 'rubygems' # which tools/test leaves out
-      found = Gem::Specification.find_by_name(name)
-      Dir.glob("#{found.full_gem_path}/**/*").sort + found.runtime_dependencies.flat_map { |other| gem(other.name) }
-    rescue Gem::MissingSpecError
-      []
     end
 
     # The compiler for PICs, what it starts, its headers and libraries, and those of
@@ -85,23 +62,6 @@ module Inputs
     end
 
     private
-
-    def content(path)
-      "#{File.executable?(path)} #{text_of(path)}" if File.file?(path)
-    end
-
-    # A file that nobody has touched is not read again, unless it is so new that its time
-    # may be that of two texts.
-    def text_of(path)
-      status = File.stat(path)
-      found = (@texts ||= {})[path]
-      seen = [status.ino, status.size, status.mode, status.ctime, status.mtime]
-      return found.last if found&.first == seen
-
-      text = Digest::SHA256.file(path).hexdigest
-      @texts[path] = [seen, text] if Time.now - status.ctime > SETTLED_S
-      text
-    end
 
     def stamp(file)
       status = File.stat(file)
