@@ -325,6 +325,7 @@ FILES = (
     ("an964_firmware", 2000, fixpid.An964, an964_row),
     ("pid_definition", 2000, lambda: fixpid.Pid(output_max=1), pid_row),
     ("track", 1000, lambda: fixpid.Pid(output_max=1), track_row),
+    ("rest", 600, lambda: fixpid.Pid(output_max=1), track_row),
     ("step_error", 500, lambda: fixpid.Pid(output_max=1), step_error_row),
     ("slew", 1000, fixpid.Slew, slew_row),
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),

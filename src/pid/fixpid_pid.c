@@ -187,13 +187,19 @@ bool fixpid_pid_init(FIXPID_DATA struct fixpid_pid *self,
 
 void fixpid_pid_reset(FIXPID_DATA struct fixpid_pid *self)
 {
-    int16_t start = 0; // or the nearest count within the integral's limits
+    int16_t start = 0; // the output at rest
 
     FIXPID_ASSERT(VALID_SELF);
-    if (SELF.integral_min > 0) {
+    if (SELF.output_min > 0) {
+        start = SELF.output_min;
+    }
+    if (SELF.output_max < 0) {
+        start = SELF.output_max;
+    }
+    if (start < SELF.integral_min) {
         start = SELF.integral_min;
     }
-    if (SELF.integral_max < 0) {
+    if (start > SELF.integral_max) {
         start = SELF.integral_max;
     }
     SELF.integral = whole_counts(start);
@@ -232,18 +238,31 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
 #define PASSED self
 #endif
 
-// Returns the proportional term's error, which is that of b * setpoint, rounded
-// half up.
-static signal_word weighted_error(GIVEN)
+// Returns b * x, rounded half up.
+static int16_t weighted(uint8_t weight, int16_t x)
 {
     // within 255 * 32768 + 128
-    const int32_t product = mul16(SELF.setpoint_weight, SIGNALS.setpoint) + 128;
-    int16_t weighted = (int16_t)shift_right_floor(product, 8);
+    return (int16_t)shift_right_floor(mul16(weight, x) + 128, 8);
+}
 
-    if ((SELF.options & REVERSE) != 0u) {
-        weighted = complement(weighted);
+// Starts from rest, with the P of a setpoint that is the measurement in p_d_ff:
+// the integral takes it over, so that there the output is at rest.
+static void start_from_rest(GIVEN)
+{
+    // within 2^23 + 2^30
+    int32_t integral_q8 =
+        fixpid_sub32(shift_right_floor(SELF.integral, 8), SIGNALS.p_d_ff);
+    const int32_t counts = shift_right_floor(integral_q8, 8);
+
+    if (counts >= SELF.integral_max) {
+        integral_q8 = shift_left(SELF.integral_max, 8);
+    } else if (counts < SELF.integral_min) {
+        integral_q8 = shift_left(SELF.integral_min, 8);
+    } else {
+        // inside
     }
-    return sub16_sat(weighted, SIGNALS.derivative_input);
+    SELF.integral = shift_left(integral_q8, 8);
+    SELF.integral_fraction = 0;
 }
 
 // Computes the errors in reverse, with a setpoint weight, or with the
@@ -251,18 +270,31 @@ static signal_word weighted_error(GIVEN)
 // changes the signs of their differences. Returns the proportional term's.
 static signal_word special_errors(GIVEN)
 {
+    const int16_t measurement = (int16_t)SIGNALS.derivative_input;
     int16_t goal = SIGNALS.setpoint;
     signal_word p_error;
 
     if ((SELF.options & REVERSE) != 0u) {
         goal = complement(goal);
-        SIGNALS.derivative_input =
-            complement((int16_t)SIGNALS.derivative_input);
+        SIGNALS.derivative_input = complement(measurement);
     }
     SIGNALS.error = sub16_sat(goal, SIGNALS.derivative_input);
     p_error = SIGNALS.error;
     if ((SELF.options & WEIGHTED) != 0u) {
-        p_error = weighted_error(PASSED);
+        if ((SELF.status & (HELD | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST) {
+            goal = weighted(SELF.setpoint_weight, measurement);
+            if ((SELF.options & REVERSE) != 0u) {
+                goal = complement(goal);
+            }
+            p_error = sub16_sat(goal, SIGNALS.derivative_input);
+            SIGNALS.p_d_ff = mul16(SELF.kp, p_error);
+            start_from_rest(PASSED);
+        }
+        goal = weighted(SELF.setpoint_weight, SIGNALS.setpoint);
+        if ((SELF.options & REVERSE) != 0u) {
+            goal = complement(goal);
+        }
+        p_error = sub16_sat(goal, SIGNALS.derivative_input);
     }
     if ((SELF.options & ON_ERROR) != 0u) {
         SIGNALS.derivative_input = complement((int16_t)SIGNALS.error);

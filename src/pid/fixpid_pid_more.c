@@ -49,6 +49,16 @@ static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
     }
 }
 
+// Before the first step, where P and D are 0, the integral is what the
+// feed-forward lacks to the output's range.
+static void rest_or_drop_windup(FIXPID_DATA struct fixpid_pid *self)
+{
+    if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
+        set_integral(self, 0);
+    }
+    drop_windup(self);
+}
+
 bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
                            int16_t output_min, int16_t output_max)
 {
@@ -64,7 +74,7 @@ bool fixpid_pid_set_limits(FIXPID_DATA struct fixpid_pid *self,
     if ((SELF.status & HELD) != 0u) {
         hold(self, (int16_t)shift_right_floor(SELF.integral, 16));
     } else {
-        drop_windup(self);
+        rest_or_drop_windup(self);
     }
     return true;
 }
@@ -92,6 +102,9 @@ void fixpid_pid_set_feedforward(FIXPID_DATA struct fixpid_pid *self,
     FIXPID_ASSERT(VALID_SELF);
     if (!REFUSED) {
         SELF.feedforward = feedforward;
+        if ((SELF.status & (HELD | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST) {
+            rest_or_drop_windup(self);
+        }
     }
 }
 #endif

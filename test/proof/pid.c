@@ -151,10 +151,11 @@ static bool pid_may_take_over(const struct fixpid_pid *x, number p_d_ff)
            (((uint32_t)x->integral & 0xFFFFu) == 0u);
 }
 
-// Domain: the limits of the integral are in order.
+// Domain: the limits of the output and of the integral are in order.
 static bool pid_may_reset(const struct fixpid_pid *x)
 {
-    return x->integral_min <= x->integral_max;
+    return (x->output_min <= x->output_max) &&
+           (x->integral_min <= x->integral_max);
 }
 
 static bool same_settings(const struct fixpid_pid *a,
@@ -190,7 +191,7 @@ static number error_of(const struct fixpid_pid *x, number goal, number y)
     return ((x->options & MIRRORED) != 0u) ? sat16(y - goal) : sat16(goal - y);
 }
 
-static number weighted(const struct fixpid_pid *x, number r)
+static number goal_of(const struct fixpid_pid *x, number r)
 {
     if ((x->options & SCALED) == 0u) {
         return r;
@@ -243,6 +244,21 @@ static number taken_over(const struct fixpid_pid *x, number p_d_ff)
     return (floor_by(x->integral, 8) - p_d_ff) * COUNT;
 }
 
+// A first step that nothing is held for starts from rest: the integral takes
+// over what the weight leaves of the measurement.
+static bool starts(const struct fixpid_pid *x)
+{
+    return ((x->options & SCALED) != 0u) &&
+           ((x->status & (HOLDING | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST);
+}
+
+static number started(const struct fixpid_pid *x, number y)
+{
+    const number p = TIMES(x->kp, error_of(x, goal_of(x, y), y));
+
+    return starts(x) ? limited(x, taken_over(x, p)) : whole(x);
+}
+
 static number sum_of(number p_d_ff, number integral)
 {
     return floor_by(p_d_ff + floor_by(integral, 16) + 128, 8);
@@ -279,11 +295,15 @@ void prove_special_errors(void)
     signal_word p_error;
 
     c = nondet_pid();
+    assume(pid_is_set(&c));
     was = c;
     p_error = special_errors(&c, &signals);
-    claim(p_error == error_of(&was, weighted(&was, r), y));
+    claim(p_error == error_of(&was, goal_of(&was, r), y));
     claim(signals.error == error_of(&was, r, y));
     claim(signals.derivative_input == input_of(&was, r, y));
+    claim(whole(&c) == started(&was, y));
+    was.integral = c.integral;
+    was.integral_fraction = c.integral_fraction;
     claim(same(&c, &was));
 }
 
@@ -385,10 +405,14 @@ signal_word special_errors_contract(struct fixpid_pid *self,
 {
     const number setpoint = signals->setpoint;
     const number measurement = signals->derivative_input;
+    const number integral = started(self, measurement);
 
+    pre(pid_is_set(self));
+    self->integral = (int32_t)floor_by(integral, 8);
+    self->integral_fraction = (uint8_t)integral;
     signals->error = (int16_t)error_of(self, setpoint, measurement);
     signals->derivative_input = (int16_t)input_of(self, setpoint, measurement);
-    return (signal_word)error_of(self, weighted(self, setpoint), measurement);
+    return (signal_word)error_of(self, goal_of(self, setpoint), measurement);
 }
 
 // As `differentiate` claims of the derivative's term, with the product in it.
@@ -462,6 +486,7 @@ void prove_composed(void)
     number input;
     number d;
     number p_d_ff;
+    number begin;
     number candidate;
     number integral;
     number u;
@@ -472,8 +497,9 @@ void prove_composed(void)
     was = c;
     out = fixpid_pid_step(&c, setpoint, measurement);
 
+    begin = started(&was, measurement);
     e = error_of(&was, setpoint, measurement);
-    p_error = error_of(&was, weighted(&was, setpoint), measurement);
+    p_error = error_of(&was, goal_of(&was, setpoint), measurement);
     input = input_of(&was, setpoint, measurement);
     d = derivative_of(&was, input);
     // In the order of the step: a solver is slow at the associative law.
@@ -498,12 +524,12 @@ void prove_composed(void)
         candidate = taken_over(&was, p_d_ff);
         e = 0;
     } else {
-        candidate = whole(&was) + change_of(&was, e);
+        candidate = begin + change_of(&was, e);
     }
     integral = limited(&was, candidate);
     u = sum_of(p_d_ff, integral);
     claim(out == clamp(u, was.output_min, was.output_max));
-    claim(whole(&c) == (forgets(&was, u, e) ? whole(&was) : integral));
+    claim(whole(&c) == (forgets(&was, u, e) ? begin : integral));
     claim(c.status == flags_of(&was, candidate, u));
 }
 
@@ -559,6 +585,7 @@ void prove_errors_rise(void)
 
     higher.setpoint = nondet_int16();
     c = nondet_pid();
+    assume(pid_is_set(&c));
     assume(pid_is_in_order(&c, lower.setpoint, higher.setpoint));
     if (lower.setpoint <= higher.setpoint) {
         assume_rises(c.setpoint_weight, lower.setpoint, higher.setpoint);
@@ -716,12 +743,29 @@ static void claim_gains(const struct fixpid_pid_gains *gains)
     claim(inside((kept - given) * 250, -given, given));
 }
 
+// The integral is as set_limits and set_feedforward leave it: of what it was,
+// they drop what would be wind-up, and before the first step all of it.
+static number settled(const struct fixpid_pid *x)
+{
+    const bool first = (x->status & FIXPID_PID_FIRST) != 0u;
+    const number p_d =
+        TIMES(x->kp, (number)x->proportional_error) + x->derivative;
+    const number most = (((number)x->output_max - x->feedforward) * 256) -
+                        ((p_d < 0) ? p_d : 0);
+    const number least = (((number)x->output_min - x->feedforward) * 256) -
+                         ((p_d > 0) ? p_d : 0);
+
+    return limited(x, clamp(first ? 0 : whole(x), least * COUNT, most * COUNT));
+}
+
+// The feed-forward is 0: the output at rest is what its range has nearest to 0.
 static bool at_rest(const struct fixpid_pid *x)
 {
-    return (whole(x) == limited(x, 0)) && (x->derivative == 0) &&
-           (x->previous == UNSEEN) && (x->proportional_error == 0) &&
-           (x->feedforward == 0) && (x->output == 0) &&
-           (x->status == FIXPID_PID_FIRST);
+    return (whole(x) ==
+            limited(x, clamp(0, x->output_min, x->output_max) * PART)) &&
+           (x->derivative == 0) && (x->previous == UNSEEN) &&
+           (x->proportional_error == 0) && (x->feedforward == 0) &&
+           (x->output == 0) && (x->status == FIXPID_PID_FIRST);
 }
 
 void prove_init(void)
@@ -823,15 +867,7 @@ void prove_set_limits(void)
             claim(c.integral ==
                   clamp(floor_by(was.integral, 16), low, high) * COUNT);
         } else {
-            const number p_d =
-                TIMES(was.kp, (number)was.proportional_error) + was.derivative;
-            const number most = (((number)high - was.feedforward) * 256) -
-                                ((p_d < 0) ? p_d : 0);
-            const number least =
-                (((number)low - was.feedforward) * 256) - ((p_d > 0) ? p_d : 0);
-
-            claim(whole(&c) == limited(&was, clamp(whole(&was), least * COUNT,
-                                                   most * COUNT)));
+            claim(whole(&c) == settled(&was));
         }
         was.integral = c.integral;
         was.integral_fraction = c.integral_fraction;
@@ -866,6 +902,7 @@ void prove_set_integral_limits(void)
 }
 
 #if FIXPID_PID_FEATURES == FIXPID_PID_ALL // it calls what others lack
+// By contract: mul16.
 void prove_modes(void)
 {
     const int16_t value = nondet_int16();
@@ -878,7 +915,13 @@ void prove_modes(void)
     held = clamp(value, was.output_min, was.output_max);
     if (nondet_bool()) {
         fixpid_pid_set_feedforward(&c, value);
-        was.feedforward = refused(&was) ? was.feedforward : value;
+        if (!refused(&was)) {
+            was.feedforward = value;
+            claim(whole(&c) == (((was.status & (HOLDING | FIXPID_PID_FIRST)) ==
+                                 FIXPID_PID_FIRST)
+                                    ? settled(&was)
+                                    : whole(&was)));
+        }
     } else if (nondet_bool()) {
         fixpid_pid_set_manual(&c, value);
         claim(c.integral == held * COUNT);

@@ -99,10 +99,29 @@ bool reference_pid_init(struct reference_pid *self,
     return self->accepted;
 }
 
+static void limit_integral(struct reference_pid *self)
+{
+    self->integral = reference_clamp(self->integral, ONE * self->integral_min,
+                                     ONE * self->integral_max);
+}
+
+static bool is_held(const struct reference_pid *self)
+{
+    return self->manual || self->seeded;
+}
+
+// At rest, before the first step, the output would be the feed-forward, or what
+// the output's range has nearest to it.
+static void rest(struct reference_pid *self)
+{
+    self->integral = ONE * (reference_clamp(self->feedforward, self->output_min,
+                                            self->output_max) -
+                            self->feedforward);
+    limit_integral(self);
+}
+
 void reference_pid_reset(struct reference_pid *self)
 {
-    self->integral =
-        ONE * reference_clamp(0, self->integral_min, self->integral_max);
     self->derivative = 0;
     self->proportional_error = 0;
     self->previous = 0;
@@ -115,6 +134,7 @@ void reference_pid_reset(struct reference_pid *self)
     self->at_max = false;
     self->at_min = false;
     self->integral_at_limit = false;
+    rest(self);
 }
 
 bool reference_pid_set_gains(struct reference_pid *self,
@@ -139,15 +159,18 @@ bool reference_pid_set_limits(struct reference_pid *self, int64_t low,
     }
     self->output_min = low;
     self->output_max = high;
-    if (self->manual || self->seeded) {
+    if (is_held(self)) {
         self->held = reference_clamp(self->held, low, high);
+        return true;
+    }
+    if (!self->seen) {
+        rest(self);
         return true;
     }
     self->integral = reference_clamp(
         self->integral, 65536 * (256 * low - forward - (terms > 0 ? terms : 0)),
         65536 * (256 * high - forward - (terms < 0 ? terms : 0)));
-    self->integral = reference_clamp(self->integral, ONE * self->integral_min,
-                                     ONE * self->integral_max);
+    limit_integral(self);
     return true;
 }
 
@@ -158,9 +181,8 @@ bool reference_pid_set_integral_limits(struct reference_pid *self, int64_t low,
         return false;
     }
     take_integral_limits(self, low, high);
-    if (!self->manual && !self->seeded) {
-        self->integral = reference_clamp(
-            self->integral, ONE * self->integral_min, ONE * self->integral_max);
+    if (!is_held(self)) {
+        limit_integral(self);
     }
     return true;
 }
@@ -169,6 +191,9 @@ void reference_pid_set_feedforward(struct reference_pid *self, int64_t value)
 {
     if (self->accepted) {
         self->feedforward = value;
+        if (!self->seen && !is_held(self)) {
+            rest(self);
+        }
     }
 }
 
@@ -246,18 +271,30 @@ static int64_t finish(struct reference_pid *self, int64_t error)
     return self->output;
 }
 
+// What a setpoint weight makes of the setpoint.
+static int64_t weighted(const struct reference_pid *self, int64_t setpoint)
+{
+    return self->weight == 256
+               ? setpoint
+               : reference_floor_divide(self->weight * setpoint + 128, 256);
+}
+
 int64_t reference_pid_step(struct reference_pid *self, int64_t setpoint,
                            int64_t measurement)
 {
     const int64_t sign = self->reverse ? -1 : 1;
-    const int64_t weighted =
-        self->weight == 256
-            ? setpoint
-            : reference_floor_divide(self->weight * setpoint + 128, 256);
     const int64_t error = int16_of(sign * (setpoint - measurement));
     const int64_t input = self->on_error ? -error : sign * measurement;
 
-    self->proportional_error = int16_of(sign * (weighted - measurement));
+    if (!self->seen && !is_held(self)) {
+        // The integral takes over what the weight leaves of the measurement.
+        self->integral -=
+            65536 * self->kp *
+            int16_of(sign * (weighted(self, measurement) - measurement));
+        limit_integral(self);
+    }
+    self->proportional_error =
+        int16_of(sign * (weighted(self, setpoint) - measurement));
     differentiate(self, self->previous - input, input);
     return finish(self, error);
 }
@@ -295,10 +332,9 @@ void reference_pid_track(struct reference_pid *self, int64_t applied,
         return;
     }
     self->output = applied;
-    if (!self->manual && !self->seeded) {
-        self->integral =
-            reference_clamp(self->integral + missing * (ONE / divisor),
-                            ONE * self->integral_min, ONE * self->integral_max);
+    if (!is_held(self)) {
+        self->integral += missing * (ONE / divisor);
+        limit_integral(self);
     }
 }
 
@@ -309,9 +345,8 @@ int64_t reference_pid_proportional(const struct reference_pid *self)
 
 int64_t reference_pid_integral(const struct reference_pid *self)
 {
-    return self->manual || self->seeded
-               ? 65536 * self->held
-               : reference_floor_divide(self->integral, 256);
+    return is_held(self) ? 65536 * self->held
+                         : reference_floor_divide(self->integral, 256);
 }
 
 uint8_t reference_pid_flags(const struct reference_pid *self)

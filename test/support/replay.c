@@ -499,7 +499,8 @@ static int replay(const char *name, int rows, unsigned columns,
 // Whether the rows need a feature that fixpid_pid is built without.
 static bool lacks_feature(const char *name)
 {
-    if (strcmp(name, "track") == 0 || strcmp(name, "step_error") == 0) {
+    if (strcmp(name, "track") == 0 || strcmp(name, "rest") == 0 ||
+        strcmp(name, "step_error") == 0) {
         return !TRACK_IS_BUILT;
     }
     return !PID_IS_WHOLE &&
@@ -532,6 +533,9 @@ int main(int argc, char *argv[])
     }
     if (argc == 3 && strcmp(argv[1], "track") == 0) {
         return replay("track", 1000, TRACK_COLUMNS, track_row_is_same);
+    }
+    if (argc == 3 && strcmp(argv[1], "rest") == 0) {
+        return replay("rest", 600, TRACK_COLUMNS, track_row_is_same);
     }
     if (argc == 3 && strcmp(argv[1], "step_error") == 0) {
         return replay("step_error", 500, BY_ERROR_COLUMNS,

@@ -167,8 +167,9 @@ void test_state_bytes_are_the_same_on_every_machine(void)
     TEST_ASSERT_TRUE(init());
     fixpid_pid_state(&pid_controller, state);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(first, state, SIZE);
+    step(764, 640);
     set_feedforward(-11);
-    for (int16_t n = 0; n < 15; n++) {
+    for (int16_t n = 1; n < 15; n++) {
         step(764, (int16_t)(640 + 3 * n));
     }
     step(764, 682);

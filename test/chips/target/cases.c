@@ -742,6 +742,7 @@ static const struct recording an964_8bit_recordings[] = {
 static const struct recording pid_recordings[] = {
     {"pid_definition", 2000, pid_row},
     {"track", 1000, track_row},
+    {"rest", 600, track_row},
     {NULL, 0, NULL}};
 
 // The size of an object without padding at its end.

@@ -103,7 +103,7 @@ module Target
     # --- on a PIC ---
 
     def recordings(controller)
-      names = controller == 'pid' ? %w[pid_definition track] : ["#{controller.delete_suffix('_8bit')}_firmware"]
+      names = controller == 'pid' ? %w[pid_definition track rest] : ["#{controller.delete_suffix('_8bit')}_firmware"]
       names.map { |name| "#{VECTORS}/#{name}.csv" }
     end
 
