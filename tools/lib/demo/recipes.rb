@@ -24,7 +24,7 @@ RECIPE_RUNS = {
   'ssr' => 1799.9, 'tune_ssr' => 1499, 'retune' => 4999, 'heat_cool' => 99_990, 'least_output' => 19_999,
   'angle' => 1.999, 'guard' => 1999.9, 'dead_band' => 3999, 'sensor_break' => 599.9,
   'scheduling' => 2999, 'interpolated' => 19_999, 'sample_time' => 1199.9, 'interrupt' => 999, 'freertos' => 999, 'zephyr' => 999,
-  'converter' => 1999
+  'converter' => 1999, 'back_from_limit' => 2999, 'spikes' => 1999.9
 }.freeze
 
 # What a step of the setpoint, or what comes after another event, must do: within 2 % of
@@ -256,6 +256,61 @@ def check_sensor_break(run)
   Report.at_most('sensor break: overshoot after', run.values('value', 260.0).max - 600.0, 30.0, 'counts')
 end
 
+# RMS errors once it is warm, in degrees, by what the readings go through.
+def check_spikes(run)
+  errors = %w[calm plain filter with with_filter with_low].to_h do |column|
+    values = run.values(column, 300.0)
+    [column, Math.sqrt(values.sum { |v| (v - 320.0)**2 } / values.size)]
+  end
+  errors.each { |column, error| Report.number("spikes_#{column}_rms", error) }
+  Report.at_most('spikes: error with the median', errors['with'], 0.1, 'degrees')
+  Report.at_most('spikes: error with the median and a filter', errors['with_filter'], 0.1, 'degrees')
+  Report.at_most('spikes: the same, the wild readings low', errors['with_low'], 0.1, 'degrees')
+  Report.at_least('spikes: error without either', errors['plain'], 0.2, 'degrees')
+  Report.at_least('spikes: error with the filter alone', errors['filter'], 2.0, 'degrees')
+end
+
+LIMIT_EVENT = 1500.0 # the setpoint changes, or the load goes away
+LIMIT_RULES = { 'held' => '`fixpid_pid`', 'drift' => 'recipe, n', 'slow' => 'recipe, n + 1', 'clamped' => 'integral clamped' }.freeze
+# The last setpoint of each.
+LIMIT_SCENARIOS = { 'step' => 700.0, 'back_300' => 300.0, 'back_700' => 700.0, 'back_900' => 900.0, 'back_1000' => 1000.0,
+                    'short' => 500.0, 'load' => 700.0, 'integrator' => 700.0, 'at_1000' => 600.0, 'at_1023' => 600.0 }.freeze
+LIMIT_HARMS = %w[load integrator at_1000 at_1023].freeze # where holding the integral is better
+
+# Steps until the loop stays within 2 % of the setpoint, and the sum of its errors.
+def check_back_from_limit(run)
+  sums = LIMIT_SCENARIOS.to_h do |scenario, target|
+    [scenario, LIMIT_RULES.keys.to_h { |rule| [rule, limit_sum(run, scenario, rule, target)] }]
+  end
+  LIMIT_SCENARIOS.each_key { |scenario| check_limit_rules(scenario, sums[scenario]) }
+  Report.at_least('short: sum of errors with n + 1, of that with n', sums['short']['slow'] / sums['short']['drift'], 1.5)
+  Report.at_most('at_1023: sum of errors with n + 1, of that with n', sums['at_1023']['slow'] / sums['at_1023']['drift'], 0.7)
+  { 'back_300' => [90, 134], 'back_700' => [21, 27], 'back_900' => [8, 27], 'back_1000' => [0, 39] }.each do |scenario, (drift, held)|
+    Report.at_most("#{scenario}, recipe: within 2 % after", limit_steps(scenario, 'drift'), drift, 'steps')
+    Report.exactly("#{scenario}, fixpid_pid: within 2 % after", limit_steps(scenario, 'held'), held, 'steps')
+  end
+end
+
+# As it is told: the recipe is better, or not.
+def check_limit_rules(scenario, sums)
+  if LIMIT_HARMS.include?(scenario)
+    Report.at_least("#{scenario}: sum of errors with the recipe, of that without", sums['drift'] / sums['held'], 1.1)
+  else
+    Report.at_most("#{scenario}: sum of errors with the recipe, of that without", sums['drift'] / sums['held'], 0.98)
+  end
+end
+
+def limit_sum(run, scenario, rule, target)
+  errors = run.values("#{scenario}_#{rule}", LIMIT_EVENT).map { |v| (v - target).abs }
+  Report.number("limit_#{scenario}_#{rule}_settled", (errors.rindex { |error| error > 0.02 * target } || -1) + 1)
+  Report.number("limit_#{scenario}_#{rule}_errors", errors.sum)
+  errors.sum
+end
+
+def limit_steps(scenario, rule)
+  Report.numbers['recipes']["limit_#{scenario}_#{rule}_settled"]
+end
+
 # The supply is weak from 2 s to 3.5 s.
 def check_two_rates(run)
   peaks = %w[with without].to_h { |which| [which, run.values(which, 3.5).max] }
@@ -406,7 +461,7 @@ def draw_recipes(runs)
 end
 
 RECIPE_PICTURES = %w[cascade two_rates override ramp ramp_soak ssr tune_ssr retune heat_cool least_output
-                     angle guard dead_band sensor_break scheduling interpolated].freeze
+                     angle guard dead_band sensor_break spikes back_from_limit scheduling interpolated].freeze
 
 def with_and_without(run)
   [Plot.curve(run, 'without', Plot::WITHOUT), Plot.curve(run, 'with', Plot::MEASUREMENT), Plot.setpoint(run)]
@@ -539,6 +594,21 @@ def draw_sensor_break(run)
                  [0, 599], [100, 1040], SECONDS_COUNTS,
                  [recipe_stretch(1, 200, 260), Plot.text('reading', 270, 960, Plot::SECOND), with_text('temperature', 325, 400), setpoint_text(10, 680)],
                  OutputAxis.new(run, "(column('output')/2.55)", 0, 100, 'drive, %', [30, 80]))
+end
+
+def draw_spikes(run)
+  recipe_picture('spikes', 'One reading in a hundred is 473 degrees',
+                 [Plot.curve(run, 'filter', Plot::WITHOUT), Plot.curve(run, 'with', Plot::MEASUREMENT), Plot.setpoint(nil, '320')],
+                 [1000, 1100], [311, 332], SECONDS_DEGREES,
+                 [without_text(1003, 330, 'derivative filter'), with_text('median of three', 1003, 313)])
+end
+
+def draw_back_from_limit(run)
+  recipe_picture('back_from_limit', 'Back from a setpoint out of reach',
+                 [Plot.curve(run, 'back_900_held', Plot::WITHOUT), Plot.curve(run, 'back_900_drift', Plot::MEASUREMENT),
+                  Plot.setpoint(nil, '(x < 1500 ? 1100 : 900)')],
+                 [1480, 1580], [850, 1110], STEPS_COUNTS,
+                 [without_text(1530, 865, 'as it is'), with_text('with the recipe', 1508, 930), setpoint_text(1482, 1085)])
 end
 
 def draw_scheduling(run)

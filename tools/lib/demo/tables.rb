@@ -8,6 +8,14 @@ module Tables
                 'lasts: 50, 90 %'].freeze
   TRACKED = %w[without with].to_h { |which| [which, "#{which} `fixpid_pid_track`"] }.freeze
 
+  SATURATIONS = {
+    'step' => 'from rest to 700', 'back_300' => '1000 steps at 1100, back to 300', 'back_700' => 'the same, back to 700',
+    'back_900' => 'the same, back to 900', 'back_1000' => 'the same, back to 1000', 'short' => 'from 300, 20 steps at 1100, then 500',
+    'load' => 'at 700, a load for 1000 steps that is more than the actuator has, and goes away',
+    'integrator' => 'integrator: from rest to 700', 'at_1000' => 'integrator: from 1000 to 600',
+    'at_1023' => "integrator: from 1023, the sensor's end, to 600"
+  }.freeze
+
   class << self
     def tuning
       table('step', 'KP', 'KI', 'KD', 'upright', 'base moves', 'base reverses',
@@ -213,6 +221,31 @@ module Tables
       table('gains', 'farthest beyond a setpoint, of 1000', 'travel of the valve',
             recipe_rows('%.0f', %w[interpolated_NAME_over interpolated_NAME_travel],
                         'low' => 'of level 100', 'high' => 'of level 1000', 'with' => 'by the level'))
+    end
+
+    def spikes
+      table('readings and controller', 'error, rms, degrees',
+            recipe_rows('%.2f', %w[spikes_NAME_rms],
+                        'calm' => 'none is wild, derivative filter 3', 'plain' => 'no filter', 'filter' => 'derivative filter 3',
+                        'with' => 'median of three', 'with_filter' => 'median of three, derivative filter 3'))
+    end
+
+    def back_from_limit
+      backs = LIMIT_SCENARIOS.keys.grep(/back/)
+      table('steps until it stays within 2 %', *backs.map { |scenario| scenario.sub('_', ' to ') },
+            recipe_rows('%d', backs.map { |scenario| "limit_#{scenario}_NAME_settled" }, LIMIT_RULES.reject { |rule, _| rule == 'clamped' }))
+    end
+
+    # Steps and sum of errors of each rule; the least sum is bold.
+    def saturations
+      numbers = Report.numbers['recipes']
+      table('saturation', *LIMIT_RULES.values, SATURATIONS.map do |scenario, title|
+        sums = LIMIT_RULES.keys.to_h { |rule| [rule, numbers["limit_#{scenario}_#{rule}_errors"].round] }
+        [title, *sums.map do |rule, sum|
+          cell = "#{numbers["limit_#{scenario}_#{rule}_settled"]} / #{sum}"
+          sum == sums.values.min ? "**#{cell}**" : cell
+        end]
+      end)
     end
 
     def behind_tpo
