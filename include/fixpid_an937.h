@@ -18,11 +18,8 @@
 // not interrupt each other, except that fixpid_an937_tick may interrupt all of
 // them where the compiler's code is re-entrant: fixpid.h says where it is not.
 //
-// Departures from the firmware that Microchip shipped with the note:
-// 1. Derivative sign: delta is error - previous error, as the note's text says;
-//    the firmware pushes the wrong way when the error shrinks.
-// 2. Error zero: a step with error 0 is computed like any other; the firmware
-//    holds its old output and accumulates nothing.
+// docs/errata.md lists where the firmware that Microchip shipped with the note
+// differs: the sign of delta, an error of 0, and when the first delta is taken.
 #ifndef FIXPID_AN937_H
 #define FIXPID_AN937_H
 #include <stdbool.h>
@@ -141,7 +138,8 @@ int32_t fixpid_an937_step(FIXPID_DATA struct fixpid_an937 *self, int16_t error);
 
 // The note's 8-bit mode: an error of -100..100 % (clamped) counts 40 per
 // percent, and the output is divided by 1600 toward zero and limited to
-// -100..100 %. It divides: not for the hot path.
+// -100..100 %. So 100 % with kp 1.0 alone gives 2 %, as in the note's program.
+// It divides: not for the hot path.
 int8_t fixpid_an937_step_percent(FIXPID_DATA struct fixpid_an937 *self,
                                  int8_t error_percent);
 

@@ -99,6 +99,7 @@ void test_step_recorded_rows_match_the_firmware(void)
         if (row[AN937_TICK] != 0) {
             fixpid_an937_tick(&an937_controller);
         }
+        TEST_ASSERT_NOT_EQUAL(0, row[AN937_ERROR]); // as docs/errata.md says
         TEST_ASSERT_EQUAL_INT32(
             row[AN937_PID_OUT],
             fixpid_an937_step(&an937_controller, (int16_t)row[AN937_ERROR]));
@@ -187,7 +188,7 @@ void test_set_gains_motor_goes_to_144_and_the_output_jumps_by_the_law(void)
     TEST_ASSERT_EQUAL_INT32(before + INT32_C(64) * 1500 / 16, step(0));
 }
 
-// Departure 1: the firmware gives a shrinking error the sign of the error.
+// docs/errata.md: the firmware gives a shrinking error the sign of the error.
 void test_step_error_shrinks_derivative_pushes_against_proportional(void)
 {
     tick_and_step(1000);
@@ -200,7 +201,7 @@ void test_step_error_shrinks_derivative_pushes_against_proportional(void)
         0, fixpid_an937_proportional(&an937_controller));
 }
 
-// Departure 2: the firmware holds its output and skips the tick.
+// docs/errata.md: the firmware holds its output and skips the tick.
 void test_step_error_zero_is_computed_like_any_other(void)
 {
     tick_and_step(100);
@@ -648,6 +649,15 @@ void test_step_percent_six_percent_from_rest(void)
     fixpid_an937_tick(&an937_controller);
     TEST_ASSERT_EQUAL_INT8(1, fixpid_an937_step_percent(&an937_controller, 6));
     TEST_ASSERT_EQUAL_INT8(0, fixpid_an937_step_percent(&an937_controller, -6));
+}
+
+void test_step_percent_full_error_with_kp_1_gives_2_percent(void)
+{
+    start(FIXPID_AN937_GAIN(1.0), 0, 0, 4000, 4);
+    TEST_ASSERT_EQUAL_INT8(2,
+                           fixpid_an937_step_percent(&an937_controller, 100));
+    TEST_ASSERT_EQUAL_INT8(-2,
+                           fixpid_an937_step_percent(&an937_controller, -100));
 }
 
 void test_step_percent_output_is_limited_on_both_sides(void)

@@ -89,6 +89,8 @@ void test_step_recorded_rows_match_the_firmware(void)
                                 fixpid_an964_integral(&an964_controller));
         TEST_ASSERT_EQUAL_INT16(row[AN964_DERIVATIVE],
                                 fixpid_an964_derivative(&an964_controller));
+        // No row reaches a limit, as docs/errata.md says.
+        TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
         rows++;
     }
     TEST_ASSERT_EQUAL_UINT(2000, rows);
@@ -112,7 +114,7 @@ void test_step_twenty_degrees_at_full_gain_stays_below_the_output_limit(void)
 }
 
 // Figure 6: the difference is clamped to +-120, multiplied, shifted by 5, and
-// the term is clamped to +-120 again; both lower clamps work (departure 3).
+// the term is clamped to +-120 again; both lower clamps work.
 void test_step_derivative_of_figure_6_is_clamped_twice_on_both_sides(void)
 {
     start(1023, 0, 16);
@@ -226,7 +228,7 @@ void test_flags_sum_limited_lasts_until_a_step_within_or_a_reset(void)
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
 }
 
-// Departure 1: the program keeps the error in a signed char.
+// docs/errata.md: the program keeps the error in a signed char.
 void test_step_error_beyond_a_byte_does_not_wrap(void)
 {
     start(1023, 0, 0);
@@ -234,7 +236,7 @@ void test_step_error_beyond_a_byte_does_not_wrap(void)
     TEST_ASSERT_EQUAL_INT16(-179, step(-180));
 }
 
-// Departure 2: 117 * 281 and 120 * 274 do not fit the program's 16 bits.
+// docs/errata.md: 117 * 281 and 120 * 274 do not fit the program's 16 bits.
 void test_step_products_beyond_16_bits_are_exact(void)
 {
     start(16, 281, 0);
