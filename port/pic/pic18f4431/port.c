@@ -10,6 +10,7 @@
 // outputs at 0.
 #define TRISA_BOARD 0xC7u
 #define ANSEL0_BOARD 0x07u
+#define ADCON0_ON 0x01u
 
 #define ACCESS_RAM_END 0x5F
 #define T1CON_ON 0x81u
@@ -26,6 +27,7 @@ static void init_converter(void)
     ADCHS = 0u;  // AN0, AN1, AN2
     ANSEL0 = ANSEL0_BOARD;
     ANSEL1 = 0u;
+    ADCON0 = ADCON0_ON; // it starts up while init_drive waits for a PWM period
 }
 
 static void init_pins(void)

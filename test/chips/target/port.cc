@@ -697,6 +697,10 @@ void Port::start()
     if (chip.has_symbol("ADCHS") && groups != 0) {
         wrong("ADCHS has 0x%02X, not 0x00: another input of a group", groups);
     }
+    // Its converter wants some microseconds between ADON and GO.
+    if (chip.has_symbol("ADCHS") && (chip.peek(board.go.first) & 1u) == 0) {
+        wrong("the A/D converter is off after port_init");
+    }
     std::printf("off after reset, and after port_init, %.1f ms\n",
                 1000.0 * static_cast<double>(cycles + slow_cycles) /
                     chip.cycles_per_second());
