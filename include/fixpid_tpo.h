@@ -53,7 +53,7 @@ struct fixpid_tpo_config {
     uint16_t window; // steps; 1..32767
 
     // The shortest pulse and the shortest gap in steps, each 0..window and both
-    // together at most window. 0 and 1 mean the same.
+    // together at most window. 0 works like 1, but adds nothing to that sum.
     uint16_t minimum_on;
     uint16_t minimum_off;
 };

@@ -152,7 +152,7 @@ void test_step_pulse_and_gap_of_just_the_minimum_are_given(void)
     window_gives(75, 6, 0);
 }
 
-void test_step_minimum_0_and_1_are_the_same(void)
+void test_step_minimum_0_works_like_1(void)
 {
     for (uint16_t minimum = 0; minimum <= 1; minimum++) {
         config.minimum_on = minimum;
@@ -239,6 +239,7 @@ void test_init_beyond_the_ranges_is_refused_and_off(void)
     is_refused(100, 8, 9, 0);
     is_refused(100, 8, 0, 9);
     is_refused(100, 8, 5, 4);
+    is_refused(100, 1, 1, 1);     // a sum of 2, where 0 and 0 are legal
     is_refused(100, 8, 65535, 2); // would be 1 in 16 bits
     is_refused(100, 8, 2, 65535);
 }

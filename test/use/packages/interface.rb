@@ -4,6 +4,7 @@
 # The interface as it is recorded in interface.csv: each function, each constant's
 # value, each structure's size and its members' places on an ATmega, a Cortex-M and a
 # PC. docs/installing.md promises when it may change. With --update it is recorded anew.
+# A header that says a structure's size says this one.
 require 'fileutils'
 require 'open3'
 
@@ -71,6 +72,17 @@ def interface
   COLUMNS + rows.join
 end
 
+# Where the words above a structure say its size, they say that of each of the three.
+def missaid(rows)
+  Dir["#{PROJECT}/include/*.h"].sort.flat_map do |path|
+    File.read(path).scan(%r{((?:^//.*\n)+)struct (fixpid_\w+) \{}).filter_map do |words, name|
+      said = words.gsub(%r{\s*// ?}, ' ').scan(/(\d+) (?:bytes|where)/).flatten
+      sizes = rows[/,struct,#{name},(.*)/, 1].split(',').uniq
+      "size: #{File.basename(path)} says #{said.join(' and ')} bytes of #{name}, not #{sizes.join(' and ')}" unless [[], sizes].include?(said)
+    end
+  end
+end
+
 FileUtils.mkdir_p(FOLDER)
 found = interface
 File.write(RECORD, found) if ARGV == ['--update']
@@ -78,4 +90,5 @@ recorded = File.read(RECORD)
 (recorded.lines - found.lines).each { |line| puts "gone: #{line}" }
 (found.lines - recorded.lines).each { |line| puts "new: #{line}" }
 puts 'ruby test/use/packages/interface.rb --update records it' if found != recorded
-exit(found == recorded ? 0 : 1)
+puts missaid(found)
+exit(found == recorded && missaid(found).empty? ? 0 : 1)
