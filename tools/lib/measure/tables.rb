@@ -87,7 +87,7 @@ module Tables
     def named(measured, called)
       on_avr = { 'typical' => 'pid_typical', 'full' => 'pid' }.transform_values { |id| find(measured, id, 'atmega328p', '-O2').bound }
       stream = called.find { |subject, _| subject.called.functions.value?('stream only, step') && subject.chip.name == 'pic18f4520' }
-      { **on_avr, 'fastpid' => PEERS.find { |peer| peer.title.start_with?('FastPID') }.worst('atmega328p-O2'),
+      { **on_avr, **beside_others(measured), 'fastpid' => PEERS.find { |peer| peer.title.start_with?('FastPID') }.worst('atmega328p-O2'),
         'link_stream_flash' => stream.last.fetch('fixpid_link_step').flash }
     end
 
@@ -109,6 +109,14 @@ module Tables
     end
 
     private
+
+    # What stands beside others' figures: the worst steps found, and the flash.
+    def beside_others(measured)
+      { 'typical' => 'pid_typical', 'full' => 'pid' }.flat_map do |name, id|
+        [["#{name}_m4", find(measured, id, 'cortex-m4', '-O2').most], ["#{name}_rv32imc", find(measured, id, 'rv32imc', '-O2').most],
+         ["#{name}_linked", find(measured, id, 'atmega328p', '-Os').linked]]
+      end.to_h
+    end
 
     # "235", or with the slow multiplier of a Cortex-M0 "235 or 359".
     def in_cycles(figures)

@@ -111,17 +111,13 @@ module ProseNumbers
         values.first
       end
 
-      # How many bytes a type has, on a PC and on an AVR.
-      def bytes(type, compiler = 'cc')
+      # How many bytes a type has on an AVR.
+      def bytes_avr(type)
         headers = Dir['include/*.h'].sort.map { |header| "#include \"#{File.basename(header)}\"\n" }.join
         code = "#{headers}char object[sizeof(#{type})] = {1};\n"
-        output, status = Open3.capture2(compiler, '-std=c99', '-Iinclude', '-x', 'c', '-S', '-o', '-', '-', stdin_data: code)
-        status.success? or abort "#{TABLE}: #{compiler} knows no #{type}"
+        output, status = Open3.capture2('avr-gcc', '-std=c99', '-Iinclude', '-x', 'c', '-S', '-o', '-', '-', stdin_data: code)
+        status.success? or abort "#{TABLE}: avr-gcc knows no #{type}"
         output[/\.size\s+object, (\d+)/, 1].to_r
-      end
-
-      def bytes_avr(type)
-        bytes(type, 'avr-gcc')
       end
 
       # The number of the analog input that a port's board has for a signal.
