@@ -65,8 +65,17 @@ module Interrupted
   MACHINES = { 'atmega328p' => [AVR, []], 'cortex-m0' => [ARM, %w[-icount shift=7]], 'cortex-m3' => [ARM, %w[-icount shift=7]],
                'cortex-m4' => [ARM, %w[-icount shift=7]] }.freeze
   OPTIMISED = { 'fast' => '-O2', 'small' => '-Os' }.freeze
+  # docs/conditions.md says so.
+  UNMASKED = "set_limits masked 256 unmasked 511\ninit masked 1000 unmasked 1023\n"
 
   class << self
+    # What a step answers from an interrupt of an AVR, masked and not.
+    def unmasked
+      machine = Machine::ALL.fetch('atmega328p')
+      found = machine.printed(machine.program('unmasked', ['-Isrc', "#{HERE}/avr/unmasked.c", *AVR, *Dir.glob('src/pid/*.c').sort]))
+      found == UNMASKED ? found : raise(Host::Failure, "#{found}is not\n#{UNMASKED}")
+    end
+
     # What the program says, if nothing is wrong.
     def run(name, mode, *options, source: 'src')
       machine = Machine::ALL.fetch(name)

@@ -260,6 +260,7 @@ class Table
     Interrupted::MACHINES.keys.product(BOTH, Interrupted::OPTIMISED.to_a) do |name, mode, (optimised, option)|
       test('interrupts', 'interrupted', name, mode, optimised) { Interrupted.run(name, mode, option) }
     end
+    test('interrupts', 'interrupts_unmasked') { Interrupted.unmasked }
   end
 
   # A port that loses ticks; and an interrupt that calls the controller a second time,
