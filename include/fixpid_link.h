@@ -69,7 +69,8 @@
 //
 // A command whose tag and first byte are those of the last one of 0x42..0x47 is
 // answered as that was and not carried out again, unless the tag is 0: who gets
-// no answer may repeat it. docs/link.md has more of the other end.
+// no answer may repeat it. An output by hand gets no more time from that.
+// docs/link.md has more of the other end.
 #ifndef FIXPID_LINK_H
 #define FIXPID_LINK_H
 #include <stdbool.h>
@@ -94,8 +95,9 @@ FIXPID_C_BEGIN
 struct fixpid_link_board {
     uint32_t period_us; // between two steps
 
-    // The other end repeats its last output by hand at least each so many
-    // steps, else the controller is automatic again. 0: never by hand.
+    // The other end sends its output by hand at least each so many steps, each
+    // time as a new command: with another tag, or with 0. Otherwise the
+    // controller is automatic again. 0: never by hand.
     uint16_t manual_steps;
 
     int16_t setpoint_min;
@@ -111,7 +113,7 @@ struct fixpid_link {
     uint32_t steps;
     int16_t setpoint;
     int16_t last_sent_setpoint; // which the other end knows
-    uint16_t manual; // steps until the controller is automatic; 0: it is
+    uint16_t manual; // steps that the other end's hand has; 0: it has none
     uint8_t allowed;
     uint8_t stream_interval; // steps from frame to frame; 0: no frames
     uint8_t steps_since_frame;
@@ -130,14 +132,23 @@ struct fixpid_link {
 void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint);
 
 // What commands may do from now on, in place of what they might before. A
-// jumper, a menu or a temperature may decide, and change, it.
+// jumper, a menu or a temperature may decide, and change, it. An output by hand
+// that came before keeps its time.
 void fixpid_link_allow(FIXPID_DATA struct fixpid_link *self, uint8_t allowed);
 
 // The program itself changed the controller, otherwise than by a step: by other
 // gains or limits, a feed-forward, a reset, or by a track without
 // fixpid_link_step_tracked. The next frame is a key frame. Where gains or
-// limits changed, change `config`, too.
+// limits changed, change `config`, too. An output by hand of the other end
+// stays the other end's, and ends after its time.
 void fixpid_link_changed(FIXPID_DATA struct fixpid_link *self);
+
+// The same where the program itself has taken the hand, at a switch or for an
+// alarm: to be called after its own fixpid_pid_set_manual, set_auto or seed.
+// The time of the other end's hand ends here, so that it cannot make the
+// controller automatic later. A new command by hand takes the hand back: first
+// allow none. Firmware that only streams calls fixpid_link_changed.
+void fixpid_link_taken(FIXPID_DATA struct fixpid_link *self);
 
 // A frame was not sent, for want of room. The next one is a key frame.
 void fixpid_link_lost(FIXPID_DATA struct fixpid_link *self);
@@ -180,7 +191,8 @@ int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self);
 // To be called after each step, with what it got and gave. Returns how many
 // bytes of `frame` are to be sent; 0 without a stream, in steps between those
 // that have a frame, and while a command waits. Then, manual_steps steps after
-// the last output by hand, the controller is automatic again.
+// the other end's last output by hand, the controller is automatic again,
+// unless fixpid_link_taken was called since.
 uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
                          FIXPID_DATA struct fixpid_pid *pid_self,
                          int16_t setpoint, int16_t measurement, int16_t output);

@@ -263,7 +263,7 @@ def autotune_record_row(_, row, __):
     yield row["record"], tuner.pack().hex()
 
 
-LINK_EVENTS = range(6)
+LINK_EVENTS = range(7)
 
 
 def link_bytes(at, name):
@@ -295,7 +295,7 @@ def link_init(board, given):
 
 def link_row(board, at, _):
     given, event, frames, heard = link_bytes(at, "in"), at["event"], b"", len(board.heard)
-    init, allow, receive, step, reset, lost = LINK_EVENTS
+    init, allow, receive, step, reset, lost, taken = LINK_EVENTS
     if event == init:
         link_init(board, given)
     elif event == allow:
@@ -310,9 +310,11 @@ def link_row(board, at, _):
         fixpid.lib.fixpid_link_changed(board.link)
     elif event == lost:
         fixpid.lib.fixpid_link_lost(board.link)
+    elif event == taken:
+        fixpid.lib.fixpid_pid_set_manual(board.pid, *struct.unpack("<h", given))
+        fixpid.lib.fixpid_link_taken(board.link)
     yield at["taken"], len(board.heard) - heard
-    if event != allow:
-        yield link_frames(at), bytes(frames)
+    yield link_frames(at), bytes(frames)
     if event != step:
         yield at["setpoint"], fixpid.lib.fixpid_link_setpoint(board.link)
     yield at["flags"], fixpid.lib.fixpid_pid_flags(board.pid)
@@ -331,7 +333,7 @@ FILES = (
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
     ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
     ("gains", 1000, lambda: None, gains_row),
-    ("link", 300, Board, link_row),
+    ("link", 348, Board, link_row),
     ("table", 800, list, table_row),
     ("autotune", 317, lambda: fixpid.Autotune(output_max=1, measurement_max=1, timeout_steps=2,
                                               cycles=1), autotune_row),

@@ -176,6 +176,13 @@ static uint8_t carry_out(FIXPID_DATA struct fixpid_link *self,
     return set_hand(self, board, pid_self);
 }
 
+void fixpid_link_taken(FIXPID_DATA struct fixpid_link *self)
+{
+    FIXPID_ASSERT(VALID_SELF);
+    SELF.manual = 0;
+    SELF.key_frame_reasons |= CHANGED;
+}
+
 uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            const struct fixpid_link_board *board,
                            FIXPID_DATA struct fixpid_pid *pid_self,

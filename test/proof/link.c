@@ -260,6 +260,11 @@ void prove_setters(void)
     wanted.key_frame_reasons |= 8u;
     claim(alike(c, wanted) && same_frame(c, wanted));
     wanted = c;
+    fixpid_link_taken(&c);
+    wanted.manual = 0;
+    wanted.key_frame_reasons |= 8u;
+    claim(alike(c, wanted) && same_frame(c, wanted));
+    wanted = c;
     fixpid_link_lost(&c);
     wanted.key_frame_reasons |= 16u;
     claim(alike(c, wanted) && same_frame(c, wanted));

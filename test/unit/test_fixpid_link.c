@@ -36,8 +36,8 @@ enum {
     SETPOINT = OUT_WORDS + 16,
     FLAGS
 };
-enum { INIT, ALLOW, RECEIVE, STEP, RESET, LOST };
-#define ROWS 300
+enum { INIT, ALLOW, RECEIVE, STEP, RESET, LOST, HAND };
+#define ROWS 348
 
 FIXPID_DATA struct fixpid_link link_controller;
 FIXPID_DATA struct fixpid_pid pid_controller;
@@ -157,6 +157,10 @@ static void other_row(const int32_t row[])
         fixpid_pid_reset(&pid_controller);
         fixpid_link_changed(&link_controller);
         break;
+    case HAND:
+        fixpid_pid_set_manual(&pid_controller, word_of(row + IN_WORDS, 0));
+        fixpid_link_taken(&link_controller);
+        break;
     default:
         TEST_ASSERT_EQUAL(LOST, row[EVENT]);
         fixpid_link_lost(&link_controller);
@@ -215,10 +219,6 @@ static void play(const int32_t row[], unsigned number)
         other_row(row);
     }
     TEST_ASSERT_EQUAL_MESSAGE(row[TAKEN], taken, text);
-    if (row[EVENT] == ALLOW) { // the byte that was allowed is there, too
-        bytes = (unsigned)row[OUT];
-        frames[0] = byte_of(row + OUT_WORDS, 0);
-    }
     TEST_ASSERT_EQUAL_MESSAGE(row[OUT], bytes, text);
     recorded_frames(row, expected);
     for (unsigned at = 0; at < bytes; at++) {
@@ -1008,6 +1008,40 @@ void test_manual_repeated_does_not_count_anew(void)
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
 }
 
+// The other end sends an output by hand each 10 of 200 steps, where it has 50
+// steps. Returns after how many of them the controller is by hand.
+static unsigned steps_by_hand(uint8_t tag, uint8_t next_tag)
+{
+    unsigned by_hand = 0;
+
+    board.manual_steps = 50;
+    fixpid_link_allow(&link_controller, FIXPID_LINK_MANUAL);
+    for (unsigned i = 0; i < 200; i++) {
+        if (i % 10 == 0) {
+            gives(LINK_SET_MANUAL, tag, 77, LINK_DONE);
+            tag = (uint8_t)(tag + next_tag);
+        }
+        step();
+        by_hand += (fixpid_pid_flags(&pid_controller) & FIXPID_PID_MANUAL) / 64;
+    }
+    return by_hand;
+}
+
+void test_manual_repeated_for_long_is_answered_and_lets_go(void)
+{
+    TEST_ASSERT_EQUAL(49, steps_by_hand(7, 0));
+}
+
+void test_manual_of_another_tag_each_time_holds(void)
+{
+    TEST_ASSERT_EQUAL(200, steps_by_hand(7, 1));
+}
+
+void test_manual_of_tag_0_each_time_holds(void)
+{
+    TEST_ASSERT_EQUAL(200, steps_by_hand(0, 0));
+}
+
 void test_manual_lets_go_without_a_stream_and_while_a_command_waits(void)
 {
     const uint8_t hello[] = {LINK_ASK_HELLO, 9};
@@ -1073,6 +1107,89 @@ void test_manual_stays_within_the_output_limits(void)
     gives(LINK_SET_MANUAL, 1, 32767, LINK_DONE);
     step();
     TEST_ASSERT_EQUAL(300, output);
+}
+
+// ---- The program's hand ----
+
+// The other end has the hand for 50 steps; then 20 are gone.
+static void begin_handover(void)
+{
+    begin(FIXPID_LINK_MANUAL);
+    board.manual_steps = 50;
+    gives(LINK_SET_MANUAL, 1, 100, LINK_DONE);
+    for (unsigned i = 0; i < 20; i++) {
+        step();
+        TEST_ASSERT_EQUAL(100, output);
+    }
+}
+
+static void stays_by_hand_at(int16_t value, unsigned steps)
+{
+    for (unsigned i = 0; i < steps; i++) {
+        TEST_ASSERT_EQUAL(7, step());
+        TEST_ASSERT_EQUAL(value, output);
+        TEST_ASSERT_EQUAL_HEX8(FIXPID_PID_MANUAL,
+                               fixpid_pid_flags(&pid_controller) & 0x40);
+    }
+}
+
+void test_taken_the_hand_of_the_program_stays(void)
+{
+    begin_handover();
+    fixpid_pid_set_manual(&pid_controller, 0);
+    fixpid_link_taken(&link_controller);
+    key_for(LINK_CHANGED);
+    stays_by_hand_at(0, 100);
+}
+
+void test_taken_keeps_other_reasons_and_needs_no_hand_before(void)
+{
+    begin(0);
+    fixpid_link_lost(&link_controller);
+    fixpid_pid_set_manual(&pid_controller, 60);
+    fixpid_link_taken(&link_controller);
+    key_for(LINK_LOST | LINK_CHANGED);
+    stays_by_hand_at(60, 100);
+}
+
+void test_taken_hand_is_taken_back_by_a_command_only_while_it_is_allowed(void)
+{
+    begin_handover();
+    fixpid_link_allow(&link_controller, 0);
+    fixpid_pid_set_manual(&pid_controller, 0);
+    fixpid_link_taken(&link_controller);
+    gives(LINK_SET_MANUAL, 2, 100, LINK_NOT_ALLOWED);
+    key_for(LINK_CHANGED);
+    stays_by_hand_at(0, 100);
+    fixpid_link_allow(&link_controller, FIXPID_LINK_MANUAL);
+    gives(LINK_SET_MANUAL, 3, 100, LINK_DONE);
+    key_for(LINK_COMMANDED);
+    stays_by_hand_at(100, 48);
+    step();
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+}
+
+// Else a program that changes its feed-forward in each step would keep the hand
+// of an end that is gone.
+void test_changed_leaves_the_other_end_its_time(void)
+{
+    begin_handover();
+    fixpid_pid_set_feedforward(&pid_controller, 3);
+    fixpid_link_changed(&link_controller);
+    key_for(LINK_CHANGED);
+    stays_by_hand_at(100, 28);
+    step();
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+}
+
+// Who takes the permission away wants no output that nobody ends.
+void test_allow_without_manual_leaves_the_other_end_its_time(void)
+{
+    begin_handover();
+    fixpid_link_allow(&link_controller, 0);
+    stays_by_hand_at(100, 29);
+    step();
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
 }
 
 // ---- A record ----

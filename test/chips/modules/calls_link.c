@@ -21,16 +21,31 @@ static uint8_t framed[LINK_FRAMES_MAX];
 static uint32_t steps;
 static uint8_t every;
 static uint8_t tag;
+static bool has_hand; // the program, until a command or a reset
 
 #ifdef CALLS_STREAM
 static uint8_t answer(void)
 {
     return fixpid_link_answer_stream(&wire, &board, &config);
 }
+
+static void take_hand(void)
+{
+    // Nobody had it.
+}
 #else
 static uint8_t answer(void)
 {
     return fixpid_link_answer(&wire, &board, &pid, &config);
+}
+
+static void take_hand(void)
+{
+    if (numbers_one_in(2)) {
+        fixpid_pid_set_manual(&pid, numbers_int16());
+        fixpid_link_taken(&wire);
+        has_hand = true;
+    }
 }
 #endif
 
@@ -64,6 +79,7 @@ static void init(void)
     fixpid_link_init(&wire, numbers_int16());
     steps = 0;
     every = 0;
+    has_hand = false;
 }
 
 // The frame's bytes, and those of its payload, which begins at frame[front].
@@ -135,6 +151,8 @@ static void answer_command(uint8_t command, uint8_t value)
     calls_answer(payload[1], tag);
     if (kind == LINK_ANSWER) {
         calls_answer(payload[2], command);
+        has_hand =
+            has_hand && (command < LINK_SET_MANUAL || command == LINK_WRITE);
         if (command == LINK_SET_STREAM && (new || tag == 0u)) {
             calls_answer(payload[3], LINK_DONE);
             every = value;
@@ -165,6 +183,9 @@ static void command(void)
     calls_answer(taken ? 1u : 0u, 1u);
     if (taken) {
         answer_command(kind, value);
+        if (kind == LINK_SET_MANUAL) {
+            take_hand();
+        }
     }
 }
 
@@ -221,6 +242,10 @@ static void step(void)
     answer_step(sent(setpoint, measurement, output), setpoint, measurement,
                 output);
     calls_answer(fixpid_pid_flags(&pid), fixpid_pid_flags(&pid));
+    if (has_hand) {
+        calls_answer(fixpid_pid_flags(&pid) & FIXPID_PID_MANUAL,
+                     FIXPID_PID_MANUAL);
+    }
     steps++;
 }
 
@@ -241,6 +266,7 @@ static void program_call(void)
     case 2:
         fixpid_pid_reset(&pid);
         fixpid_link_changed(&wire);
+        has_hand = false;
         break;
     default:
         fixpid_link_allow(&wire, (uint8_t)numbers_below(16));

@@ -32,6 +32,7 @@ void eva(void)
 
         fixpid_link_allow(&c, ANY_UINT8);
         fixpid_link_changed(&c);
+        fixpid_link_taken(&c);
         fixpid_link_lost(&c);
         (void)fixpid_link_receive(&c, ANY_UINT8);
         (void)fixpid_link_answer(&c, &board, &pid, &config);
