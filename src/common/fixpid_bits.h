@@ -56,6 +56,15 @@
 #define FIXPID_OPAQUE(word) ((void)0)
 #endif
 
+// A function that few steps call. Where registers are few, gcc would otherwise
+// save and move more of them in all other steps.
+#if (defined(__AVR__) && !defined(__OPTIMIZE_SIZE__)) ||                       \
+    (defined(__thumb__) && !defined(__thumb2__))
+#define FIXPID_APART static __attribute__((noinline))
+#else
+#define FIXPID_APART static
+#endif
+
 #if defined(__SDCC)
 #include "fixpid_bits_sdcc.h"
 #else

@@ -245,15 +245,15 @@ static int16_t weighted(uint8_t weight, int16_t x)
     return (int16_t)shift_right_floor(mul16(weight, x) + 128, 8);
 }
 
-// Starts from rest, with the P of a setpoint that is the measurement in p_d_ff:
-// the integral takes it over, so that there the output is at rest.
-static void start_from_rest(GIVEN)
+// Starts from rest: the integral takes over P where the setpoint is the
+// measurement, so that there the output is at rest.
+static void take_over_rest(FIXPID_DATA struct fixpid_pid *self, int32_t p)
 {
     // within 2^23 + 2^30
-    int32_t integral_q8 =
-        fixpid_sub32(shift_right_floor(SELF.integral, 8), SIGNALS.p_d_ff);
+    int32_t integral_q8 = fixpid_sub32(shift_right_floor(SELF.integral, 8), p);
     const int32_t counts = shift_right_floor(integral_q8, 8);
 
+    (void)self;
     if (counts >= SELF.integral_max) {
         integral_q8 = shift_left(SELF.integral_max, 8);
     } else if (counts < SELF.integral_min) {
@@ -265,13 +265,40 @@ static void start_from_rest(GIVEN)
     SELF.integral_fraction = 0;
 }
 
+// Returns the proportional term's error, which is that of b * setpoint, and
+// starts from rest in the first step, if nothing is held. `input` is what the
+// derivative sees of the measurement.
+FIXPID_APART signal_word weighted_error(FIXPID_DATA struct fixpid_pid *self,
+                                        int16_t setpoint, int16_t measurement,
+                                        int16_t input)
+{
+    int16_t goal;
+    signal_word error;
+
+    (void)self;
+    if ((SELF.status & (HELD | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST) {
+        goal = weighted(SELF.setpoint_weight, measurement);
+        if ((SELF.options & REVERSE) != 0u) {
+            goal = complement(goal);
+        }
+        error = sub16_sat(goal, input);
+        take_over_rest(self, mul16(SELF.kp, error));
+    }
+    goal = weighted(SELF.setpoint_weight, setpoint);
+    if ((SELF.options & REVERSE) != 0u) {
+        goal = complement(goal);
+    }
+    return sub16_sat(goal, input);
+}
+
 // Computes the errors in reverse, with a setpoint weight, or with the
 // derivative on the error. Reverse takes the mirror images of all inputs, which
 // changes the signs of their differences. Returns the proportional term's.
 static signal_word special_errors(GIVEN)
 {
+    const int16_t setpoint = SIGNALS.setpoint;
     const int16_t measurement = (int16_t)SIGNALS.derivative_input;
-    int16_t goal = SIGNALS.setpoint;
+    int16_t goal = setpoint;
     signal_word p_error;
 
     if ((SELF.options & REVERSE) != 0u) {
@@ -281,20 +308,8 @@ static signal_word special_errors(GIVEN)
     SIGNALS.error = sub16_sat(goal, SIGNALS.derivative_input);
     p_error = SIGNALS.error;
     if ((SELF.options & WEIGHTED) != 0u) {
-        if ((SELF.status & (HELD | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST) {
-            goal = weighted(SELF.setpoint_weight, measurement);
-            if ((SELF.options & REVERSE) != 0u) {
-                goal = complement(goal);
-            }
-            p_error = sub16_sat(goal, SIGNALS.derivative_input);
-            SIGNALS.p_d_ff = mul16(SELF.kp, p_error);
-            start_from_rest(PASSED);
-        }
-        goal = weighted(SELF.setpoint_weight, SIGNALS.setpoint);
-        if ((SELF.options & REVERSE) != 0u) {
-            goal = complement(goal);
-        }
-        p_error = sub16_sat(goal, SIGNALS.derivative_input);
+        p_error = weighted_error(&SELF, setpoint, measurement,
+                                 (int16_t)SIGNALS.derivative_input);
     }
     if ((SELF.options & ON_ERROR) != 0u) {
         SIGNALS.derivative_input = complement((int16_t)SIGNALS.error);
