@@ -153,6 +153,25 @@ missing_of() {
     done
 }
 
+# apt_get ARGUMENT...: into $install_log. Says that another program has the lock, and waits
+# for five minutes: apt's own DPkg::Lock::Timeout is silent, and not for that of `update`.
+apt_get() {
+    tries=60
+    until LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get "$@" >"$install_log" 2>&1 </dev/null; do
+        apt_is_locked && [ $tries -gt 0 ] || return 1
+        [ $tries -ne 60 ] ||
+            announce "another program has apt's lock$holder: waiting for it, five minutes at most"
+        tries=$((tries - 1))
+        sleep 5
+    done
+}
+
+# apt_is_locked: by what $install_log says; then `holder` is who has it, if that is known.
+apt_is_locked() {
+    holder=$(sed -n 's/.*Could not get lock.* It is held by \(process.*)\).*/, \1/p' "$install_log" | head -n 1)
+    grep -q 'Could not get lock' "$install_log"
+}
+
 # need ITEM...: each is `command`, `command:package` or `:package`, in Debian's
 # names. Installs what is missing, or says what is and stops.
 need() {
@@ -167,13 +186,13 @@ need() {
     announce "installing$missing (Debian packages)"
     install_log=$(mktemp)
     # shellcheck disable=SC2086 # a list of package names
-    if ! { apt-get update -qq &&
-        DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o DPkg::Lock::Timeout=600 \
-            --no-install-recommends $missing; } >"$install_log" 2>&1 </dev/null; then
+    if ! { apt_get update -qq &&
+        apt_get install -y -qq --no-install-recommends $missing; }; then
         tail -n 5 "$install_log" >&2
+        why="is there a network, and room on the disk?"
+        ! apt_is_locked || why="another program still has apt's lock$holder; once it has ended, try again."
         rm -f "$install_log"
-        die "could not install$missing; is there a network, and room on the disk?" \
-            "By hand: $how"
+        die "could not install$missing; $why By hand: $how"
     fi
     rm -f "$install_log"
     missing_of "$@"

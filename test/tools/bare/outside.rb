@@ -51,6 +51,12 @@ module Outside
       "#!/bin/sh\necho \"$*\" >>#{record}\n[ \"$1\" = update ] || { echo 'E: not found' >&2; exit 100; }\n"
     end
 
+    # Another program has the lock when it is asked so many times.
+    def locked_apt_get(record, times)
+      "#!/bin/sh\necho \"$*\" >>#{record}\n[ $(wc -l <#{record}) -gt #{times} ] || {\n" \
+        "    echo 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt)' >&2\n    exit 100\n}\n"
+    end
+
     # What is wrong with what root saw: nothing may be installed that was not said.
     def complaints_of_root(run)
       said = run.output.scan(/^[\w.-]+: installing (.+) \(Debian packages\)$/).flatten

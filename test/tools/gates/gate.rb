@@ -45,6 +45,7 @@ module Gate
 
     def write(path, text)
       FileUtils.mkdir_p(File.dirname(path))
+      FileUtils.rm_f(path) if File.symlink?(path) # to a program of the machine's
       File.write(path, text)
       File.chmod(0o755, path) if text.start_with?('#!')
     end

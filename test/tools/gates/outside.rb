@@ -33,6 +33,14 @@ Dir.mktmpdir do |folder|
       Gate.expect("#{script} as root", Outside.complaints_of_root(try(script, paths[:root])), [])
       Gate.expect("#{script} as another user", Outside.complaints_of_user(try(script, paths[:user])), [])
     end
+    waiting = /^site: another program has apt's lock, process 7 \(apt\): waiting for it/
+    Gate.write("#{paths[:root]}/sleep", "#!/bin/sh\n")
+    { 'a while' => [3, /installed, and still not usable/], 'ever' => [99, /another program still has apt's lock, process 7 \(apt\)/] }.each do |long, (times, last)|
+      Gate.write("#{paths[:root]}/apt-get", Outside.locked_apt_get("#{folder}/asked", times))
+      said = try('tools/site', paths[:root]).output
+      Gate.expect("apt's lock is held for #{long}", [waiting, last, /network/].map { |words| said.match?(words) }, [true, true, false])
+    end
+    Gate.write("#{paths[:root]}/apt-get", Outside.apt_get("#{folder}/asked"))
     Gate.seed('tools/lib/setup.sh', '    announce "installing$missing', '    : "')
     Gate.expect('seeded: nothing announced', Outside.complaints_of_root(try('tools/site', paths[:root])).first, 'does not say what it installs')
     FileUtils.rm_rf('build')
