@@ -6,12 +6,19 @@
 #ifndef PORT_CONFIGURATION_H
 #define PORT_CONFIGURATION_H
 
-// SDCC's code does not work with the extended instructions of a PIC18, and its
-// run-time stack needs a place: the first address and the size, in RAM that the
-// chip has. An older chip has no XINST: there, say STVREN = ON instead.
+// SDCC's code does not work with the extended instructions of a PIC18, which an
+// older one has not, and its run-time stack needs a place: the first address
+// and the size, in RAM that the chip has. tools/firmware defines both names as
+// the chip is; your own configuration.h needs only the lines for it.
 #if defined(__SDCC_pic16)
+#if !defined(PORT_NO_XINST)
 #pragma config XINST = OFF
+#endif
+#if defined(PORT_SMALL_RAM) // less than 768 bytes
+#pragma stack 0xC0 0x40
+#else
 #pragma stack 0x200 0x100
+#endif
 #endif
 
 #endif

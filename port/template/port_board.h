@@ -22,6 +22,7 @@
 // register, if that has room in a byte.
 #define PORT_SETPOINT 0x00u
 #define PORT_TACHOMETER 0x01u
+#define PORT_TEMPERATURE 0x02u
 
 // Of port_uart.h, if there is a port_uart.c: a rate that the clock divides
 // well.
