@@ -7,7 +7,7 @@ module Shown
   MARKED = /^<!-- shown (\S+):begin -->\n.*?^<!-- shown \1:end -->\n/m.freeze
   BEFORE = /<!-- shown \S+:begin -->\n\z/.freeze # a block that is a file's
   LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini',
-                '.asm' => 'nasm' }.freeze
+                '.asm' => 'nasm', '.yml' => 'yaml' }.freeze
   BEGINNERS = %r{\A(?:docs/start/|web/site/)}.freeze
   OF_THE_PROJECT = %w[python sim test tools web].freeze # folders that no archive for users has
   RELEASED = /^  (\S+) {2,}(.*(?:\n {33}.*)*)/.freeze # in the usage of tools/release
