@@ -23,7 +23,7 @@
 #define KI 0.35 // per second
 #define KD 0.8  // seconds
 #define DERIVATIVE_FILTER 1u
-#define SETPOINT_WEIGHT_Q8 179u // 0.7: softens a step of the setpoint
+#define SETPOINT_WEIGHT_Q8 154u // 0.6: softens a step of the setpoint
 
 #define KEEP_WARM_DUTY (PORT_DRIVE_FULL / 10)
 #define LOW_POWER_DUTY (PORT_DRIVE_FULL / 8)

@@ -107,12 +107,12 @@ void test_selector_counts_when_it_is_read_twice(void)
     TEST_ASSERT_GREATER_THAN_INT16(0, period(SELECTOR_AUTOMATIC, COLD));
 }
 
-// P is 1.3 times (0.7 of the setpoint, 895 quarter counts, less 320).
+// The first step begins at 0.6 times P, whose error is 960 quarter counts.
 void test_off_to_automatic_starts_anew(void)
 {
     (void)turned_to(SELECTOR_OFF, COLD);
     const int16_t first = turned_to(SELECTOR_AUTOMATIC, COLD);
-    TEST_ASSERT_INT16_WITHIN(1, (int16_t)(1.3 * (895 - 320) + 0.035 * 960),
+    TEST_ASSERT_INT16_WITHIN(1, (int16_t)(1.3 * 154 / 256 * 960 + 0.035 * 960),
                              first);
 }
 
@@ -279,6 +279,8 @@ void test_alarm_keeps_the_heater_off_until_the_selector_was_at_off(void)
 void test_heater_that_does_not_warm_is_an_alarm_after_30_periods(void)
 {
     (void)turned_to(SELECTOR_AUTOMATIC, 8);
+    run(SELECTOR_AUTOMATIC, 8, 1); // to full power
+    TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, driven);
     run(SELECTOR_AUTOMATIC, 8, 27);
     TEST_ASSERT_EQUAL_INT16(PORT_DRIVE_FULL, period(SELECTOR_AUTOMATIC, 8));
     TEST_ASSERT_EQUAL_INT16(0, period(SELECTOR_AUTOMATIC, 8));
