@@ -25,7 +25,7 @@
 FIXPID_C_BEGIN
 
 // The highest rate: half a million steps per second, in thousandths.
-#define FIXPID_GAINS_RATE_MAX UINT32_C(500000000)
+#define FIXPID_GAINS_RATE_MAX 500000000u
 
 // Thousandths of the gains in real units, each any uint32_t.
 struct fixpid_gains_milli {

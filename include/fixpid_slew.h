@@ -37,7 +37,7 @@ FIXPID_C_BEGIN
 
 // A rate from counts per second and steps per second, folded at compile time
 // and rounded half up; also in a static initialiser. It takes constants only;
-// anything else does not compile (C++98 alone cannot tell), nor does a rate
+// anything else does not compile (C++98 and tcc cannot tell), nor does a rate
 // below 0, one that would round to 0 without being 0, or one that 32 bits do
 // not hold: 65536 counts per step. No floating-point code is generated.
 //
@@ -52,7 +52,7 @@ FIXPID_C_BEGIN
      FIXPID_CHECKED(                                                           \
          0, (FIXPID_REAL(counts_per_second) >= 0.0) &&                         \
                 (FIXPID_REAL(steps_per_second) > 0.0) &&                       \
-                ((FIXPID_REAL(counts_per_second) == 0.0) ||                    \
+                ((!(FIXPID_REAL(counts_per_second) > 0.0)) ||                  \
                  (FIXPID_SLEW_Q16(counts_per_second, steps_per_second) >=      \
                   0.5)) &&                                                     \
                 (FIXPID_SLEW_Q16(counts_per_second, steps_per_second) <        \

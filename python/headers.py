@@ -18,7 +18,7 @@ ARGUMENT = re.compile(r"(?:FIXPID_DATA )?(.*?)\s*(\*?)(\w+)(\[\w*\])?$")
 MEMBER = re.compile(r" +(?:volatile )?((?:struct )?\w+) (\w+)(\[\w+\])?;")
 ENUMERATOR = re.compile(r" +(FIXPID_\w+)(?: = [\w()]+)?,?\s*$")
 CONSTANT = re.compile(r"#define (FIXPID_\w+) (\S+)\s*$")
-NUMBER = re.compile(r"(?:UINT32_C\()?(?:0x[0-9A-F]+|\d+)[uUlL]*\)?|UINT32_MAX")
+NUMBER = re.compile(r"(?:0x[0-9A-F]+|\d+)[uUlL]*")
 
 
 def prose(lines):

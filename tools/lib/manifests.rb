@@ -76,7 +76,7 @@ module Manifests
     text = Project::HEADERS.map { |header| File.read(header).gsub(%r{//.*}, '') }.join
     types = text.scan(/^(?:struct|enum) (fixpid_\w+) \{/)
     functions = text.scan(/^\w[\w *]*\b(fixpid_\w+)\(/)
-    constants = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
+    constants = text.scan(/^#define (FIXPID_\w+) \d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
     { 'KEYWORD1' => types, 'KEYWORD2' => functions + called_macros, 'LITERAL1' => constants }.flat_map do |kind, words|
       words.flatten.uniq.sort.map { |word| "#{word}\t#{kind}\n" }
     end.join
@@ -92,7 +92,7 @@ module Manifests
         comment = before.start_with?('//') ? comment : '' if line.start_with?('//')
         comment += line if line.start_with?('//')
         name = line[/^#define (FIXPID_\w+)\(/, 1]
-        name if name && (header.end_with?('/fixpid.h') ? comment.include?("#{name}(") : !comment.match?(/\bprivate\b/))
+        name if name && (header.end_with?('/fixpid.h') ? comment.include?("#{name}(") : !comment.match?(/\bprivate\b/i))
       end.compact
     end
   end

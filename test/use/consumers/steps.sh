@@ -252,6 +252,34 @@ old_compile() {
         -include "$here/old_gcc.h" "$@"
 }
 
+# standards COMPILER: of the language, each that it has.
+standards() {
+    case $1 in
+    *++) echo -std=c++98 -std=c++11 -std=c++14 -std=c++17 -std=c++20 -std=c++2b ;;
+    *) echo -std=c99 -std=c11 -std=c17 -std=c2x ;;
+    esac
+}
+
+# every_warning COMPILER ARGUMENT...: with all that it can warn of, but for what is older
+# than C99 or C++11, bytes between a struct's members, `struct` in C++, which C needs, and
+# a function's name that is a macro of itself. That 0.5f becomes a double is the user's.
+every_warning() {
+    compiler=$1 language=c
+    shift
+    [ "${compiler%++}" = "$compiler" ] || language=c++
+    case $compiler in
+    clang*) set -- -Weverything -Wno-disabled-macro-expansion -Wno-c++98-compat "$@" ;;
+    *)
+        echo >empty
+        # shellcheck disable=SC2046 # options
+        set -- -Wall -Wextra $("$compiler" -x "$language" -Q --help=warnings -c empty -o empty.o |
+            sed -nE 's/^  (-W[^ =<]+) .*\[disabled\]/\1/p' |
+            grep -vxE -e '-W(abi|traditional|traditional-conversion|unsuffixed-float-constants|redundant-tags|templates|system-headers)') "$@"
+        ;;
+    esac
+    "$compiler" -x "$language" -O2 -ffreestanding -Werror "$@" -Wno-padded -Wno-double-promotion -c -o user.o
+}
+
 # newer MESSAGE TEXT: a source that GCC 4.5 refuses, and a new compiler does not.
 newer() {
     printf 'int f(int a);\n%b\n' "$2" >newer.c
@@ -278,7 +306,7 @@ types_of() {
 found() {
     cppcheck --quiet --std=c99 --addon=misra \
         "--addon-python=${PYTHON:-/usr/bin/python3}" --enable=style -D__GNUC__ \
-        "$1" "$I" "$here/misra.c" 2>&1 | grep "^$here/misra.c.*misra-c2012" || true
+        "$1" "$I" "$here/user.c" 2>&1 | grep "^$here/user.c.*misra-c2012" || true
 }
 
 # assertions PROGRAM OPTION...

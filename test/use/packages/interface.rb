@@ -32,7 +32,7 @@ def measures(text)
 end
 
 def constants(text)
-  names = text.scan(/^#define (FIXPID_\w+) (?:UINT32_C\()?\d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
+  names = text.scan(/^#define (FIXPID_\w+) \d/) + text.scan(/^ +(FIXPID_\w+)(?: = \w+)?,?\s*$/)
   names.flatten.uniq.grep_v(/_VERSION_/).map { |name| ["constant,#{name}", "(unsigned long)(#{name})"] }
 end
 

@@ -76,7 +76,7 @@ module Breaks
     # with its continuations, assertions, parameter lists. Of a header for users
     # all but its macros with parameters.
     def skipped_lines(file, lines)
-      macros = /^#define (?!FIXPID_CHECKED|FIXPID_ASSERT|FIXPID_JOINED|FIXPID_SUFFIXED|FIXPID_PASTED|FIXPID_PLACE_SUFFIX|FIXPID_CAST|FIXPID_REAL|FIXPID_UNSIGNED)\w+\(/
+      macros = /^#define (?!FIXPID_CHECKED|FIXPID_ASSERT|FIXPID_JOINED|FIXPID_SUFFIXED|FIXPID_PLACE_SUFFIX|FIXPID_CAST|FIXPID_REAL|FIXPID_UNSIGNED)\w+\(/
       starts = if file.start_with?('include/') then /^(?!#{macros.source[1..]})/
                else /^\s*#\s*(?:include|if|el|endif|error|ifndef|ifdef|undef)|FIXPID_MULTIPLIER_BITS/
                end

@@ -55,7 +55,7 @@ module Names
 
     # The largest gains; that of ki with HAS_COARSE_KI, and without.
     def gains(pid)
-      ki, fine = pid.scan(/^#define FIXPID_PID_KI_MAX UINT32_C\((0x\h+)\)/).flatten.map(&:hex)
+      ki, fine = pid.scan(/^#define FIXPID_PID_KI_MAX (0x\h+)u/).flatten.map(&:hex)
       { KP: number(pid, 'FIXPID_PID_KP_MAX'), KD: number(pid, 'FIXPID_PID_KD_MAX'), KI: ki, KI_FINE: fine }
     end
 
