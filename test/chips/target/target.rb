@@ -23,7 +23,7 @@ EXAMPLES = { 'pendulum' => 'an964', 'pendulum_8bit' => 'an964_8bit', 'motor' => 
              'motor_atmega328p' => 'an937', 'oven_atmega328p' => 'an937' }.freeze
 # A source as XC8 preprocesses it for a class of PICs.
 AS_XC8 = %w[avr-gcc -mmcu=atmega2560 -std=c99 -ffreestanding -funsigned-char -include test/support/as_xc8.h -E -P -Iinclude].freeze
-XC8_CLASSES = %w[_PIC14 _PIC14E _PIC14EX _PIC18].freeze
+XC8_CLASSES = File.read('test/support/as_xc8.h').scan(/\bdefined\((_PIC\w+)\)/).flatten.freeze
 DIFFERENT = /rows [0-9]+ different [1-9]|random 1000 different [1-9]/.freeze
 
 # How much is asked.

@@ -25,7 +25,9 @@ class Bill
 
   def initialize(release)
     @release = release
-    @bill = JSON.parse(File.read(Dir["#{release}/*.spdx.json"].fetch(0)))
+    path = Dir["#{release}/*.spdx.json"].fetch(0)
+    @version = File.basename(path, '.spdx.json').delete_prefix('fixpid-')
+    @bill = JSON.parse(File.read(path))
     @files = @bill.fetch('files').to_h { |file| [file.fetch('SPDXID'), file] }
     @contained = @bill.fetch('relationships').select { |one| one['relationshipType'] == 'CONTAINS' }
                       .group_by { |one| one['spdxElementId'] }.transform_values { |all| all.map { |one| one['relatedSpdxElement'] } }
@@ -51,6 +53,7 @@ class Bill
     elements = @bill['packages'] + @bill['files']
     ids = elements.map { |one| one['SPDXID'] }
     [*(DOCUMENT - @bill.keys).map { |field| "the document has no #{field}" },
+     *(@bill['packages'].map { |one| one['versionInfo'] }.uniq - [@version]).map { |version| "a package of version #{version}, not #{@version}" },
      *@bill['packages'].flat_map { |one| (PACKAGE - one.keys).map { |field| "#{one['packageFileName']} has no #{field}" } },
      *@bill['files'].flat_map { |one| (FILE - one.keys).map { |field| "#{one['fileName']} has no #{field}" } },
      *ids.grep_v(ID).map { |id| "#{id} is no identifier" }, *ids.tally.select { |_, count| count > 1 }.keys.map { |id| "#{id} is there twice" },

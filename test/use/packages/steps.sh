@@ -261,13 +261,14 @@ release_faults() (
     cd "$1/.." || exit 1 # what is judged stays as it is
     set -- ruby "$here/release.rb" release release/users/fixpid release/small/fixpid
     quiet "$@"
-    while read -r path text message; do
+    while read -r path edit message; do
         cp "release/$path" kept_file
-        echo "$text" >>"release/$path"
+        sed -i "$edit" "release/$path"
         refused "$message" "$@"
         mv kept_file "release/$path"
     done <<FAULTS
-users/fixpid/include/fixpid.h // ^fixpid-$version.zip: ./include/fixpid.h is
-users/fixpid/README.md [a](docs/none.md) ^README.md leads to docs/none.md,
+users/fixpid/include/fixpid.h \$a// ^fixpid-$version.zip: ./include/fixpid.h is
+users/fixpid/README.md \$a[a](docs/none.md) ^README.md leads to docs/none.md,
+fixpid-$version.spdx.json s/"versionInfo":[^,]*/"versionInfo":"9.9"/ ^a package of version 9.9, not $version
 FAULTS
 )

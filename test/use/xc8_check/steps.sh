@@ -77,5 +77,5 @@ own_files() {
     done
     [ $count -gt 0 ] || die "which files? test/use/xc8_check/run $1 FILE.c..."
     device "$1" && front_end "$@" &&
-        echo "ok $count of yours, as far as it can be told without XC8"
+        echo "ok $count of yours as for $class, as far as it can be told without XC8"
 }

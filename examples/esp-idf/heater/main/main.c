@@ -7,10 +7,12 @@
 #include "freertos/FreeRTOS.h"
 #include "freertos/task.h"
 
+#define PERIOD_MS 1000 // of a step
+
 void app_main(void)
 {
     const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1.0, 0.3, 0, 1, 0), // one step a second
+        .gains = FIXPID_PID_GAINS(1.0, 0.3, 0, FIXPID_PERIOD_MS(PERIOD_MS), 0),
         .output_min = 0,
         .output_max = 255}; // full power
     struct fixpid_pid heater;
@@ -23,6 +25,6 @@ void app_main(void)
         heat += power - (heat / 8);
         (void)printf("%2d s: %d.%d C, power %3d\n", second, tenths / 10,
                      tenths % 10, power);
-        vTaskDelay(pdMS_TO_TICKS(1000));
+        vTaskDelay(pdMS_TO_TICKS(PERIOD_MS));
     }
 }

@@ -5,10 +5,12 @@
 
 #include "fixpid_pid.h"
 
+#define PERIOD_MS 1000 // of a step
+
 int main(void)
 {
     const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1.0, 0.3, 0, 1, 0), // one step a second
+        .gains = FIXPID_PID_GAINS(1.0, 0.3, 0, FIXPID_PERIOD_MS(PERIOD_MS), 0),
         .output_min = 0,
         .output_max = 255}; // full power
     struct fixpid_pid heater;
@@ -21,7 +23,7 @@ int main(void)
         heat += power - (heat / 8);
         printk("%2d s: %d.%d C, power %3d\n", second, tenths / 10, tenths % 10,
                power);
-        k_msleep(1000);
+        k_msleep(PERIOD_MS);
     }
     return 0;
 }
