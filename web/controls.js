@@ -113,7 +113,7 @@ function gainControls(s) {
         ['KP', 'kp', 'counts per count', (now) => around(1 / countsGain(now), 60, true)],
         ['KI', 'ki', 'per second', (now) => around(1 / countsGain(now) / scaleSeconds(now), 100, true)],
         ['KD', 'kd', 'seconds', (now) => around(0.1 * scaleSeconds(now) / countsGain(now), 100, true)],
-        ['FILTER', 'Derivative filter', '2ⁿ steps', () => straight(0, 7, 1)],
+        ['FILTER', 'Derivative filter', '2ⁿ − 1 steps', () => straight(0, 7, 1)],
         ['WEIGHT', 'Setpoint weight', '', () => straight(0.01, 1, 0.01)],
     ];
 }

@@ -3,12 +3,14 @@
 import ast
 import copy
 import inspect
+import itertools
 import math
 import os
 import pickle
 import sys
 
 import numpy
+from scipy.signal import lfilter
 
 import fixpid
 from runner import message, refuses, run, same
@@ -48,6 +50,24 @@ def units_are_those_of_sensor_and_actuator():
     for weight, q8, on_measurement in ((1, 256, False), (0.25, 64, False), (0, 0, True)):
         config = oven(setpoint_weight=weight)._said[1]
         same((config["setpoint_weight_q8"], config["proportional_on_measurement"]), (q8, on_measurement))
+
+
+def the_transfer_function_is_that_of_behaviour_md():
+    """Sampled by backward Euler: s is (1 - 1/z) / Ts, as in Matlab's pid(). All gains are exact."""
+    kp, ki, kd, b, rate = 2.5, 0.25, 8.0, 0.5, 8
+    random = numpy.random.default_rng(937)
+    r, y = 2 * random.integers(-25, 26, 2000), random.integers(-100, 101, 2000)
+    y[0] = 0  # the integral starts from 0
+    s = numpy.array([1, -1]) * rate
+    for n, on_error in itertools.product(range(8), (False, True)):
+        tf = (2**n - 1) / rate
+        seen = y - r if on_error else y
+        exact = (kp * (b * r - y) + lfilter([ki, 0], s, r - y)
+                 - lfilter(kd * s, tf * s + [1, 0], seen - seen[0]))
+        pid = fixpid.Pid(kp=kp, ki=ki, kd=kd, rate=rate, filter=n, setpoint_weight=b, derivative_on_error=on_error,
+                         output_limits=(-32768, 32767))
+        worst = max(abs(pid.run(r, y) - exact))
+        assert worst <= 0.5 + 2**n / 256, f"filter {n}: {worst:g} counts"
 
 
 def arrays_run():
@@ -209,6 +229,7 @@ def help_is_the_headers():
     same([name for name in ("numpy", "operator", "math", "enum", "textwrap") if hasattr(fixpid, name)], [])
 
 
-run((a_call_is_a_step, units_are_those_of_sensor_and_actuator, arrays_run, tunings_and_limits_are_set_live,
+run((a_call_is_a_step, units_are_those_of_sensor_and_actuator, the_transfer_function_is_that_of_behaviour_md,
+     arrays_run, tunings_and_limits_are_set_live,
      by_hand_and_back_without_a_bump, what_is_refused_is_named, copies_go_on_by_themselves, repr_makes_it_again,
      stubs_are_what_there_is, help_is_the_headers))

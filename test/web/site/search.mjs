@@ -9,11 +9,11 @@ const [site] = process.argv.slice(2);
 
 // The page that must be the first result for each of these words.
 const QUERIES = {
-    'docs/start/index.html': ['getting started'], 'docs/start/glossary.html': ['bumpless', 'kd'], 'docs/start/rtos.html': ['FreeRTOS'], 'docs/start/stm32.html': ['STM32'],
+    'docs/start/index.html': ['getting started'], 'docs/start/glossary.html': ['bumpless', 'kd', 'FOPDT'], 'docs/start/rtos.html': ['FreeRTOS'], 'docs/start/stm32.html': ['STM32'],
     'docs/start/esp32.html': ['ESP32'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt'],
     'docs/start/download.html': ['license', 'download'], 'docs/start/arduino.html': ['Arduino Uno'], 'docs/start/platformio.html': ['PlatformIO'],
     'docs/start/cmake.html': ['find_package'], 'docs/start/zephyr.html': ['Zephyr'], 'docs/start/esp_idf.html': ['ESP-IDF'], 'docs/installing.html': ['install'],
-    'docs/scaling.html': ['overflow', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/behaviour.html': ['anti-windup'],
+    'docs/scaling.html': ['overflow', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/behaviour.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
     'docs/migrating.html': ['FastPID', 'PIDMain', 'C18'], 'docs/cost.html': ['flash size'], 'docs/assurance.html': ['MISRA'], 'docs/faults.html': ['watchdog'],
     'python/index.html': ['numpy'], 'docs/chips.html': ['simulator'],
 };
@@ -70,6 +70,16 @@ for (const [words, wanted] of NAMES) {
     const pages = await found(words);
     judge(`search for ${words}`, pages.slice(0, AMONG).includes(wanted) ? '' : `${wanted} is not among ${pages.slice(0, AMONG)}`);
 }
+// What stands above a page's first heading: the longest word of it finds the page.
+const begun = new Map(docs.filter(({ location }) => location.includes('#')).reverse().map(({ location, text }) => [location.replace(/#.*/, ''), text]));
+const lost = [];
+for (const [page, text] of begun) {
+    const longest = (text.replace(/<[^>]*>/g, ' ').match(/\b[a-z]+\b/g) ?? []).sort((a, b) => b.length - a.length)[0];
+    if (longest && !(await found(longest)).includes(page)) {
+        lost.push(`${longest} of ${page}`);
+    }
+}
+judge('search for what pages begin with', begun.size < 20 ? `${begun.size} pages` : lost.slice(0, 4).join(', '));
 const sources = docs.map(({ location }) => location).filter((name) => /^(examples|port|sim|src|test|tools)\//.test(name));
 judge('search without sources', sources.length > 0 ? sources.slice(0, 3).join(' ') : '');
 process.exit(failures > 0 ? 1 : 0);

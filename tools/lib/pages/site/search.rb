@@ -22,9 +22,10 @@ class Search
     lost = words.keys - @index['docs'].map { |entry| entry['location'] }
     abort "#{WORDS} names no #{lost.join(', ')}" unless lost.empty?
 
-    cut = @index['docs'].map { |entry| entry['location'][/\A(.*)#/, 1] }.compact.uniq
+    # The theme shows a page in the place of its first section, and finds it by the page's text.
+    first = @index['docs'].reverse.to_h { |entry| [entry['location'][/\A(.*)#/, 1], entry['text']] }
     @index['docs'].each do |entry|
-      entry['text'] = '' if cut.include?(entry['location']) # its sections have it
+      entry['text'] = first.fetch(entry['location'], entry['text']) # its sections have the rest
       entry['tags'] = words[entry['location']] if words.key?(entry['location'])
     end
     text = JSON.generate(@index)
