@@ -238,6 +238,8 @@ bool fixpid_pid_set_gains(FIXPID_DATA struct fixpid_pid *self,
 #define PASSED self
 #endif
 
+// Without the feature there are none of these, because SDCC would keep a copy.
+#if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_WEIGHT) != 0
 // Returns b * x, rounded half up.
 static int16_t weighted(uint8_t weight, int16_t x)
 {
@@ -290,6 +292,18 @@ FIXPID_APART signal_word weighted_error(FIXPID_DATA struct fixpid_pid *self,
     }
     return sub16_sat(goal, input);
 }
+#else
+FIXPID_INLINE signal_word weighted_error(FIXPID_DATA struct fixpid_pid *self,
+                                         int16_t setpoint, int16_t measurement,
+                                         int16_t input)
+{
+    (void)self;
+    (void)setpoint;
+    (void)measurement;
+    (void)input;
+    return 0;
+}
+#endif
 
 // Computes the errors in reverse, with a setpoint weight, or with the
 // derivative on the error. Reverse takes the mirror images of all inputs, which

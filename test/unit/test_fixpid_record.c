@@ -269,7 +269,7 @@ void test_application_without_a_record_starts_with_its_own_tuning(void)
 {
     memset(eeprom, 0xFF, sizeof eeprom);
     TEST_ASSERT_FALSE(start(&pid_controller));
-    TEST_ASSERT_EQUAL_INT16(-21, fixpid_pid_step(&pid_controller, 0, -10));
+    TEST_ASSERT_EQUAL_INT16(-11, fixpid_pid_step(&pid_controller, 0, -10));
 }
 
 void test_application_with_a_record_starts_with_that(void)
@@ -280,7 +280,7 @@ void test_application_with_a_record_starts_with_that(void)
     better.reverse = false;
     save(&better);
     TEST_ASSERT_TRUE(start(&pid_controller));
-    TEST_ASSERT_EQUAL_INT16(41, fixpid_pid_step(&pid_controller, 0, -10));
+    TEST_ASSERT_EQUAL_INT16(21, fixpid_pid_step(&pid_controller, 0, -10));
 }
 
 void test_application_with_an_illegal_record_starts_with_its_own(void)
