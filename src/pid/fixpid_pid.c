@@ -275,10 +275,11 @@ FIXPID_APART signal_word weighted_error(FIXPID_DATA struct fixpid_pid *self,
                                         int16_t input)
 {
     int16_t goal;
-    signal_word error;
 
     (void)self;
     if ((SELF.status & (HELD | FIXPID_PID_FIRST)) == FIXPID_PID_FIRST) {
+        signal_word error;
+
         goal = weighted(SELF.setpoint_weight, measurement);
         if ((SELF.options & REVERSE) != 0u) {
             goal = complement(goal);
