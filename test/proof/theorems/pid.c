@@ -48,10 +48,11 @@ void prove_bumpless(void)
     }
 }
 
-// Theorem: In automatic, but for the step that takes over an output held, the
-// integral does not rise in a step that is limited at output_max, and does not
-// fall in one that is limited at output_min. By contract: mul16,
-// special_errors, differentiate, integrate, take_over.
+// Theorem: In automatic, but for the step that takes over an output held and
+// the first one with a setpoint weight, the integral does not rise in a step
+// that is limited at output_max, and does not fall in one that is limited at
+// output_min. By contract: mul16, special_errors, differentiate, integrate,
+// take_over.
 void prove_windup(void)
 {
     struct fixpid_pid was;
@@ -61,7 +62,7 @@ void prove_windup(void)
     assume(pid_is_sound(&c));
     was = c;
     (void)fixpid_pid_step(&c, nondet_int16(), nondet_int16());
-    flags = is_held(&was) ? 0 : fixpid_pid_flags(&c);
+    flags = (is_held(&was) || starts(&was)) ? 0 : fixpid_pid_flags(&c);
     if ((flags & FIXPID_PID_AT_MAX) != 0u) {
         claim(whole(&c) <= whole(&was));
     }

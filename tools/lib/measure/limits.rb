@@ -20,7 +20,7 @@ class Limits
   OF_EACH_ROW = ['bound', 'flash with init'].freeze
   ROOM = 0.01 # above the figure, of a limit that is tightened
 
-  BOUND_MOST = 1.06
+  BOUND_MOST = 1.07
   # Of the worst found by that of the straightforward form, with the reason.
   RATIOS = { 'ATmega328P' => [1.00, 'never slower'], 'Cortex-M0' => [1.25, 'what an 8-bit form may cost there'],
              'Cortex-M4' => [1.25, 'what an 8-bit form may cost there'] }.freeze
