@@ -48,7 +48,7 @@ export const PRESETS = [
         KP: 1.5, KI: 120, KD: 0, WEIGHT: 0.5,
         events: [{ at: 0.45, what: 'SETPOINT', a: 360 }, { at: 0.8, what: 'LOAD', a: 0.08 }],
     }),
-    preset('an937', 'AN937’s motor', 'The same motor with Microchip’s application note AN937, its gains and its anti-windup limit, bit for bit.', {
+    preset('an937', 'AN937’s motor', 'The same motor with Microchip’s application note AN937, its gains and its anti-windup limit.', {
         CONTROLLER: CONTROLLER.AN937, PLANT: PLANT.MOTOR, GAIN: 24, T1: 26, T2: 4, unit: 'rad/s',
         SENSOR_BITS: 10, SENSOR_RANGE: 480, NOISE: 0.6, OUTPUT_MIN: -1000,
         RATE: 1000, DURATION: 1.2, SETPOINT: 360, KP: 96, KI: 80, KD: 16, FILTER: 4,
