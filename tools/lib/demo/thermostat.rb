@@ -202,5 +202,5 @@ end
 def thermostat_terms(plot, run)
   plot.panel(2, 0, Plot.terms(run, scale: 100.0 / 1023.0, span: THERMOSTAT_END_S),
              [*stretches(1), *Plot.terms_text([6, -37], [6, 78], [6, 14]), "set xrange [0:#{THERMOSTAT_END_S}]", "set xlabel 'time, s'",
-              'set yrange [-75:110]', 'set ytics 50', *y_label(0, 'P, I and D, %')])
+              'set yrange [-90:110]', 'set ytics 50', *y_label(0, 'P, I and D, %')])
 end
