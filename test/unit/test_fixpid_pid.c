@@ -637,6 +637,23 @@ void test_step_first_one_with_a_weight_keeps_the_integral_within_its_limits(
     reset();
     step(-21, -21);
     TEST_ASSERT_EQUAL_INT32(-20 * INT32_C(65536), integral());
+    reset();
+    step(31, 31);
+    TEST_ASSERT_EQUAL_INT32(30 * INT32_C(65536), integral());
+    config.gains.kp_q8 = 384;
+    config.integral_min = -32;
+    config.integral_max = 31;
+    TEST_ASSERT_TRUE(init());
+    step(21, 21); // 31.5
+    TEST_ASSERT_EQUAL_INT32(31 * INT32_C(65536), integral());
+    reset();
+    step(-21, -21);
+    TEST_ASSERT_EQUAL_INT32(-32 * INT32_C(65536) + 32768, integral());
+    config.gains.ki_q24 = 0;
+    TEST_ASSERT_TRUE(init());
+    pid_controller.integral_fraction = 0x80; // as from a state's bytes
+    (void)fixpid_pid_step(&pid_controller, 9, 9);
+    TEST_ASSERT_EQUAL_HEX8(0, pid_controller.integral_fraction);
 }
 
 // Held before the first step: it starts from what is held, as it always did.
