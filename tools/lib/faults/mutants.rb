@@ -77,7 +77,7 @@ end
 
 # Of fixpid_pid with all features and with none.
 def pid_runs(sources)
-  [Run.new('test_fixpid_pid', sources), Run.new('test_fixpid_pid_error', sources),
+  [*%w[test_fixpid_pid test_fixpid_pid_rest test_fixpid_pid_error].map { |test| Run.new(test, sources) },
    Run.new('test_fixpid_pid_typical', sources, %w[-DFIXPID_PID_FEATURES=0x00])]
 end
 
