@@ -5,6 +5,7 @@
 #define PORT_PIC16F684_CONFIGURATION_H
 
 #if defined(__SDCC)
+#include <stdint.h>
 static __code uint16_t __at(0x2007) configuration_word = 0x33EC;
 #elif defined(__XC8)
 #pragma config FOSC = INTOSCIO, WDTE = ON, PWRTE = ON, MCLRE = ON

@@ -73,6 +73,7 @@ class Program
     @symbols = Symbols.new(@chip, @options)
     library, port = chosen(files).partition { |file| file.start_with?('src/') }
     main = port.delete("#{@port}/port.c")
+    @names = @own && files.flat_map { |file| @symbols.of(file).first }.join('|')
     done = pic? ? for_pic(library + port + files, main) : for_avr([*library, *port, *files, *main])
     say_how(library) if !done && $CHILD_STATUS.exitstatus == TOO_BIG
     done
@@ -142,7 +143,7 @@ class Program
     @options << '-DPORT_UART' if pic?('pic18') && files.any? { |path| path.end_with?('/port_uart.c') }
     files = [in_one(files)] unless pic?('pic18')
     files = main && !@own_port ? [*files, '--all-banks', main] : ['--all-banks', *files, *main]
-    system('tools/lib/build/build_pic', @chip, @output, *(['--port', @own_port] if @own_port), *('--own' if @own), *@options, *files)
+    system('tools/lib/build/build_pic', @chip, @output, *(['--port', @own_port] if @own_port), *(['--own', @names] if @own), *@options, *files)
   end
 
   def in_one(files)
