@@ -33,6 +33,7 @@ Dir.mktmpdir do |folder|
       Gate.expect("#{script} as root", Outside.complaints_of_root(try(script, paths[:root])), [])
       Gate.expect("#{script} as another user", Outside.complaints_of_user(try(script, paths[:user])), [])
     end
+    Gate.expect('what a PIC wants is asked for at once', try('tools/firmware', paths[:user]).output.match?(/missing: .*ruby.* bison .*gputils/), true)
     waiting = /^site: another program has apt's lock, process 7 \(apt\): waiting for it/
     Gate.write("#{paths[:root]}/sleep", "#!/bin/sh\n")
     { 'a while' => [3, /installed, and still not usable/], 'ever' => [99, /another program still has apt's lock, process 7 \(apt\)/] }.each do |long, (times, last)|

@@ -12,7 +12,12 @@
 # the project's folder, or with `root` set to it. What one tool has tried, those
 # that it starts need not: SDCC_TRIED.
 need_sdcc() {
-    need gpasm:gputils
+    sdcc_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/sdcc-4.2.0-2
+    if [ -n "${SDCC-}" ] || [ -d "$sdcc_home" ] || command -v sdcc >/dev/null; then
+        need ruby gpasm:gputils
+    else
+        need_to_build_sdcc
+    fi
     [ -z "${SDCC-}" ] || [ "${SDCC_TRIED-}" != "$SDCC" ] || return 0
     if [ -n "${SDCC-}" ]; then
         sdcc_works "$SDCC" || die "SDCC=$SDCC cannot compile for PIC:" \
@@ -20,13 +25,18 @@ need_sdcc() {
         return 0
     fi
     sdcc_works sdcc && return 0
-    sdcc_home=${XDG_CACHE_HOME:-${HOME:?}/.cache}/fixpid/sdcc-4.2.0-2
     sealed "$sdcc_home" && sdcc_works "$sdcc_home/bin/sdcc" && return 0
     say "no sdcc with the ports pic14 and pic16: building a private one," \
         "once, in $sdcc_home"
     "${root:-.}/tools/lib/build/build_sdcc" "$sdcc_home" || exit 1
     sdcc_works "$sdcc_home/bin/sdcc" ||
         die "the private sdcc in $sdcc_home does not work"
+}
+
+# With what its callers need, so that somebody who is not root is asked once.
+need_to_build_sdcc() {
+    need ruby g++ make bison flex :libboost-dev :libboost-graph-dev :zlib1g-dev \
+        dpkg-source:dpkg-dev patch gpasm:gputils flock:util-linux
 }
 
 # sdcc_works COMPILER: whether it compiles for both chips and has its libraries;
