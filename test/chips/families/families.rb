@@ -32,7 +32,7 @@ FAMILIES = [
   MeteredChip.new(name: 'attiny85', title: 'ATtiny85', run: AvrRun, controllers: ALL, refused: {}, limits: {}),
   Ucsim.new(name: 'stm8', title: 'STM8', controllers: ALL, refused: {}, compiler: %w[-mstm8], linker: [],
             simulator: %w[sstm8 -t S208], order: 'big', interface: 'rom[0x57ff]', memory: 'rom', cycle_ns: 500.0,
-            limits: { 'an937' => 495, 'an964' => 335, 'an964_8bit' => 345, 'pid' => 1715 }),
+            limits: { 'an937' => 495, 'an964' => 335, 'an964_8bit' => 345, 'pid' => 2240 }),
   Ucsim.new(name: '8051-small', title: '8051, small', controllers: SMALL,
             refused: { 'pid' => NO_RAM_8051 }, compiler: %w[-mmcs51 --model-small], linker: %w[--iram-size 256],
             limits: { 'an937' => 755, 'an964' => 590, 'an964_8bit' => 415 }, **S51),
