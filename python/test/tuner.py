@@ -437,7 +437,7 @@ def a_simulated_loop_is_that_controllers():
     same((len(loop.t), loop.t[-1], loop.output.dtype), (1800, 899.5, numpy.float64))
     for one in pid, loop.pid:
         same(one.run(loop.setpoint, loop.measurement).tolist(), loop.output.tolist())
-    same(tuple(loop.pid.components), (loop.p[0] * 0, 0, 0))
+    same(tuple(loop.pid.components), (loop.p[0] * 0, 5 / 255 * 100, 0))  # at rest
     assert loop.output.min() >= 2 and loop.output.max() <= 95 and loop.limited.any() and not loop.limited.all()
     assert abs(loop.true[-1] - 150) < 3 and loop.metrics["load"] > 2
     assert loop.flags[0] & fixpid.PID_AT_MAX
