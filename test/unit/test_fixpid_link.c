@@ -1133,6 +1133,13 @@ static void stays_by_hand_at(int16_t value, unsigned steps)
     }
 }
 
+static void is_automatic_after(int16_t value, unsigned steps)
+{
+    stays_by_hand_at(value, steps - 1u);
+    step();
+    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+}
+
 void test_taken_the_hand_of_the_program_stays(void)
 {
     begin_handover();
@@ -1164,9 +1171,7 @@ void test_taken_hand_is_taken_back_by_a_command_only_while_it_is_allowed(void)
     fixpid_link_allow(&link_controller, FIXPID_LINK_MANUAL);
     gives(LINK_SET_MANUAL, 3, 100, LINK_DONE);
     key_for(LINK_COMMANDED);
-    stays_by_hand_at(100, 48);
-    step();
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+    is_automatic_after(100, 49);
 }
 
 // Else a program that changes its feed-forward in each step would keep the hand
@@ -1177,9 +1182,7 @@ void test_changed_leaves_the_other_end_its_time(void)
     fixpid_pid_set_feedforward(&pid_controller, 3);
     fixpid_link_changed(&link_controller);
     key_for(LINK_CHANGED);
-    stays_by_hand_at(100, 28);
-    step();
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+    is_automatic_after(100, 29);
 }
 
 // Who takes the permission away wants no output that nobody ends.
@@ -1187,9 +1190,7 @@ void test_allow_without_manual_leaves_the_other_end_its_time(void)
 {
     begin_handover();
     fixpid_link_allow(&link_controller, 0);
-    stays_by_hand_at(100, 29);
-    step();
-    TEST_ASSERT_EQUAL_HEX8(0, fixpid_pid_flags(&pid_controller) & 0x40);
+    is_automatic_after(100, 30);
 }
 
 // ---- A record ----

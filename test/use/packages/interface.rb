@@ -90,5 +90,6 @@ recorded = File.read(RECORD)
 (recorded.lines - found.lines).each { |line| puts "gone: #{line}" }
 (found.lines - recorded.lines).each { |line| puts "new: #{line}" }
 puts 'ruby test/use/packages/interface.rb --update records it' if found != recorded
-puts missaid(found)
-exit(found == recorded && missaid(found).empty? ? 0 : 1)
+wrong = missaid(found)
+puts wrong
+exit(found == recorded && wrong.empty? ? 0 : 1)

@@ -11,6 +11,7 @@ module Tables
   COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
               'cortex-m0-O2' => 'Cortex-M0 -O2', 'cortex-m4-O2' => 'Cortex-M4 -O2',
               'rv32imc-O2' => 'RV32IMC -O2' }.freeze
+  NAMED = { 'typical' => 'pid_typical', 'full' => 'pid' }.freeze # in sentences
   PIC_COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520' }.freeze
   QUALITY_HEAD = ['', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
                   'sum until then', 'error left, low gains'].freeze
@@ -85,7 +86,7 @@ module Tables
 
     # What sentences of the documents say, by the names of docs/figures.json.
     def named(measured, called)
-      on_avr = { 'typical' => 'pid_typical', 'full' => 'pid' }.transform_values { |id| find(measured, id, 'atmega328p', '-O2').bound }
+      on_avr = NAMED.transform_values { |id| find(measured, id, 'atmega328p', '-O2').bound }
       stream = called.find { |subject, _| subject.called.functions.value?('stream only, step') && subject.chip.name == 'pic18f4520' }
       { **on_avr, **beside_others(measured), 'fastpid' => PEERS.find { |peer| peer.title.start_with?('FastPID') }.worst('atmega328p-O2'),
         'link_stream_flash' => stream.last.fetch('fixpid_link_step').flash }
@@ -112,7 +113,7 @@ module Tables
 
     # What stands beside others' figures: the worst steps found, and the flash.
     def beside_others(measured)
-      { 'typical' => 'pid_typical', 'full' => 'pid' }.flat_map do |name, id|
+      NAMED.flat_map do |name, id|
         [["#{name}_m4", find(measured, id, 'cortex-m4', '-O2').most], ["#{name}_rv32imc", find(measured, id, 'rv32imc', '-O2').most],
          ["#{name}_linked", find(measured, id, 'atmega328p', '-Os').linked]]
       end.to_h
