@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the sources of fixpid_reaction share: how they reach the experiment, and
-// what its record tells.
+// how its record is scaled.
 #include "fixpid_reaction.h"
 
 #undef SELF
@@ -11,24 +11,42 @@
 #ifndef FIXPID_REACTION_PRIVATE_H
 #define FIXPID_REACTION_PRIVATE_H
 
+// `state` while it runs. Each byte is a status or HEATING.
+#define LISTENING ((uint8_t)FIXPID_REACTION_RUNNING)
+#define HEATING 9u // and above
+
+#define LISTEN_STEPS 32u
+#define REACH_MAX 16384
 #define BLOCKS 8u
 
 // Any byte of `doubled` counts as 0..15, and of `scale` as 0..7.
 #define DOUBLED 0x0Fu
 #define SCALE 0x07u
+#define MIRRORED 0x80u // of `scale`
 
-// How much the record rises, each time over two blocks.
-struct fixpid_reaction_rises {
-    uint16_t last;
-    uint16_t steepest;
-    uint16_t before; // the steepest without the last two
-    uint8_t place;   // where the steepest ends, the first of equals; 2..7
-};
+// The record while it listens: readings from the start, and the sum of the
+// first 16.
+#define LOWEST 0u
+#define HIGHEST 1u
+#define FIRST_HALF 2u
 
 // These functions have the marks of the others.
+#define fixpid_reaction_reach FIXPID_SUFFIXED(reaction, reach)
 #define fixpid_reaction_scaled FIXPID_SUFFIXED(reaction, scaled)
 #define fixpid_reaction_origin FIXPID_SUFFIXED(reaction, origin)
-#define fixpid_reaction_measure FIXPID_SUFFIXED(reaction, measure)
+#define fixpid_reaction_needed FIXPID_SUFFIXED(reaction, needed)
+#define fixpid_reaction_risen FIXPID_SUFFIXED(reaction, risen)
+#define fixpid_reaction_begin FIXPID_SUFFIXED(reaction, begin)
+#define fixpid_reaction_halve FIXPID_SUFFIXED(reaction, halve)
+#define fixpid_reaction_end_block FIXPID_SUFFIXED(reaction, end_block)
+
+FIXPID_INLINE uint16_t fixpid_reaction_excess(uint16_t a, uint16_t b)
+{
+    return (a > b) ? (uint16_t)(a - b) : 0u;
+}
+
+// How far it may go from the start: 0..16384.
+int16_t fixpid_reaction_reach(FIXPID_DATA const struct fixpid_reaction *self);
 
 // counts * 2^scale
 uint16_t fixpid_reaction_scaled(FIXPID_DATA const struct fixpid_reaction *self,
@@ -37,7 +55,15 @@ uint16_t fixpid_reaction_scaled(FIXPID_DATA const struct fixpid_reaction *self,
 // Where the record has the start: 0..16384.
 uint16_t fixpid_reaction_origin(FIXPID_DATA const struct fixpid_reaction *self);
 
-void fixpid_reaction_measure(FIXPID_DATA const struct fixpid_reaction *self,
-                             struct fixpid_reaction_rises *rises);
+// What is a clear movement in the record: four bands.
+uint16_t fixpid_reaction_needed(FIXPID_DATA const struct fixpid_reaction *self);
+
+// It has listened.
+void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self);
+
+// Half as many blocks, of twice the length.
+void fixpid_reaction_halve(FIXPID_DATA struct fixpid_reaction *self);
+
+void fixpid_reaction_end_block(FIXPID_DATA struct fixpid_reaction *self);
 
 #endif

@@ -3,118 +3,126 @@
 // whole object files.
 #include "fixpid_reaction.h"
 
-#include "../common/fixpid_difference.h"
+#include "../common/fixpid_bits.h"
 #include "fixpid_reaction_private.h"
 
 #define TOO_MUCH ((uint32_t)0xFFFFFFFFu)
 #define DELAY_MAX ((uint32_t)0x3FFFFFFu) // so that three of them have 28 bits
 #define KD_DELAY_MAX 65535u
 #define KI_MIN 8u
-#define LONGEST_FILTER 7u
+#define FILTERED 1023u // of a delay x 16: a quarter of Td, or two steps
 
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u
 #define ONCE 256u // the factor of a height as it is
 
-// The steepest slope, carried back to the change of the output.
-struct tangent {
-    uint32_t height;   // how far below the start it is there, x 4 * 2^scale
-    uint32_t delay_q4; // the steps in which it rises by that
-    uint16_t rise;     // in two blocks, x 2^scale
-    uint16_t change;   // of the output, 1..65535
-};
-
 // floor(a * 2^places / b), or TOO_MUCH where that is not below 2^32, and for
 // b = 0. pre: b <= 2^31
 static uint32_t ratio(uint32_t a, uint32_t b, uint8_t places)
 {
-    uint32_t dividend = a;
+    uint32_t bits = a; // those of the quotient enter as those of a leave
     uint32_t rest = 0; // below b
-    uint32_t quotient = 0;
     uint8_t turn;
 
     for (turn = (uint8_t)(32u + places); turn != 0u; turn--) {
-        if ((quotient >> 31) != 0u) {
-            return TOO_MUCH;
+        const bool carry = (bits >> 31) != 0u;
+
+        rest <<= 1;
+        bits <<= 1;
+        if (carry) {
+            if (turn <= places) {
+                return TOO_MUCH;
+            }
+            rest |= 1u;
         }
-        quotient <<= 1;
-        rest = (rest << 1) | (dividend >> 31);
-        dividend <<= 1;
         if (rest >= b) {
             rest -= b;
-            quotient |= 1u;
+            bits |= 1u;
         }
     }
-    return quotient;
+    return bits;
+}
+
+// Where the record rises most in two blocks, the first of equals: 2..7
+static uint8_t steepest(FIXPID_DATA const struct fixpid_reaction *self)
+{
+    uint16_t most = 0;
+    uint8_t found = 2;
+    uint8_t place;
+
+    for (place = 2; place < BLOCKS; place++) {
+        if (place < SELF.blocks) {
+            const uint16_t rise = fixpid_reaction_excess(SELF.record[place], SELF.record[place - 2u]);
+            if (rise > most) {
+                most = rise;
+                found = place;
+            }
+        }
+    }
+    return found;
 }
 
 // In quarters of 2^-scale counts, below 2^20: what the tangent misses, half of
 // the noise's band, and one and a half steps of slope for the hold and the
 // sampling.
 static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
-                          const struct fixpid_reaction_rises *rises)
+                          uint8_t place, uint16_t rise)
 {
-    FIXPID_DATA const uint16_t *const block = &SELF.record[rises->place - 2u];
-    const uint8_t blocks = (uint8_t)((rises->place << 1) - 1u); // 3..13
+    FIXPID_DATA const uint16_t *const block = &SELF.record[place - 2u];
+    uint16_t hold = (uint16_t)(rise + (rise >> 1));
     int32_t base = SELF.base;
-    uint32_t three_halves = (uint32_t)rises->steepest * 3u;
     int32_t height;
     uint8_t places;
 
     for (places = SELF.scale & SCALE; places != 0u; places--) {
         base += base; // at most 2^13 * 2^4
     }
-    for (places = SELF.doubled & DOUBLED; places != 0u; places--) {
-        three_halves >>= 1;
+    for (places = SELF.doubled & DOUBLED; places > 1u; places--) {
+        hold >>= 1;
     }
-    height = (int32_t)(((uint32_t)rises->steepest * blocks) +
-                       ((uint32_t)fixpid_reaction_origin(self) << 2));
-    height -=
-        (int32_t)((uint32_t)block[0] + ((uint32_t)block[1] << 1) + block[2]);
+    height = (int32_t)((uint32_t)rise * (uint8_t)(place - 1u));
+    height -= block[0];
+    height -= block[1];
+    height += (int32_t)((uint32_t)fixpid_reaction_origin(self) << 1);
+    height += height;
     height += base >> 2; // Deviation 10.1: rounds down
     if (height < 0) {
         height = 0;
     }
-    return (uint32_t)height + three_halves +
-           ((uint32_t)fixpid_reaction_scaled(self, SELF.band) << 1);
+    height += (int32_t)((uint32_t)fixpid_reaction_scaled(self, SELF.band) << 1);
+    return (uint32_t)height + hold;
 }
 
-// With factor / 256 of the height. False unless the experiment is done.
-static bool take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
-                         uint16_t factor, struct tangent *tangent)
+// The process with factor / 256 of the height, and its kp_q8. pre: it is DONE
+static uint32_t take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
+                         uint16_t factor, struct fixpid_reaction_process *process)
 {
-    struct fixpid_reaction_rises rises;
+    const uint8_t doubled = SELF.doubled & DOUBLED;
+    const uint8_t scale = SELF.scale & SCALE;
+    const uint8_t place = steepest(self);
+    const uint16_t rise = (uint16_t)(SELF.record[place] - SELF.record[place - 2u]);
+    const uint32_t height = (height_of(self, place, rise) * factor) >> 8; // 1558 at most
+    uint16_t change =
+        (uint16_t)((uint16_t)SELF.output_drive - (uint16_t)SELF.output_rest);
 
-    if (SELF.state != FIXPID_REACTION_DONE) {
-        return false;
+    if (SELF.output_drive < SELF.output_rest) {
+        change = fixpid_negated(change);
     }
-    fixpid_reaction_measure(self, &rises);
-    tangent->rise = rises.steepest;
-    tangent->height = (height_of(self, &rises) * factor) >> 8; // 1558 at most
-    tangent->delay_q4 = ratio(tangent->height, tangent->rise,
-                              (uint8_t)((SELF.doubled & DOUBLED) + 3u));
-    tangent->change =
-        (SELF.output_drive > SELF.output_rest)
-            ? fixpid_difference(SELF.output_drive, SELF.output_rest)
-            : fixpid_difference(SELF.output_rest, SELF.output_drive);
-    return true;
+    process->slope_q24 = ratio(rise, change, (uint8_t)(23u - doubled - scale));
+    process->dead_q4 = ratio(height, rise, (uint8_t)(doubled + 3u));
+    process->noise_q4 = (uint16_t)(SELF.band << 2); // a band is four of them
+    return ratio(change, height, (uint8_t)(scale + 10u));
 }
 
 bool fixpid_reaction_model(FIXPID_DATA const struct fixpid_reaction *self,
                            struct fixpid_reaction_process *process)
 {
-    struct tangent tangent;
-    uint8_t places;
-
     FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(process != 0);
-    if (!take_tangent(self, ONCE, &tangent)) {
+    if (SELF.state != FIXPID_REACTION_DONE) {
         return false;
     }
-    places = (uint8_t)(23u - (SELF.doubled & DOUBLED) - (SELF.scale & SCALE));
-    process->slope_q24 = ratio(tangent.rise, tangent.change, places);
-    process->dead_q4 = tangent.delay_q4;
-    process->noise_q4 = (uint16_t)(SELF.band << 2); // a band is four of them
+    (void)take_tangent(self, ONCE, process);
     return true;
 }
 
@@ -132,22 +140,6 @@ static bool is_legal(uint32_t kp_q8, uint32_t ki_q24, uint32_t kd_q8)
     return kd_q8 <= FIXPID_PID_KD_MAX;
 }
 
-// A filter that lags a quarter of the derivative's time, or two steps: 1..7
-static uint8_t filter_of(uint32_t delay_q4)
-{
-    uint16_t lag = (uint16_t)(delay_q4 >> 10); // at most 2^16 - 1
-    uint8_t filter;
-
-    for (filter = 1; filter < LONGEST_FILTER; filter++) {
-        if (lag <= 1u) {
-            break;
-        }
-        lag >>= 1;
-    }
-    return (filter > FIXPID_PID_FILTER_MAX) ? (uint8_t)FIXPID_PID_FILTER_MAX
-                                            : filter;
-}
-
 static bool take_gains(struct fixpid_pid_gains *gains, uint8_t rule,
                        uint32_t kp_pi, uint32_t delay_q4)
 {
@@ -161,8 +153,14 @@ static bool take_gains(struct fixpid_pid_gains *gains, uint8_t rule,
         reset += delay_q4;
     } else {
         kp += kp >> 2;
-        filter = filter_of(delay_q4);
-        kd = delay_q4 >> filter;
+        kd = delay_q4;
+        while (filter != FIXPID_PID_FILTER_MAX) {
+            kd >>= 1;
+            filter++;
+            if (kd <= FILTERED) {
+                break;
+            }
+        }
         if (kd > KD_DELAY_MAX) {
             return false;
         }
@@ -183,7 +181,8 @@ bool fixpid_reaction_result(FIXPID_DATA const struct fixpid_reaction *self,
                             uint8_t rule, uint8_t robustness_q4,
                             struct fixpid_pid_gains *gains)
 {
-    struct tangent tangent;
+    struct fixpid_reaction_process tangent;
+    uint32_t kp;
 
     FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(gains != 0);
@@ -196,15 +195,12 @@ bool fixpid_reaction_result(FIXPID_DATA const struct fixpid_reaction *self,
     if (robustness_q4 > ROBUSTNESS_MAX) {
         return false;
     }
-    if (!take_tangent(self, (uint16_t)((robustness_q4 + 18u) * 19u),
-                      &tangent)) {
+    if (SELF.state != FIXPID_REACTION_DONE) {
         return false;
     }
-    if (tangent.delay_q4 > DELAY_MAX) {
+    kp = take_tangent(self, (uint16_t)((robustness_q4 + 18u) * 19u), &tangent);
+    if (tangent.dead_q4 > DELAY_MAX) {
         return false;
     }
-    return take_gains(gains, rule,
-                      ratio(tangent.change, tangent.height,
-                            (uint8_t)((SELF.scale & SCALE) + 10u)),
-                      tangent.delay_q4);
+    return take_gains(gains, rule, kp, tangent.dead_q4);
 }
