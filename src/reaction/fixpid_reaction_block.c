@@ -6,8 +6,15 @@
 
 #define SCALE_MAX 4u
 #define DOUBLED_MAX 12u
-#define FEWEST_BLOCKS 6u // of two steps or more, that tell a slope
-#define GROWING_BLOCKS 5u
+#define BLOCKS_OF_A_SLOPE 6u // at least, and of two steps or more
+#define BLOCKS_OF_A_GROWTH 5u
+
+// How much the record rises, each time over two blocks.
+struct rises {
+    uint16_t last;
+    uint16_t steepest;
+    uint16_t before; // the steepest without the last two
+};
 
 void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
 {
@@ -15,114 +22,172 @@ void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
         (uint16_t)(SELF.record[HIGHEST] - SELF.record[LOWEST]);
     const int16_t risen =
         (int16_t)((uint16_t)SELF.base - SELF.record[FIRST_HALF]);
+    uint16_t origin = (uint16_t)fixpid_reaction_reach(self);
+    uint8_t places;
 
     SELF.band = band;
     SELF.left = 1;
     SELF.state = HEATING;
-    if (risen > (int16_t)(band + (uint16_t)(band << 2) + 16u)) {
-        SELF.state = FIXPID_REACTION_MOVING;
-    } else if (fixpid_reaction_reach(self) == 0) {
+    if (origin == 0u) {
         SELF.state = FIXPID_REACTION_LIMIT;
-    } else {
-        while (fixpid_reaction_origin(self) <= (REACH_MAX / 2u)) {
-            if ((SELF.scale & SCALE) >= SCALE_MAX) {
-                break;
-            }
-            SELF.scale++;
+    }
+    // Above five bands it would coast on: at most 5 * 1022 + 16.
+    if (risen > (int16_t)(uint16_t)((uint16_t)(band << 2) + band + 16u)) {
+        SELF.state = FIXPID_REACTION_MOVING;
+    }
+    for (places = SCALE_MAX; places != 0u; places--) {
+        origin = (uint16_t)(origin << 1);
+        if (origin > (uint16_t)REACH_MAX) {
+            break;
         }
+        SELF.scale++;
     }
 }
 
 void fixpid_reaction_halve(FIXPID_DATA struct fixpid_reaction *self)
 {
+    FIXPID_DATA const uint16_t *pair = SELF.record;
     uint8_t i;
 
     for (i = 0; i < (BLOCKS / 2u); i++) {
-        const uint16_t a = SELF.record[(uint8_t)(i << 1)];
-        const uint16_t b = SELF.record[(uint8_t)((i << 1) + 1u)];
+        const uint16_t a = pair[0];
+        const uint16_t b = pair[1];
 
         // (a + b) >> 1 in 16 bits
         SELF.record[i] = (uint16_t)((a & b) + ((a ^ b) >> 1));
+        pair += 2;
     }
     SELF.blocks = BLOCKS / 2u;
     SELF.doubled++;
     SELF.left = (uint16_t)(SELF.left << 1);
 }
 
-struct rises {
-uint16_t last, before, steepest, need;
-};
-// The rises in two blocks.
-static void measure(FIXPID_DATA const struct fixpid_reaction *self, struct rises *r)
+// pre: at most 8 blocks
+static void measure(FIXPID_DATA const struct fixpid_reaction *self,
+                    struct rises *rises)
 {
     FIXPID_DATA const uint16_t *block = SELF.record;
-    uint16_t last = 0;
+    uint16_t rise = 0;
     uint16_t steepest = 0;
     uint16_t before = 0;
     uint8_t left;
 
-    for (left = SELF.blocks; left > 2; left--) {
-        last = fixpid_reaction_excess(block[2], block[0]);
-        if (last > steepest) {
-            steepest = last;
+    for (left = SELF.blocks; left > 2u; left--) {
+        rise = fixpid_reaction_excess(block[2], block[0]);
+        if (rise > steepest) {
+            steepest = rise;
         }
-        if (left > 4u) { before = steepest; }
+        if (left > 4u) {
+            before = steepest;
+        }
         block++;
     }
-    r->last=last;
-    r->before=before;
-    r->steepest=steepest;
+    rises->last = rise;
+    rises->steepest = steepest;
+    rises->before = before;
 }
 
-static uint8_t judge(FIXPID_DATA const struct fixpid_reaction *self, uint16_t newest)
+// Whether the slope grows no more, but the reading does: a sensor that has just
+// stuck does not.
+static bool is_steady(const struct rises *rises, uint16_t need, uint16_t step)
 {
-    const uint16_t origin = fixpid_reaction_origin(self);
-    const uint16_t need = fixpid_reaction_needed(self);
-    const uint16_t risen = fixpid_reaction_excess(newest, origin);
-    const uint8_t blocks = SELF.blocks;
-    struct rises r;
-    uint16_t fallen = fixpid_reaction_excess(origin, newest);
-    
-    if (fallen > (origin >> 2)) {
-        if (fallen > need) {
-            return FIXPID_REACTION_WRONG_WAY;
+    if (rises->steepest < need) {
+        return false;
+    }
+    if (rises->last > (uint16_t)(rises->before + (rises->before >> 3))) {
+        return false;
+    }
+    return step > (rises->steepest >> 2);
+}
+
+// What the slopes tell. `step` is by how much the newest block is above the one
+// before it.
+static uint8_t judge_slopes(const struct rises *rises, bool clear,
+                            uint16_t need, uint16_t step)
+{
+    if (rises->last <= (rises->steepest >> 1)) {
+        if (clear) {
+            return FIXPID_REACTION_LEVELS_OFF;
         }
+    } else if (is_steady(rises, need, step)) {
+        return FIXPID_REACTION_DONE;
+    } else {
+        // It still grows.
     }
-    measure(self, &r);
-    if (blocks >= 6u) {
-        if (SELF.doubled != 0u) {
-            if (r.last <= (r.steepest >> 1)) {
-                if ((risen >> 1) >= need) {
-                    return FIXPID_REACTION_LEVELS_OFF;
-                }
-            } else if (r.steepest >= need) {
-                if (r.last <= (uint16_t)(r.before + (r.before >> 3))) {
-                    if (fixpid_reaction_excess(newest, SELF.record[(uint8_t)(blocks - 2u) & (BLOCKS - 1u)]) > (r.steepest >> 2)) {
-                        return FIXPID_REACTION_DONE;
-                    }
-                }
-            }
-        }
+    return HEATING;
+}
+
+// Whether the reading would get to the stop with the heat that has gone in.
+// One block more is allowed for, and a slope that grows.
+static bool goes_too_far(const struct rises *rises, uint8_t blocks,
+                         uint16_t origin)
+{
+    uint16_t coming = rises->steepest >> 4;
+
+    if (blocks >= BLOCKS_OF_A_GROWTH) {
+        coming = (uint16_t)(coming + (fixpid_reaction_excess(rises->last,
+                                                             rises->before) >>
+                                      4));
     }
-    {uint16_t coming = r.steepest >> 4;
-    if (blocks >= 5u) {
-        coming = (uint16_t)(coming + (fixpid_reaction_excess(r.last, r.before) >> 4));
-    }
-    if ((uint16_t)(coming * (uint8_t)(blocks + 1u)) >= (origin >> 3)) {
-        return FIXPID_REACTION_LIMIT;
-    }
-    }
+    // at most 4096 * 9
+    return (uint16_t)(coming * (uint8_t)(blocks + 1u)) >= (origin >> 3);
+}
+
+static uint8_t judge_time(FIXPID_DATA const struct fixpid_reaction *self,
+                          bool clear)
+{
     if (SELF.doubled >= DOUBLED_MAX) {
-        if (blocks >= BLOCKS) {
+        if (SELF.blocks >= BLOCKS) {
             return FIXPID_REACTION_TOO_SLOW;
         }
     }
-    if ((risen >> 1) < need) {
-        if ((uint16_t)(SELF.left * blocks) >= SELF.timeout_steps) {
+    if (!clear) {
+        // at most 2^15
+        if ((uint16_t)(SELF.left * SELF.blocks) >= SELF.timeout_steps) {
             return FIXPID_REACTION_NO_MOVEMENT;
         }
     }
     return HEATING;
+}
+
+static bool is_wrong_way(uint16_t fallen, uint16_t origin, uint16_t need)
+{
+    if (fallen <= (origin >> 2)) {
+        return false;
+    }
+    return fallen > need;
+}
+
+static uint8_t judge(FIXPID_DATA const struct fixpid_reaction *self,
+                     uint16_t newest)
+{
+    const uint8_t blocks = SELF.blocks;
+    const uint16_t origin = fixpid_reaction_origin(self);
+    const uint16_t need = fixpid_reaction_needed(self);
+    const bool clear = (fixpid_reaction_excess(newest, origin) >> 1) >= need;
+    struct rises rises;
+
+    if (is_wrong_way(fixpid_reaction_excess(origin, newest), origin, need)) {
+        return FIXPID_REACTION_WRONG_WAY;
+    }
+    measure(self, &rises);
+    if (blocks >= BLOCKS_OF_A_SLOPE) {
+        if (SELF.doubled != 0u) {
+            const uint8_t verdict = judge_slopes(
+                &rises, clear, need,
+                fixpid_reaction_excess(
+                    newest,
+                    SELF.record[(uint8_t)(blocks - 2u) & (BLOCKS - 1u)]));
+
+            if (verdict != HEATING) {
+                return verdict;
+            }
+        }
+    }
+    if (goes_too_far(&rises, blocks, origin)) {
+        return FIXPID_REACTION_LIMIT;
+    }
+    return judge_time(self, clear);
 }
 
 void fixpid_reaction_end_block(FIXPID_DATA struct fixpid_reaction *self)

@@ -24,11 +24,10 @@ static uint8_t ninetieths(uint16_t part, uint16_t whole)
     return wholes;
 }
 
-uint8_t
-fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
+uint8_t fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
 {
     uint16_t need;
-    uint16_t newest, origin, risen=0;
+    uint16_t risen;
 
     FIXPID_ASSERT(VALID_SELF);
     if (SELF.state == LISTENING) {
@@ -38,9 +37,10 @@ fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
         return 100;
     }
     need = fixpid_reaction_needed(self);
-    newest = SELF.record[(uint8_t)(SELF.blocks - 1u) & (BLOCKS - 1u)];
-    origin = fixpid_reaction_origin(self);
-    if (newest > origin) { risen = (newest - origin) >> 1; }
+    risen = fixpid_reaction_excess(
+                SELF.record[(uint8_t)(SELF.blocks - 1u) & (BLOCKS - 1u)],
+                fixpid_reaction_origin(self)) >>
+            1;
     if (risen >= need) {
         return 98;
     }

@@ -52,7 +52,8 @@ static uint8_t steepest(FIXPID_DATA const struct fixpid_reaction *self)
 
     for (place = 2; place < BLOCKS; place++) {
         if (place < SELF.blocks) {
-            const uint16_t rise = fixpid_reaction_excess(SELF.record[place], SELF.record[place - 2u]);
+            const uint16_t rise = fixpid_reaction_excess(
+                SELF.record[place], SELF.record[place - 2u]);
             if (rise > most) {
                 most = rise;
                 found = place;
@@ -95,13 +96,16 @@ static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
 
 // The process with factor / 256 of the height, and its kp_q8. pre: it is DONE
 static uint32_t take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
-                         uint16_t factor, struct fixpid_reaction_process *process)
+                             uint16_t factor,
+                             struct fixpid_reaction_process *process)
 {
     const uint8_t doubled = SELF.doubled & DOUBLED;
     const uint8_t scale = SELF.scale & SCALE;
     const uint8_t place = steepest(self);
-    const uint16_t rise = (uint16_t)(SELF.record[place] - SELF.record[place - 2u]);
-    const uint32_t height = (height_of(self, place, rise) * factor) >> 8; // 1558 at most
+    const uint16_t rise =
+        (uint16_t)(SELF.record[place] - SELF.record[place - 2u]);
+    const uint32_t height =
+        (height_of(self, place, rise) * factor) >> 8; // 1558 at most
     uint16_t change =
         (uint16_t)((uint16_t)SELF.output_drive - (uint16_t)SELF.output_rest);
 

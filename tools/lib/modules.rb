@@ -120,6 +120,19 @@ module Modules
                 functions: { 'fixpid_autotune_step_tuner' => 'any step', 'fixpid_autotune_result_tuner' => 'result' },
                 turns: { 'amplitude_for' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result_tuner] }]
     },
+    'reaction' => {
+      title: 'Reaction', what: 'Gains for fixpid_pid from the first minutes of a heat-up',
+      fuzz: [2000, 128],
+      rows: %w[output_rest:int16_t output_drive:int16_t measurement_stop:int16_t timeout_steps:uint16_t options:uint8_t
+               robustness_q4:uint8_t],
+      pieces: %w[readings],
+      # A turn for each place of a shift: of the scale, of 2^doubled steps of a block, and what ends it.
+      calls: [{ object: 'reaction', calls: 20_000, kinds: %i[avr arm],
+                program: %w[test/support/numbers_control.c test/support/numbers_reaction.c test/chips/modules/steps_reaction.c],
+                functions: { 'reaction_ordinary_step' => 'ordinary step', 'reaction_block_step' => 'end of a block',
+                             'reaction_halving_step' => 'record halved', 'reaction_last_listening_step' => 'end of listening' },
+                flags: %w[-DCALLS_BY_KIND] }]
+    },
     'an937' => {
       title: 'AN937', what: 'The controller of Microchip AN937',
       fuzz: [20_000, 512], narrow: true

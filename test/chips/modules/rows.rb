@@ -17,6 +17,17 @@ def table(column, values, size)
   puts "static const IN_FLASH #{type} rows_#{name}[#{size}] = {", lines.map { |line| "#{line.join(', ')}," }, '};'
 end
 
+# Of fields that are pieces `value*times`, one table for all rows; `_from` says where those of
+# a row begin. An R, which stands for a call of reset, is a piece of no times.
+def pieces(name, fields)
+  each = fields.map { |field| field.split.map { |piece| piece == 'R' ? [0, 0] : piece.split('*').map { |number| Integer(number, 10) } } }
+  values, times = each.flatten(1).map { |value, count = 1| [value, count] }.transpose
+  table("#{name}_value:int16_t", values, values.size)
+  table("#{name}_times:uint16_t", times, times.size)
+  from = each.map(&:size).reduce([0]) { |sums, size| sums << (sums.last + size) }
+  table("#{name}_from:uint16_t", from, from.size)
+end
+
 path = ARGV.fetch(0)
 entry = Modules.entry(File.basename(path, '.csv'))
 recorded = Recorded.new(path)
@@ -24,6 +35,7 @@ count = ARGV[1] ? Integer(ARGV[1]) : recorded.rows.size
 values = ->(column) { recorded.numbers(column[/\w+/]).first(count) }
 puts '// Made by rows.rb: do not edit.', '#include <stdint.h>', "#define ROWS #{count}u"
 puts '#ifdef __AVR__ // its RAM has no room for them', '#define IN_FLASH __flash', '#else', '#define IN_FLASH', '#endif'
+entry[:pieces]&.each { |name| pieces(name, recorded.by_name.first(count).map { |row| row.fetch(name) }) }
 entry[:rows].each { |column| table(column, values.call(column), 'ROWS') }
 if entry[:shared]
   each = entry[:shared].map(&values).transpose
