@@ -14,7 +14,8 @@
 #define NOISE_STEPS 34u
 #define NOISE_MAX 1023u
 #define STEPS_MAX 32767u
-#define TURN_MAX 2047 // 8 cycles of two turns are within 32752
+#define WHOLE_CYCLE 2u // `seen` when the last cycle had both halves
+#define TURN_MAX 2047  // 8 cycles of two turns are within 32752
 
 static bool between(uint16_t value, uint16_t least, uint16_t most)
 {
@@ -98,6 +99,7 @@ void fixpid_autotune_reset(FIXPID_DATA struct fixpid_autotune *self)
     SELF.last_period = 0;
     SELF.edge = 0;
     SELF.first_on = 0;
+    SELF.first_steps = 0;
     SELF.noise = 0;
     SELF.highest = 0;
     SELF.lowest = 0;
@@ -111,16 +113,6 @@ uint8_t fixpid_autotune_status(FIXPID_DATA const struct fixpid_autotune *self)
     FIXPID_ASSERT(VALID_SELF);
     return (SELF.state >= PHASE_NOISE) ? (uint8_t)FIXPID_AUTOTUNE_RUNNING
                                        : SELF.state;
-}
-
-// 3/16 of the wanted swing, or what the noise asks for: 1..6912
-static uint16_t relay_hysteresis(FIXPID_DATA const struct fixpid_autotune *self)
-{
-    const uint16_t least = fixpid_autotune_noise_band(self);
-    const uint16_t wanted = fixpid_autotune_wanted_swing(self, least);
-    const uint16_t counts = (uint16_t)((wanted >> 3) + (wanted >> 4));
-
-    return (counts < least) ? least : counts;
 }
 
 static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
@@ -140,12 +132,10 @@ static void measure_noise(FIXPID_DATA struct fixpid_autotune *self,
         SELF.noise = (uint16_t)(SELF.noise + noise);
     }
     if (SELF.elapsed == NOISE_STEPS) {
-        SELF.state = PHASE_FIND;
         SELF.side = (deviation <= 0) ? AT_HIGH : AT_LOW;
         SELF.elapsed = 0;
         SELF.lowest = deviation;
-        SELF.edge = relay_hysteresis(self);
-        fixpid_autotune_drive(self);
+        fixpid_autotune_start_relay(self);
     }
 }
 
@@ -200,6 +190,15 @@ static void turn_relay(FIXPID_DATA struct fixpid_autotune *self,
     SELF.elapsed++;
 }
 
+// As long as a cycle was. The first one may have lacked a half.
+static uint16_t longest_cycle(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    if (SELF.seen < WHOLE_CYCLE) {
+        return (uint16_t)(SELF.config.timeout_steps >> 4);
+    }
+    return SELF.last_period;
+}
+
 static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
                        int16_t deviation)
 {
@@ -219,8 +218,8 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
         turn_relay(self, deviation);
     }
     if (SELF.state >= PHASE_CENTRE) {
-        if ((SELF.elapsed >> 2) > SELF.last_period) {
-            fixpid_autotune_find_again(self);
+        if ((SELF.elapsed >> 2) > longest_cycle(self)) {
+            fixpid_autotune_widen_relay(self);
         }
     }
 }

@@ -6,12 +6,11 @@
 #include "fixpid_autotune_private.h"
 
 #define SEEN_MAX 48u
-#define SEEN_LOST 8u // losing the swing counts as so many cycles
+#define SEEN_LOST 4u    // a lost swing counts as so many cycles
+#define SEEN_FITTED 20u // no more cycles are spent on a better relay
 #define LAST_PERIOD_MIN 10u
-
-// Wide enough for every swing asked for: a swing is at most 65534, and a range
-// at most 65535.
-#define AMPLITUDE_MAX UINT32_C(131072)
+#define HALF_DOUBLED 10000u // below it, so that three halves fit 16 bits
+#define SCALED_MAX UINT32_C(131072)
 
 void fixpid_autotune_clear(FIXPID_DATA struct fixpid_autotune_sums *sums)
 {
@@ -31,18 +30,6 @@ uint16_t fixpid_autotune_noise_band(
     const uint16_t sum = (uint16_t)(SELF.noise + (SELF.noise >> 1) + 16u);
 
     return (uint16_t)((sum >> 5) + 1u);
-}
-
-// 24 bands, but SDCC would link a multiplication.
-uint16_t fixpid_autotune_wanted_swing(
-    FIXPID_DATA const struct fixpid_autotune *self, uint16_t noise_band)
-{
-    const uint16_t eight_bands = (uint16_t)(noise_band << 3);
-
-    if (SELF.config.swing == 0u) {
-        return (uint16_t)(eight_bands + eight_bands + eight_bands);
-    }
-    return SELF.config.swing;
 }
 
 // How far a side is from the centre. `half` is at most 21759, so that twice of
@@ -128,73 +115,182 @@ static uint8_t share(uint16_t part, uint16_t whole)
     return quotient;
 }
 
-// The relay that would overshoot its hysteresis as far as wanted, where one of
-// relay_counts overshoots it by `over`.
-static uint32_t amplitude_for(uint16_t wanted_counts, uint16_t over,
-                              uint16_t relay_counts)
+// value * part / whole, rounded to 8 bits. At most 131072, which is twice of
+// every range and every swing.
+static uint32_t in_proportion(uint16_t value, uint16_t part_counts,
+                              uint16_t whole)
 {
-    uint16_t wanted = wanted_counts;
-    uint32_t amplitude = relay_counts;
+    uint16_t part = part_counts;
+    uint32_t scaled = value;
 
-    while (wanted > over) {
-        wanted >>= 1; // rounded towards a smaller swing
-        amplitude <<= 1;
+    while (part > whole) { // at most 16 times, also if whole is 0
+        part >>= 1;
+        scaled <<= 1;
     }
-    if (amplitude > AMPLITUDE_MAX) {
-        amplitude = AMPLITUDE_MAX;
+    if (scaled > SCALED_MAX) {
+        scaled = SCALED_MAX;
     }
-    if (wanted < over) {
-        amplitude = (amplitude * share(wanted, over)) >> 8;
+    if (part < whole) {
+        scaled = (scaled * share(part, whole)) >> 8;
     }
-    return amplitude;
+    return scaled;
 }
 
-// Of both sides: what the hysteresis leaves of the wanted swing, but one
-// hysteresis at least, which is at most 6912.
-static uint16_t wanted_overshoot(FIXPID_DATA const struct fixpid_autotune *self)
+static uint16_t range_of(FIXPID_DATA const struct fixpid_autotune *self)
 {
-    const uint16_t wanted =
-        fixpid_autotune_wanted_swing(self, fixpid_autotune_noise_band(self));
-
-    if (wanted < (uint16_t)(SELF.edge << 1)) {
-        return SELF.edge;
-    }
-    return (uint16_t)(wanted - SELF.edge);
+    return (uint16_t)((uint16_t)SELF.config.output_max -
+                      (uint16_t)SELF.config.output_min);
 }
 
-// counts * share / 256, to the nearest: 65535 * 255 + 128 < 2^24
-static uint16_t counts_of(uint16_t counts, uint8_t share_q8)
+// From the centre to the nearer end of the range.
+static uint16_t room(FIXPID_DATA const struct fixpid_autotune *self)
 {
-    return (uint16_t)((((uint32_t)counts * share_q8) + 128u) >> 8);
+    const uint16_t down =
+        (uint16_t)((uint16_t)SELF.centre - (uint16_t)SELF.config.output_min);
+    const uint16_t up =
+        (uint16_t)((uint16_t)SELF.config.output_max - (uint16_t)SELF.centre);
+
+    return (down < up) ? down : up;
+}
+
+// Of a relay of three halves: at most 21759.
+static uint16_t half_of(uint16_t relay_counts)
+{
+    return (uint16_t)(((uint32_t)relay_counts * 85u) >> 8);
+}
+
+static void set_half(FIXPID_DATA struct fixpid_autotune *self, uint16_t half)
+{
+    SELF.half = (half < 2u) ? 2u : half;
+}
+
+// What the hysteresis leaves of the largest swing, counts: 0..14245
+static uint16_t largest_overshoot(
+    FIXPID_DATA const struct fixpid_autotune *self)
+{
+    uint16_t swing = SELF.config.swing;
+    uint16_t eighth;
+
+    if (swing == 0u) {
+        swing = (uint16_t)((uint16_t)SELF.config.measurement_max -
+                           (uint16_t)SELF.config.measurement_min);
+        swing >>= 3;
+    }
+    eighth = (uint16_t)(swing >> 3);
+    return (uint16_t)(swing - eighth - (eighth >> 1));
+}
+
+// The hysteresis for a relay that overshoots it by so much, both sides
+// together: 3/13 of that, which is 3/16 of the whole swing. But what the noise
+// asks for at least, and enough for a swing of six times that.
+static void fit_edge(FIXPID_DATA struct fixpid_autotune *self,
+                     uint32_t overshoot)
+{
+    const uint16_t band = fixpid_autotune_noise_band(self);
+    const uint16_t four_bands = (uint16_t)(band << 2);  // 6144 at most
+    uint16_t edge = (uint16_t)((overshoot * 59u) >> 8); // 30208 at most
+
+    if (overshoot < four_bands) {
+        edge = (uint16_t)((uint16_t)(four_bands + (band << 1)) -
+                          (uint16_t)overshoot);
+        edge >>= 1;
+    } else if (edge < band) {
+        edge = band;
+    }
+    SELF.edge = edge;
 }
 
 // What overshoots the hysteresis on each side is in proportion to the drive
 // that is left on that side. So where the setpoint cuts the overshoot, the
 // output that holds it cuts the relay: true of every lag with every dead time.
 // The relay switched on both sides, so that each side overshoots by 1 at least.
+// The output still is the low one of the cycle that ends. The next relay is as
+// large as the swing and the range allow.
 static void recentre(FIXPID_DATA struct fixpid_autotune *self)
 {
-    const uint16_t relay_counts = fixpid_autotune_span(self, SELF.state);
+    const uint16_t low = (uint16_t)SELF.output;
+    const uint16_t relay_counts =
+        (uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state, AT_HIGH) -
+                   low);
     const uint16_t below =
         (uint16_t)(fixpid_negated((uint16_t)SELF.lowest) - SELF.edge);
     const uint16_t over =
         (uint16_t)((uint16_t)SELF.highest - SELF.edge + below);
-    const uint16_t widest = (uint16_t)((uint16_t)SELF.config.output_max -
-                                       (uint16_t)SELF.config.output_min);
-    uint32_t amplitude =
-        amplitude_for(wanted_overshoot(self), over, relay_counts);
+    const uint16_t range = range_of(self);
+    // to the nearest: 65535 * 255 + 128 < 2^24
+    const uint32_t held_q8 =
+        ((uint32_t)relay_counts * share(below, over)) + 128u;
+    uint32_t next = in_proportion(relay_counts, largest_overshoot(self), over);
+    uint16_t half;
 
-    SELF.centre =
-        (int16_t)(uint16_t)((uint16_t)fixpid_autotune_level(self, SELF.state,
-                                                            AT_LOW) +
-                            counts_of(relay_counts, share(below, over)));
-    if (amplitude > widest) { // or the two relays would not differ
-        amplitude = widest;
+    SELF.centre = (int16_t)(uint16_t)(low + (uint16_t)(held_q8 >> 8));
+    if (next > range) {
+        next = range;
     }
-    SELF.half = (uint16_t)((amplitude * 85u) >> 8); // a third
-    if (SELF.half < 2u) {
-        SELF.half = 2;
+    half = half_of((uint16_t)next);
+    if (half > room(self)) {
+        half = room(self);
     }
+    set_half(self, half);
+    half = (uint16_t)(SELF.half + (uint16_t)(SELF.half << 1));
+    if (half > range) {
+        half = range;
+    }
+    fit_edge(self, in_proportion(over, half, relay_counts));
+}
+
+// The relay is much like the one that it was made from, whose centre and half
+// these are. The centre has moved by three halves at most.
+static bool fits(FIXPID_DATA const struct fixpid_autotune *self,
+                 uint16_t centre, uint16_t half)
+{
+    const uint16_t twice = (uint16_t)(half << 1);
+
+    if ((uint16_t)((uint16_t)SELF.centre - centre + half) > twice) {
+        return false;
+    }
+    if (SELF.half > twice) {
+        return false;
+    }
+    return half <= (uint16_t)(SELF.half << 1);
+}
+
+// A relay that fits measures; one that does not is the start of a better one.
+static void next_relay(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint16_t centre = (uint16_t)SELF.centre;
+    const uint16_t half = SELF.half;
+
+    recentre(self);
+    SELF.averaged = FRESH;
+    if (SELF.state == PHASE_FIND) {
+        SELF.state = PHASE_CENTRE;
+    } else if ((SELF.seen >= SEEN_FITTED) || fits(self, centre, half)) {
+        SELF.state = PHASE_FIRST;
+        fixpid_autotune_clear(&SELF.sums[0]);
+    }
+}
+
+// on / steps is others_on / others, within `allowed` of these steps. Each
+// number is at most 32767, and `allowed` 1024.
+static bool same_share(uint16_t on, uint16_t steps, uint16_t others_on,
+                       uint16_t others, uint16_t allowed)
+{
+    const uint32_t within = (uint32_t)allowed * others;
+    const uint32_t apart =
+        ((uint32_t)on * others) - ((uint32_t)others_on * steps);
+
+    return (apart + within) <= (within << 1);
+}
+
+// The half at high is the same part of the cycle as it was, within a 32nd: the
+// output that holds the setpoint is the same. The sums have this cycle, too.
+static bool same_load(FIXPID_DATA const struct fixpid_autotune *self)
+{
+    return same_share((uint16_t)(SELF.last_period - SELF.elapsed),
+                      SELF.last_period, SELF.sums[0].on_steps,
+                      SELF.sums[0].steps,
+                      (uint16_t)((SELF.last_period >> 5) + 1u));
 }
 
 static uint16_t distance(uint16_t a, uint16_t b)
@@ -203,23 +299,6 @@ static uint16_t distance(uint16_t a, uint16_t b)
         return (uint16_t)(b - a);
     }
     return (uint16_t)(a - b);
-}
-
-// The half at high is as long as it was before, within a 32nd of the period:
-// the output that holds the setpoint is the same. The sums have this cycle,
-// too.
-static bool same_load(FIXPID_DATA const struct fixpid_autotune *self)
-{
-    const uint16_t on = (uint16_t)(SELF.last_period - SELF.elapsed);
-    const uint32_t others = (uint32_t)SELF.config.cycles + SELF.averaged;
-    const uint32_t cycles = others + 1u; // 8 at most
-    const uint32_t all = cycles * on;
-    const uint32_t sum = SELF.sums[0].on_steps;
-    const uint32_t more = (all > sum) ? all : sum;
-    const uint32_t less = (all > sum) ? sum : all;
-    const uint16_t allowed = (uint16_t)((SELF.last_period >> 5) + 1u);
-
-    return (more - less) <= (others * allowed);
 }
 
 // The cycle that ends is like the one before it, or in the last phase like
@@ -270,7 +349,7 @@ static uint8_t ending(FIXPID_DATA const struct fixpid_autotune *self)
     if (SELF.last_period < LAST_PERIOD_MIN) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
-    if (swing < (uint16_t)((uint16_t)(band << 2) + band)) { // 7680 at most
+    if (swing < (uint16_t)(band << 2)) { // 6144 at most
         return FIXPID_AUTOTUNE_TOO_SMALL;
     }
     return FIXPID_AUTOTUNE_DONE;
@@ -286,13 +365,14 @@ static void start_average_again(FIXPID_DATA struct fixpid_autotune *self)
     SELF.averaged = 0;
 }
 
-// The last cycles were as long at high as the first, within a 128th of both.
+// The last cycles were at high for the same part as the first, within a 64th.
 static bool same_sums(FIXPID_DATA const struct fixpid_autotune *self)
 {
-    const uint16_t twice = (uint16_t)(SELF.first_on << 1);
+    const uint16_t last = (uint16_t)(SELF.sums[0].steps - SELF.first_steps);
 
-    return distance(SELF.sums[0].on_steps, twice) <=
-           (uint16_t)((SELF.sums[0].steps >> 7) + 2u);
+    return same_share((uint16_t)(SELF.sums[0].on_steps - SELF.first_on), last,
+                      SELF.first_on, SELF.first_steps,
+                      (uint16_t)((last >> 6) + 2u));
 }
 
 // The cycles of a relay are complete, or one more is averaged.
@@ -312,6 +392,7 @@ static void average(FIXPID_DATA struct fixpid_autotune *self)
     }
     if (SELF.state == PHASE_FIRST) {
         SELF.first_on = SELF.sums[0].on_steps;
+        SELF.first_steps = SELF.sums[0].steps;
         fixpid_autotune_clear(&SELF.sums[1]);
     }
     SELF.averaged = FRESH;
@@ -331,12 +412,7 @@ static void end_cycle(FIXPID_DATA struct fixpid_autotune *self)
     } else if (SELF.averaged == FRESH) {
         SELF.averaged = 0;
     } else if (SELF.state < PHASE_FIRST) {
-        recentre(self);
-        SELF.averaged = FRESH;
-        SELF.state++;
-        if (SELF.state == PHASE_FIRST) {
-            fixpid_autotune_clear(&SELF.sums[0]);
-        }
+        next_relay(self);
     } else if (regular(self, before)) {
         average(self);
     } else {
@@ -356,14 +432,52 @@ void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
     }
 }
 
-// The relay does not hold the setpoint any more: from the whole range again.
-void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self)
+// A process at rest near the setpoint is held by the output at rest, so that a
+// small relay about that is enough. Otherwise the whole range finds the output.
+void fixpid_autotune_start_relay(FIXPID_DATA struct fixpid_autotune *self)
 {
-    fixpid_autotune_clear(&SELF.sums[0]);
+    const uint16_t band = fixpid_autotune_noise_band(self);
+    const uint16_t eight_bands = (uint16_t)(band << 3);
+    const uint16_t off =
+        (uint16_t)((SELF.highest < 0) ? -SELF.highest : SELF.highest);
+
+    SELF.edge = band;
+    SELF.centre = SELF.config.output_rest;
     SELF.state = PHASE_FIND;
+    if (off < (uint16_t)(eight_bands + eight_bands + eight_bands)) {
+        if (room(self) != 0u) {
+            SELF.state = PHASE_CENTRE;
+            set_half(self, half_of((uint16_t)(range_of(self) >> 3)));
+        }
+    }
+    fixpid_autotune_drive(self);
+}
+
+// The output that holds the setpoint lies beyond the present one: the centre
+// moves there and half of a relay of twice the size further.
+void fixpid_autotune_widen_relay(FIXPID_DATA struct fixpid_autotune *self)
+{
+    const uint8_t side = SELF.side;
+
+    if (SELF.output == fixpid_autotune_level(self, PHASE_FIND, side)) {
+        return; // the setpoint is out of reach, or slow to reach
+    }
+    SELF.seen = (uint8_t)(SELF.seen + SEEN_LOST);
+    if (SELF.seen >= SEEN_MAX) {
+        fixpid_autotune_finish(self, FIXPID_AUTOTUNE_IRREGULAR);
+        return;
+    }
+    if (SELF.half < HALF_DOUBLED) {
+        SELF.half = (uint16_t)(SELF.half << 1);
+    }
+    SELF.centre = SELF.output;
+    // one half away: high of the second phase, low of the first
+    SELF.centre =
+        fixpid_autotune_level(self, (uint8_t)(PHASE_FIRST + side), side);
+    fixpid_autotune_clear(&SELF.sums[0]);
+    SELF.state = PHASE_CENTRE;
     SELF.averaged = FRESH;
     SELF.period = 0;
     SELF.elapsed = 1;
-    SELF.seen = (uint8_t)(SELF.seen + SEEN_LOST);
     fixpid_autotune_drive(self);
 }

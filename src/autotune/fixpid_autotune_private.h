@@ -14,7 +14,7 @@
 // `state` while the experiment runs; each is above every status.
 #define PHASE_NOISE 16u
 #define PHASE_FIND 17u   // the whole range: where is the setpoint?
-#define PHASE_CENTRE 18u // again, smaller
+#define PHASE_CENTRE 18u // about the output that holds it
 #define PHASE_FIRST 19u  // two halves up, one down
 #define PHASE_SECOND 20u // one up, two down
 #define PHASE_THIRD 21u  // the first again: is the load the same?
@@ -31,11 +31,11 @@
 #define fixpid_autotune_span FIXPID_SUFFIXED(autotune, span)
 #define fixpid_autotune_legal FIXPID_SUFFIXED(autotune, legal)
 #define fixpid_autotune_noise_band FIXPID_SUFFIXED(autotune, noise_band)
-#define fixpid_autotune_wanted_swing FIXPID_SUFFIXED(autotune, wanted_swing)
+#define fixpid_autotune_start_relay FIXPID_SUFFIXED(autotune, start_relay)
 #define fixpid_autotune_drive FIXPID_SUFFIXED(autotune, drive)
 #define fixpid_autotune_finish FIXPID_SUFFIXED(autotune, finish)
 #define fixpid_autotune_end_cycle FIXPID_SUFFIXED(autotune, end_cycle)
-#define fixpid_autotune_find_again FIXPID_SUFFIXED(autotune, find_again)
+#define fixpid_autotune_widen_relay FIXPID_SUFFIXED(autotune, widen_relay)
 
 bool fixpid_autotune_legal(const struct fixpid_autotune_config *config);
 
@@ -57,9 +57,9 @@ uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
 uint16_t fixpid_autotune_noise_band(
     FIXPID_DATA const struct fixpid_autotune *self);
 
-// Of the measurement, peak to peak: 8..36864.
-uint16_t fixpid_autotune_wanted_swing(
-    FIXPID_DATA const struct fixpid_autotune *self, uint16_t noise_band);
+// Starts the relay once the noise is measured, at the deviation that `highest`
+// has.
+void fixpid_autotune_start_relay(FIXPID_DATA struct fixpid_autotune *self);
 
 // Outputs what phase and side ask for.
 void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self);
@@ -73,7 +73,8 @@ void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
 void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
                                int16_t deviation);
 
-// The relay does not hold the setpoint any more: from the whole range again.
-void fixpid_autotune_find_again(FIXPID_DATA struct fixpid_autotune *self);
+// The relay, in PHASE_CENTRE or later, does not reach the setpoint: on with a
+// wider one beyond the present output, unless the range ends there.
+void fixpid_autotune_widen_relay(FIXPID_DATA struct fixpid_autotune *self);
 
 #endif

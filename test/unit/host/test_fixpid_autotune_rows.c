@@ -18,7 +18,7 @@ TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_result.c")
 
-#define ROWS 317
+#define ROWS 311
 #define RECORDS 41
 #define LINE_SIZE 1024
 
