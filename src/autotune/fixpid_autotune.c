@@ -219,7 +219,7 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
     }
     if (SELF.state >= PHASE_CENTRE) {
         if ((SELF.elapsed >> 2) > longest_cycle(self)) {
-            fixpid_autotune_widen_relay(self);
+            fixpid_autotune_lose_cycle(self);
         }
     }
 }

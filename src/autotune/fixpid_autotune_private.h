@@ -31,11 +31,14 @@
 #define fixpid_autotune_span FIXPID_SUFFIXED(autotune, span)
 #define fixpid_autotune_legal FIXPID_SUFFIXED(autotune, legal)
 #define fixpid_autotune_noise_band FIXPID_SUFFIXED(autotune, noise_band)
-#define fixpid_autotune_start_relay FIXPID_SUFFIXED(autotune, start_relay)
+#define fixpid_autotune_same_share FIXPID_SUFFIXED(autotune, same_share)
 #define fixpid_autotune_drive FIXPID_SUFFIXED(autotune, drive)
+#define fixpid_autotune_start_relay FIXPID_SUFFIXED(autotune, start_relay)
+#define fixpid_autotune_fit_relay FIXPID_SUFFIXED(autotune, fit_relay)
+#define fixpid_autotune_widen_relay FIXPID_SUFFIXED(autotune, widen_relay)
 #define fixpid_autotune_finish FIXPID_SUFFIXED(autotune, finish)
 #define fixpid_autotune_end_cycle FIXPID_SUFFIXED(autotune, end_cycle)
-#define fixpid_autotune_widen_relay FIXPID_SUFFIXED(autotune, widen_relay)
+#define fixpid_autotune_lose_cycle FIXPID_SUFFIXED(autotune, lose_cycle)
 
 bool fixpid_autotune_legal(const struct fixpid_autotune_config *config);
 
@@ -57,12 +60,25 @@ uint16_t fixpid_autotune_span(FIXPID_DATA const struct fixpid_autotune *self,
 uint16_t fixpid_autotune_noise_band(
     FIXPID_DATA const struct fixpid_autotune *self);
 
-// Starts the relay once the noise is measured, at the deviation that `highest`
-// has.
-void fixpid_autotune_start_relay(FIXPID_DATA struct fixpid_autotune *self);
+// |on * others - others_on * steps| <= allowed * others: two parts of cycles
+// are the same, within `allowed` of the steps of the first one.
+// pre: allowed <= 1024, and the other numbers are at most 32767
+bool fixpid_autotune_same_share(uint16_t on, uint16_t steps, uint16_t others_on,
+                                uint16_t others, uint16_t allowed);
 
 // Outputs what phase and side ask for.
 void fixpid_autotune_drive(FIXPID_DATA struct fixpid_autotune *self);
+
+// Starts the relay when the noise is measured. `highest` is the deviation.
+void fixpid_autotune_start_relay(FIXPID_DATA struct fixpid_autotune *self);
+
+// Centre, half and hysteresis of the next relay, from the cycle that has just
+// ended in PHASE_FIND or PHASE_CENTRE.
+void fixpid_autotune_fit_relay(FIXPID_DATA struct fixpid_autotune *self);
+
+// PHASE_CENTRE with twice the relay beyond the present output, on whose side
+// the output is that holds the setpoint.
+void fixpid_autotune_widen_relay(FIXPID_DATA struct fixpid_autotune *self);
 
 // Ends the experiment.
 void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
@@ -73,8 +89,8 @@ void fixpid_autotune_finish(FIXPID_DATA struct fixpid_autotune *self,
 void fixpid_autotune_end_cycle(FIXPID_DATA struct fixpid_autotune *self,
                                int16_t deviation);
 
-// The relay, in PHASE_CENTRE or later, does not reach the setpoint: on with a
-// wider one beyond the present output, unless the range ends there.
-void fixpid_autotune_widen_relay(FIXPID_DATA struct fixpid_autotune *self);
+// The relay has not switched for far longer than a cycle, in PHASE_CENTRE or
+// later: on with a wider one, unless the range ends at the present output.
+void fixpid_autotune_lose_cycle(FIXPID_DATA struct fixpid_autotune *self);
 
 #endif

@@ -10,6 +10,7 @@ struct fixpid_autotune_record nondet_record(void);
 
 #include "autotune/fixpid_autotune.c"
 #include "autotune/fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune_relay.c"
 #include "autotune/fixpid_autotune_more.c"
 #include "autotune/fixpid_autotune_record.c"
 

@@ -11,6 +11,7 @@ static bool share_turn(uint8_t *quotient, uint16_t *rest, uint8_t *bit,
 #define for(head) for (head) if (share_turn(&quotient, &rest, &bit, whole))
 // clang-format on
 #include "autotune/fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune_relay.c"
 #undef for
 
 // The outputs of every relay, and how far they are apart.

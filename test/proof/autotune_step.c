@@ -6,6 +6,7 @@
 
 #include "autotune/fixpid_autotune.c"
 #include "autotune/fixpid_autotune_cycle.c"
+#include "autotune/fixpid_autotune_relay.c"
 
 void prove_deviation(void)
 {

@@ -6,6 +6,7 @@
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_relay.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_result.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/experiment")

@@ -29,6 +29,7 @@ TEST_SOURCE_FILE("src/pid/fixpid_pid_track.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
+TEST_SOURCE_FILE("src/autotune/fixpid_autotune_relay.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
 

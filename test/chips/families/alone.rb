@@ -10,7 +10,7 @@ require_relative '../../../tools/lib/measure/meters'
 module Alone
   FOLDER = 'test/chips/families/alone'
   BARE = "#{FOLDER}/bare.c".freeze
-  EXPERIMENT = %w[autotune autotune_cycle autotune_more].freeze
+  EXPERIMENT = %w[autotune autotune_cycle autotune_more autotune_relay].freeze
   ALONE = [*EXPERIMENT, 'autotune_record'].freeze
   WHOLE = [*EXPERIMENT, 'autotune_result'].freeze
   PARTS = { 'nothing' => [%w[-DBARE_NOTHING], []], 'alone' => [[], ALONE], 'whole' => [%w[-DBARE_WHOLE], WHOLE] }.freeze
