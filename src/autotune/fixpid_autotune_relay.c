@@ -116,15 +116,18 @@ static uint32_t in_proportion_q8(uint16_t value, uint16_t part_counts,
     return scaled << 8;
 }
 
-// The difference of the products, and what is allowed, added: 0 to twice that,
-// which is below 2^26. Without the sum it is within 2^30.
+// From there to the most that is allowed it is at most twice that. The products
+// are below 2^31.
 bool fixpid_autotune_same_share(uint16_t on, uint16_t steps, uint16_t others_on,
                                 uint16_t others, uint16_t allowed)
 {
     const uint32_t most = (uint32_t)(uint16_t)(on + allowed) * others;
+    const uint32_t there = (uint32_t)others_on * steps;
 
-    return (most - ((uint32_t)others_on * steps)) <=
-           ((uint32_t)(uint16_t)(allowed << 1) * others);
+    if (there > most) {
+        return false;
+    }
+    return (most - there) <= ((uint32_t)(uint16_t)(allowed << 1) * others);
 }
 
 static uint16_t smaller(uint16_t a, uint16_t b)

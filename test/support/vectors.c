@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define LINE_SIZE 1024
+
 unsigned vectors_columns;
 
 static FILE *file;
@@ -18,7 +20,7 @@ static void stop(const char *why)
 
 void vectors_open_file(const char *path)
 {
-    char header[512];
+    char header[LINE_SIZE];
 
     if (file != NULL) {
         (void)fclose(file);
@@ -41,7 +43,7 @@ void vectors_open(const char *name)
 
 bool vectors_next(int32_t columns[VECTORS_COLUMNS_MAX])
 {
-    char line[512];
+    char line[LINE_SIZE];
     char *rest = line;
     bool more = true;
 

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define VECTORS_COLUMNS_MAX 41
+#define VECTORS_COLUMNS_MAX 77
 
 // The first row comes next. `name` is the file's, without folder and ending.
 void vectors_open(const char *name);

@@ -97,9 +97,9 @@ module Cores
       said[/FAILED TEST SUMMARY.*?OVERALL/m] || said.lines.grep(/EXCEPTION|ERROR|error:|undefined reference|region/).first(20).join
     end
 
-    # The recorded rows as C, but those of experiments, whose program is test/model/autotune's.
+    # The recorded rows as C.
     def vectors
-      files = Dir.glob('test/support/vectors/*.csv').grep_v(/autotune/).sort
+      files = Dir.glob('test/support/vectors/*.csv').sort
       FileUtils.mkdir_p("#{WORK}/vectors")
       File.write("#{WORK}/vectors/vectors.c", Open3.capture2('ruby', "#{FOLDER}/vectors_table.rb", *files).first)
     end

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random experiments of fixpid_autotune on plants in 32-bit arithmetic, which
-// every chip has. What is recorded is replayed by test/model/autotune.
+// every chip has. What is recorded is for a unit test.
 #include "calls_autotune.h"
 #include "calls.h"
 #include "numbers.h"
@@ -100,13 +100,19 @@ static void answer(uint32_t value)
     calls_answer(value, value);
 }
 
+// Which is at most that.
+static void answer_within(uint32_t value, uint32_t most)
+{
+    calls_answer(value, DEFINED((value > most) ? most : value, value));
+}
+
 static void ask_progress(void)
 {
     struct fixpid_autotune_stage stage;
 
     fixpid_autotune_progress(&tuner, &stage);
     answer(stage.phase);
-    answer(stage.done);
+    answer_within(stage.done, stage.expected);
     answer(stage.expected);
     answer(stage.period);
 }
@@ -127,26 +133,31 @@ static void ask_model(void)
 
 static void ask_gains(uint8_t rule, uint8_t robustness_q4)
 {
+    const uint8_t reason = fixpid_autotune_reason(&tuner, rule, robustness_q4);
     struct fixpid_pid_config gains = {{0, 0, 0, 0}, 0,     0,    0, 0, 0,
                                       false,        false, false};
+    const uint32_t given =
+        fixpid_autotune_result(&tuner, rule, robustness_q4, &gains) ? 1u : 0u;
 
-    answer(fixpid_autotune_result(&tuner, rule, robustness_q4, &gains) ? 1u
-                                                                       : 0u);
-    answer(gains.gains.kp_q8);
-    answer(gains.gains.ki_q24);
-    answer(gains.gains.kd_q8);
-    answer(gains.gains.derivative_filter);
+    calls_answer(given, DEFINED(reason == FIXPID_AUTOTUNE_NO_REASON, given));
+    answer_within(gains.gains.kp_q8, FIXPID_PID_KP_MAX);
+    answer_within(gains.gains.ki_q24, FIXPID_PID_KI_MAX);
+    answer_within(gains.gains.kd_q8, FIXPID_PID_KD_MAX);
+    answer_within(gains.gains.derivative_filter, FIXPID_PID_FILTER_MAX);
     answer(gains.setpoint_weight_q8);
     answer(gains.proportional_on_measurement ? 1u : 0u);
-    answer(fixpid_autotune_reason(&tuner, rule, robustness_q4));
+    answer(reason);
 }
 
-// The bytes of a record are the same on each machine. What only measures the
-// experiment and its result leaves the record out.
+// The bytes of a record are the same on each machine, and it is not unpacked
+// with another period. What only measures the experiment and its result leaves
+// the record out.
 #ifdef CALLS_RECORD
 static void ask_record(void)
 {
     static struct fixpid_autotune_record record;
+    struct fixpid_autotune_stage before;
+    struct fixpid_autotune_stage stage;
     const bool packed = fixpid_autotune_pack(&tuner, &record);
 
     answer(packed ? 1u : 0u);
@@ -154,7 +165,10 @@ static void ask_record(void)
         for (uint8_t i = 0; i < FIXPID_AUTOTUNE_RECORD_SIZE; i++) {
             answer(record.bytes[i]);
         }
+        fixpid_autotune_progress(&tuner, &before);
         answer(fixpid_autotune_unpack(&tuner, &record) ? 1u : 0u);
+        fixpid_autotune_progress(&tuner, &stage);
+        calls_answer(stage.period, DEFINED(before.period, stage.period));
     }
 }
 #define ASK_RECORD() ask_record()
@@ -220,19 +234,22 @@ void calls_random(uint32_t count)
     uint32_t steps = 0;
 
     while (steps < count) {
-        int16_t output = 0;
+        uint32_t left; // steps until it must have ended
 
         draw();
+        left = 34u + 97u * config.timeout_steps;
         answer(fixpid_autotune_init(&tuner, &config));
         do {
             const int16_t target =
                 (int16_t)(config.reverse ? FULL_SCALE - setpoint : setpoint);
+            const int16_t output = step(target, measure());
 
-            output = step(target, measure());
-            answer((uint32_t)(int32_t)output);
+            answer_within((uint16_t)output, (uint16_t)config.output_max);
+            answer_within(1u, left);
             ask_progress();
             move(output);
             steps++;
+            left--;
         } while (fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING);
         ask_results();
     }

@@ -29,7 +29,7 @@ EVERY_BIT = %w[-DFIXPID_AN964_TERM_LIMIT=255 -DFIXPID_AN964_8BIT_TERM_LIMIT=127]
 # tcc does not fold real constants, and takes no branch for __GNUC__.
 OF_GCC = %r{\Ainclude/|/fixpid_(?:bits|signed\w*)\.h\z}.freeze
 OF_CHIPS = 'src/*/*_{arm,avr,pic14,pic18,sdcc}.[ch]'.freeze
-FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Isim/link -Itest/tools/cost -Itest/model/autotune].freeze
+FLAGS = %w[-std=gnu99 -O0 -w -DUNITY_SUPPORT_64 -DTEST_STRIDE=31 -Itest/support -Isim/link -Itest/tools/cost -DTEST_STEPS_MAX=1500].freeze
 CONDITION = /\A[ \t]*#[ \t]*(?:if|el|endif)/.freeze
 COMPLAINT = /: (?:fatal )?error: |: undefined reference to |: multiple definition of /.freeze
 

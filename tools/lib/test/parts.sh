@@ -95,10 +95,6 @@ part_limits() {
     limits most 30000 255 1023 8191 127
 }
 
-part_autotune() {
-    runner test/model/autotune/run daily
-}
-
 part_fuzz() {
     runner test/fuzz/run daily
 }
@@ -255,7 +251,7 @@ part_variants() {
         run_mode sanitize pointer "$form" test/unit/sanitize/sanitize.yml
     done
     for path in use/consumers use/port_check use/packages use/firmware use/xc8_check use/notes \
-        use/python chips/cores chips/target model/autotune web/site web/tuner; do
+        use/python chips/cores chips/target web/site web/tuner; do
         runner "test/$path/run" weekly
     done
 }
