@@ -179,6 +179,13 @@ static const struct operation wave[] FIXPID_AUTOTUNE_FLASH = {
     {END, 0, 0, 0},
 };
 
+// A PI is for the quicker one of two processes.
+static const struct operation quicker[] FIXPID_AUTOTUNE_FLASH = {
+    {K, K0, GREATER, K1},
+    {Q, ONE, TIMES, HALF},
+    {END, 0, 0, 0},
+};
+
 // R = min(KM DU / DY / 2, 63/64)
 static const struct operation static_gain[] FIXPID_AUTOTUNE_FLASH = {
     {X, DU, OVER, DY},
@@ -334,8 +341,17 @@ static const struct operation pi_rule[] FIXPID_AUTOTUNE_FLASH = {
     {END, 0, 0, 0},
 };
 
+// With Y = min(T, TI) / KP: KP + 0.2 FLAT / ROBUST, TI = Y KP. A gain that is
+// too small by n makes T and TI n times too short. KP has a floor, so that the
+// loop is not left with an integral part alone, which would be n times too
+// large. KI, which is KP / TI, stays what it was.
 static const struct operation pi_of_lag[] FIXPID_AUTOTUNE_FLASH = {
-    {TI, T, LESSER, TI},
+    {Y, T, LESSER, TI},
+    {Y, Y, OVER, KP},
+    {X, FLAT, TIMES, C0_2},
+    {X, X, OVER, ROBUST},
+    {KP, KP, PLUS, X},
+    {TI, Y, TIMES, KP},
     {END, 0, 0, 0},
 };
 
@@ -596,21 +612,8 @@ static bool measure_relay(FIXPID_DATA struct sheet *sheet,
     return true;
 }
 
-// The wave that both relays tell of. A cause why it is none that the rules
-// serve.
-static uint8_t measure_wave(FIXPID_DATA struct sheet *sheet,
-                            FIXPID_DATA const struct fixpid_autotune *self)
+static uint8_t refuse_for_pid(FIXPID_DATA struct sheet *sheet)
 {
-    if (!measure_relay(sheet, self, 1)) {
-        return FIXPID_AUTOTUNE_SHAPE;
-    }
-    calculate(sheet, keep_second);
-    if (!measure_relay(sheet, self, 0)) {
-        return FIXPID_AUTOTUNE_SHAPE;
-    }
-    set(sheet, W, swing(self), 0);
-    set(sheet, NOISE, (SELF.noise * UINT32_C(3)) >> 2, -4);
-    calculate(sheet, wave);
     if (!above(sheet, ROUND, C0_3)) {
         return FIXPID_AUTOTUNE_SHAPE;
     }
@@ -623,9 +626,48 @@ static uint8_t measure_wave(FIXPID_DATA struct sheet *sheet,
     return FIXPID_AUTOTUNE_NO_REASON;
 }
 
+// The wave that both relays tell of. A cause why it is none that the rule
+// serves.
+static uint8_t measure_wave(FIXPID_DATA struct sheet *sheet,
+                            FIXPID_DATA const struct fixpid_autotune *self,
+                            uint8_t rule)
+{
+    if (!measure_relay(sheet, self, 1)) {
+        return FIXPID_AUTOTUNE_SHAPE;
+    }
+    calculate(sheet, keep_second);
+    if (!measure_relay(sheet, self, 0)) {
+        return FIXPID_AUTOTUNE_SHAPE;
+    }
+    set(sheet, W, swing(self), 0);
+    set(sheet, NOISE, (SELF.noise * UINT32_C(3)) >> 2, -4);
+    calculate(sheet, wave);
+    if (rule == (uint8_t)FIXPID_AUTOTUNE_PID) {
+        return refuse_for_pid(sheet);
+    }
+    if (above(sheet, Q, HALF)) {
+        calculate(sheet, quicker);
+    }
+    return FIXPID_AUTOTUNE_NO_REASON;
+}
+
+// More measurement is held with less output. Where the slopes differ, the means
+// shift by themselves, and a PI does not mind.
+static bool runs_away(FIXPID_DATA struct sheet *sheet, uint8_t rule)
+{
+    if (!above(sheet, R, C0_06)) {
+        return false;
+    }
+    if (rule == (uint8_t)FIXPID_AUTOTUNE_PID) {
+        return true;
+    }
+    return !above(sheet, Q, C0_2);
+}
+
 // R, as the means have it. False if the process runs away.
 static bool measure_gain(FIXPID_DATA struct sheet *sheet,
-                         FIXPID_DATA const struct fixpid_autotune *self)
+                         FIXPID_DATA const struct fixpid_autotune *self,
+                         uint8_t rule)
 {
     const int32_t measured =
         deviation_q8(&SELF.sums[0]) - deviation_q8(&SELF.sums[1]);
@@ -637,7 +679,7 @@ static bool measure_gain(FIXPID_DATA struct sheet *sheet,
         set(sheet, DY, (uint32_t)measured, 0);
         calculate(sheet, static_gain);
         if (driven <= 0) {
-            if (above(sheet, R, C0_06)) {
+            if (runs_away(sheet, rule)) {
                 return false;
             }
             clear(sheet, R);
@@ -667,14 +709,15 @@ static void limit_ratio(FIXPID_DATA struct sheet *sheet)
 // The process of an experiment that is done, SLOPE to C. A cause why there is
 // none.
 static uint8_t identify(FIXPID_DATA struct sheet *sheet,
-                        FIXPID_DATA const struct fixpid_autotune *self)
+                        FIXPID_DATA const struct fixpid_autotune *self,
+                        uint8_t rule)
 {
-    const uint8_t cause = measure_wave(sheet, self);
+    const uint8_t cause = measure_wave(sheet, self, rule);
 
     if (cause != (uint8_t)FIXPID_AUTOTUNE_NO_REASON) {
         return cause;
     }
-    if (!measure_gain(sheet, self)) {
+    if (!measure_gain(sheet, self, rule)) {
         return FIXPID_AUTOTUNE_RUNS_AWAY;
     }
     limit_ratio(sheet);
@@ -732,7 +775,8 @@ bool fixpid_autotune_model(FIXPID_DATA const struct fixpid_autotune *self,
     if (SELF.state != (uint8_t)FIXPID_AUTOTUNE_DONE) {
         return false;
     }
-    if (identify(&sheet, self) != (uint8_t)FIXPID_AUTOTUNE_NO_REASON) {
+    if (identify(&sheet, self, FIXPID_AUTOTUNE_PI) !=
+        (uint8_t)FIXPID_AUTOTUNE_NO_REASON) {
         return false;
     }
     process->gain_q8 = FIXPID_AUTOTUNE_INTEGRATING;
@@ -836,7 +880,7 @@ static uint8_t find_gains(FIXPID_DATA const struct fixpid_autotune *self,
     if (!rule_legal(rule, robustness_q4)) {
         return FIXPID_AUTOTUNE_NOT_LEGAL;
     }
-    cause = identify(&sheet, self);
+    cause = identify(&sheet, self, rule);
     if (cause != (uint8_t)FIXPID_AUTOTUNE_NO_REASON) {
         return cause;
     }
