@@ -45,18 +45,13 @@
 
 FIXPID_C_BEGIN
 
-// What fixpid_guard_init takes. With a model of the plant, as
-// fixpid_autotune_model has it, that is the gain K in counts of the measurement
-// for one of the output, the dead time L in steps, the slope in counts per step
-// for one of the output, and the noise s in counts, the rule is
-//   band     = ceil(max(8 s + 4, 2 K)); 8 s + 4 if the plant integrates
-//   patience = ceil(2 L + 20 band / (slope * (output_max - output_min))), at
-//              least 4
-//   noisy    if s >= 1 and patience >= 16
-// Half of that patience raises false alarms. Without a model: three times as
-// many counts as the reading jitters, peak to peak, and twice the time in which
-// full output moves it by a band just below reach_max. A loop without an
-// integral needs a band above its standing offset.
+// What fixpid_guard_init takes. If a tuner has measured the plant,
+// fixpid_guard_from_model finds band, patience and `noisy`. Otherwise
+//   band      1.5 times as much as the reading jitters at rest, peak to peak;
+//             at least 4, and what two counts of the output move in the end
+//   patience  twice as many steps as full output takes, from cold, to move the
+//             reading by ten bands
+// A loop without an integral needs a band above its standing offset.
 struct fixpid_guard_config {
     // The controller's range, output_min < output_max. An output at or beyond
     // an end counts as at that end.
@@ -69,11 +64,9 @@ struct fixpid_guard_config {
     int16_t measurement_min;
     int16_t measurement_max;
 
-    // Where the ends of the output surely bring the process, even in the
-    // warmest room and at the lowest supply, within the readings above and
-    // farther apart than two bands. A setpoint beyond counts as this, so that
-    // "off" and "full" raise no alarm. If both are 0, they are the readings'
-    // ends.
+    // Where the ends of the output surely bring the process, within the
+    // readings above and farther apart than two bands. A setpoint beyond counts
+    // as this, so that "off" and "full" raise no alarm.
     int16_t reach_min;
     int16_t reach_max;
 
@@ -131,6 +124,35 @@ struct fixpid_guard {
     uint8_t swings;
     uint8_t strikes;
 };
+
+// What a tuner has found of the plant: these are fields of struct
+// fixpid_reaction_process, in this order and all that it has, and of struct
+// fixpid_autotune_process.
+struct fixpid_guard_model {
+    uint32_t slope_q24; // counts per step for one of the output, x 2^24
+    uint32_t dead_q4;   // the delay L in steps, x 16
+    uint16_t noise_q4;  // the noise s in counts, x 16
+
+    // The gain K, counts of the measurement for one of the output, x 256. 0
+    // where it is not known; FIXPID_AUTOTUNE_INTEGRATING counts as 0.
+    uint32_t gain_q8;
+
+    // The band to take, as where a coarse or sticking actuator makes the
+    // reading swing, or without an integral. 0: by the rule below.
+    uint16_t band;
+};
+
+// Writes band, patience and `noisy` of a configuration that has its output's
+// range, and nothing else:
+//   band     = ceil(max(8 s + 4, 2 K)), or the one to take
+//   patience = ceil(2 L + 20 band / (slope * (output_max - output_min))), at
+//              least 4; half of it raises false alarms
+//   noisy      if s >= 1 and patience >= 16
+// False, and nothing written, if the slope is 0, the output has no range, or
+// band or patience would be above 32767: a slower rate helps. It divides, and
+// is in fixpid_guard_more.c, which a firmware without it does not need.
+bool fixpid_guard_from_model(struct fixpid_guard_config *config,
+                             const struct fixpid_guard_model *model);
 
 // Nothing is known yet, and no flag is set. A value outside its range above is
 // refused: the result is false, and until a good init the flags are

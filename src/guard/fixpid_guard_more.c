@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What a guard takes for a plant that a tuner has measured. It has its own file
+// because SDCC links whole object files.
+#include "fixpid_guard.h"
+
+#include "../common/fixpid_difference.h"
+
+#define BAND_MAX 32767u
+#define PATIENCE_MIN 4u
+#define PATIENCE_MAX 32767u
+#define NOISE_MIN_Q4 16u // a count
+#define NOISY_PATIENCE_MIN 16u
+
+// As fixpid_autotune has it for a plant without a static gain.
+#define INTEGRATING UINT32_C(0xFFFFFFFF)
+
+// More eighths of a step than any patience has.
+#define TOO_MUCH ((PATIENCE_MAX + 1u) * UINT32_C(8))
+
+#define HIGHEST UINT32_C(0x80000000)
+
+// 64 bits, in two words: SDCC has no such integers for a PIC.
+struct wide {
+    uint32_t high;
+    uint32_t low;
+};
+
+// value = floor(value / divisor). pre: divisor >= 1
+static void divide(struct wide *value, uint32_t divisor)
+{
+    uint32_t rest = 0; // below the divisor before and after each turn
+    uint8_t turn;
+
+    // The quotient's bits enter `low` as the value's leave `high`.
+    for (turn = 64; turn != 0u; turn--) {
+        // 2 rest + bit needs 33 bits, these do not: it is at least the divisor
+        // where the one is at least the other.
+        uint32_t more = rest;                  // <= divisor
+        const uint32_t lacks = divisor - rest; // >= 1
+
+        if ((value->high & HIGHEST) != 0u) {
+            more++;
+        }
+        value->high = (value->high & ~HIGHEST) << 1;
+        if ((value->low & HIGHEST) != 0u) {
+            value->high++;
+        }
+        value->low = (value->low & ~HIGHEST) << 1;
+        if (more >= lacks) {
+            rest = more - lacks;
+            value->low++;
+        } else {
+            rest += more;
+        }
+    }
+}
+
+// ceil(2 K)
+static uint32_t two_gains(uint32_t gain_q8)
+{
+    const uint32_t whole = gain_q8 >> 7;
+
+    if (gain_q8 == INTEGRATING) {
+        return 0;
+    }
+    return ((gain_q8 & 0x7Fu) != 0u) ? (whole + 1u) : whole;
+}
+
+static uint32_t band_for(const struct fixpid_guard_model *model)
+{
+    const uint32_t swing = two_gains(model->gain_q8);
+    uint32_t band;
+
+    if (model->band != 0u) {
+        return model->band;
+    }
+    band = (((uint32_t)model->noise_q4 + 1u) >> 1) + 4u; // ceil(8 s + 4)
+    return (swing > band) ? swing : band;
+}
+
+// In eighths, less one: ceil(a / b) = floor((a - 1) / b) + 1.
+// pre: 1 <= band <= BAND_MAX
+static uint32_t way_for(uint32_t slope_q24, uint16_t band, uint16_t range)
+{
+    // 8 * 20 band / (slope_q24 / 2^24 * range): a - 1 = 160 band 2^24 - 1 <
+    // 2^47
+    const uint32_t a = (uint32_t)band * 160u - 1u;
+    struct wide way;
+
+    way.high = a >> 8;
+    way.low = ((a & 0xFFu) << 24) | UINT32_C(0xFFFFFF);
+    divide(&way, slope_q24);
+    divide(&way, range);
+    return (way.high == 0u) ? way.low : TOO_MUCH;
+}
+
+// 0: more than PATIENCE_MAX
+static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
+{
+    uint32_t patience;
+
+    if (dead_q4 > TOO_MUCH) {
+        return 0;
+    }
+    if (way > TOO_MUCH) {
+        return 0;
+    }
+    // 2 L is dead_q4 eighths of a step
+    patience = ((dead_q4 + way) >> 3) + 1u;
+    if (patience > PATIENCE_MAX) {
+        return 0;
+    }
+    return (patience < PATIENCE_MIN) ? PATIENCE_MIN : (uint16_t)patience;
+}
+
+bool fixpid_guard_from_model(struct fixpid_guard_config *config,
+                             const struct fixpid_guard_model *model)
+{
+    uint32_t band;
+    uint16_t patience;
+
+    FIXPID_ASSERT(config != 0);
+    FIXPID_ASSERT(model != 0);
+    band = band_for(model);
+    if (config->output_min >= config->output_max) {
+        return false;
+    }
+    if (model->slope_q24 == 0u) {
+        return false;
+    }
+    if (band > BAND_MAX) {
+        return false;
+    }
+    patience = patience_for(
+        model->dead_q4,
+        way_for(model->slope_q24, (uint16_t)band,
+                fixpid_difference(config->output_max, config->output_min)));
+    if (patience == 0u) {
+        return false;
+    }
+    config->band = (uint16_t)band;
+    config->patience = patience;
+    config->noisy = false;
+    if (model->noise_q4 >= NOISE_MIN_Q4) {
+        config->noisy = patience >= NOISY_PATIENCE_MIN;
+    }
+    return true;
+}
