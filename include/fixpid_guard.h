@@ -22,15 +22,19 @@
 //
 // The steps are the clock. Setpoint and measurement are counts of the sensor,
 // the output is counts of the actuator, any int16_t each. Nothing is rounded,
-// and no difference overflows. The module has no division, no product and no
-// number of 32 bits.
+// and no difference overflows. A step has no division, no product and no number
+// of 32 bits.
 //
 // There is nothing to arm: a new setpoint, a ramp, a cold start, an output that
 // is long at its end while the reading moves are no faults and need no call.
-// Where nobody controls, as by hand or while a tuner runs, call
+// While the loop is open, by hand or while a tuner runs, call
 // fixpid_guard_step(&guard, y, y, output): then only the sensor is judged.
-// Before fixpid_tpo, give the guard the duty, not the relay's state. Under
-// on-off control the band must be wider than the swing, which is else reported.
+// Before fixpid_tpo, give the guard the duty, not the relay's state.
+//
+// Some loops swing for ever although nothing is broken: under on-off control,
+// with a PWM of ten levels, with a valve or a joint that sticks.
+// FIXPID_GUARD_OSCILLATING is true there. Make the band wider than the swing,
+// or leave this alarm out of those that switch off.
 //
 // What it does not see: a sensor that drifts slowly; one without noise that
 // sticks exactly at the setpoint; one that sticks inside the band, until the
@@ -46,10 +50,10 @@
 FIXPID_C_BEGIN
 
 // What fixpid_guard_init takes. If a tuner has measured the plant,
-// fixpid_guard_from_model finds band, patience and `noisy`. Otherwise
-//   band      1.5 times as much as the reading jitters at rest, peak to peak;
-//             at least 4, and what two counts of the output move in the end
-//   patience  twice as many steps as full output takes, from cold, to move the
+// fixpid_guard_from_model finds band, patience and `noisy`. Without a model:
+//   band      1.5 times the jitter of the reading at rest, peak to peak; at
+//             least 4 counts, and what two counts of the output move in the end
+//   patience  twice the steps in which full output, from cold, moves the
 //             reading by ten bands
 // A loop without an integral needs a band above its standing offset.
 struct fixpid_guard_config {
@@ -66,7 +70,11 @@ struct fixpid_guard_config {
 
     // Where the ends of the output surely bring the process, within the
     // readings above and farther apart than two bands. A setpoint beyond counts
-    // as this, so that "off" and "full" raise no alarm.
+    // as this, so that "off" and "full" raise no alarm. A reading beyond may
+    // stand still. The lowest and the highest setpoint that the loop must hold
+    // are a safe choice. If both are 0, they are the readings' ends: only for a
+    // loop that reaches each setpoint that it gets, because a heater that is
+    // switched off by a setpoint of 0 never reads 0, and that is an alarm.
     int16_t reach_min;
     int16_t reach_max;
 
@@ -125,32 +133,33 @@ struct fixpid_guard {
     uint8_t strikes;
 };
 
-// What a tuner has found of the plant: these are fields of struct
-// fixpid_reaction_process, in this order and all that it has, and of struct
-// fixpid_autotune_process.
+// What a tuner has found of the plant. The first three are all that struct
+// fixpid_reaction_process has, in its order; struct fixpid_autotune_process has
+// the gain, too.
 struct fixpid_guard_model {
     uint32_t slope_q24; // counts per step for one of the output, x 2^24
     uint32_t dead_q4;   // the delay L in steps, x 16
     uint16_t noise_q4;  // the noise s in counts, x 16
 
-    // The gain K, counts of the measurement for one of the output, x 256. 0
-    // where it is not known; FIXPID_AUTOTUNE_INTEGRATING counts as 0.
+    // The gain K, counts of the measurement for one of the output, x 256. 0 if
+    // it is not known; FIXPID_AUTOTUNE_INTEGRATING counts as 0.
     uint32_t gain_q8;
 
-    // The band to take, as where a coarse or sticking actuator makes the
-    // reading swing, or without an integral. 0: by the rule below.
+    // A band to take instead of the rule's: wider than a swing that is no
+    // fault, or than a standing offset. 0: the rule's.
     uint16_t band;
 };
 
 // Writes band, patience and `noisy` of a configuration that has its output's
 // range, and nothing else:
-//   band     = ceil(max(8 s + 4, 2 K)), or the one to take
+//   band     = ceil(max(8 s + 4, 2 K))
 //   patience = ceil(2 L + 20 band / (slope * (output_max - output_min))), at
-//              least 4; half of it raises false alarms
+//              least 4
 //   noisy      if s >= 1 and patience >= 16
-// False, and nothing written, if the slope is 0, the output has no range, or
-// band or patience would be above 32767: a slower rate helps. It divides, and
-// is in fixpid_guard_more.c, which a firmware without it does not need.
+// Half of that patience raises false alarms. False, and nothing written, if the
+// slope is 0, the output has no range, or band or patience would be above
+// 32767: then steps at a slower rate help. It divides, and it is in
+// fixpid_guard_more.c.
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
                              const struct fixpid_guard_model *model);
 
@@ -175,17 +184,17 @@ void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self);
 //   not rising   outside the band around the setpoint: steps at the end of the
 //   not falling  output that pushes the reading to it; steps not at an end do
 //                not count, nor do they begin the count anew. Inside: steps at
-//                an end, while the reading is not the setpoint itself, of which
-//                every other step takes one back, and the other end all;
+//                an end, while the reading is not the setpoint itself; each
+//                step elsewhere takes one back, the other end clears the count;
 //   oscillating  changes from one side of the band to the other, while the
 //                setpoint does not move by more than a band and the loop does
 //                not settle.
-// Whoever has left the band is back in it at half its width.
+// A reading that has left the band is inside again at half its width.
 uint8_t fixpid_guard_step(FIXPID_DATA struct fixpid_guard *self,
                           int16_t setpoint, int16_t measurement,
                           int16_t output);
 
-// What the last call left of the flags.
+// The flags after the last call.
 uint8_t fixpid_guard_flags(FIXPID_DATA const struct fixpid_guard *self);
 
 // Object mode, for firmware with one guard: compile the application and
