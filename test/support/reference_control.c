@@ -141,6 +141,47 @@ unsigned reference_guard_flags(const struct reference_guard *self)
     return self->patience == 0 ? FIXPID_GUARD_REFUSED : self->flags;
 }
 
+static int64_t up(int64_t a, int64_t b)
+{
+    return (a + b - 1) / b;
+}
+
+static int64_t guard_band(const struct fixpid_guard_model *model)
+{
+    const int64_t noise = up(8 * (int64_t)model->noise_q4 + 4 * 16, 16);
+    const int64_t swing =
+        model->gain_q8 == UINT32_MAX ? 0 : up(2 * (int64_t)model->gain_q8, 256);
+
+    if (model->band != 0) {
+        return model->band;
+    }
+    return swing > noise ? swing : noise;
+}
+
+bool reference_guard_from_model(struct fixpid_guard_config *config,
+                                const struct fixpid_guard_model *model)
+{
+    const int64_t span = (int64_t)config->output_max - config->output_min;
+    const int64_t band = guard_band(model);
+    int64_t patience;
+
+    if (span <= 0 || model->slope_q24 == 0 || band > 32767) {
+        return false;
+    }
+    // In eighths of a step, 2 L is dead_q4, and what is rounded up is whole.
+    patience = up(model->dead_q4 +
+                      up(8 * 20 * band * 0x1000000, model->slope_q24 * span),
+                  8);
+    patience = patience < 4 ? 4 : patience;
+    if (patience > 32767) {
+        return false;
+    }
+    config->band = (uint16_t)band;
+    config->patience = (uint16_t)patience;
+    config->noisy = model->noise_q4 >= 16 && patience >= 16;
+    return true;
+}
+
 static void guard_range_step(struct reference_guard *self, int64_t y)
 {
     if (y >= self->measurement_min && y <= self->measurement_max) {

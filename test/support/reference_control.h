@@ -54,6 +54,8 @@ void reference_guard_acknowledge(struct reference_guard *self);
 unsigned reference_guard_step(struct reference_guard *self, int64_t setpoint,
                               int64_t measurement, int64_t output);
 unsigned reference_guard_flags(const struct reference_guard *self);
+bool reference_guard_from_model(struct fixpid_guard_config *config,
+                                const struct fixpid_guard_model *model);
 
 bool reference_gains_from_milli(struct fixpid_pid_gains *gains,
                                 const struct fixpid_gains_milli *milli,

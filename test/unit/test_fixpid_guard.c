@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <stdio.h>
+#include <string.h>
 
 #include "fixpid_guard.h"
 #include "numbers.h"
@@ -13,6 +14,7 @@
 
 TEST_SOURCE_FILE("test/support/numbers_guard.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
+TEST_SOURCE_FILE("src/guard/fixpid_guard_more.c")
 
 #ifndef TEST_RANDOM_STEPS
 #define TEST_RANDOM_STEPS 1000000
@@ -794,4 +796,205 @@ void test_step_of_any_bytes_a_reset_makes_good(void)
         TEST_ASSERT_EQUAL_HEX8(guard_controller.patience == 0u ? REFUSED : 0,
                                fixpid_guard_flags(&guard_controller));
     }
+}
+
+// From a model of the plant.
+
+static struct fixpid_guard_model model;
+
+// A plant of 10 bits, which full output of 255 counts raises by 700, with a lag
+// of 1200 steps, a delay of 60 and a noise of half a count.
+static void take_heater(void)
+{
+    static const struct fixpid_guard_model heater = {
+        .slope_q24 = 38379, .dead_q4 = 960, .noise_q4 = 8, .gain_q8 = 703};
+
+    model = heater;
+    config.output_max = 255;
+}
+
+static bool from_model(void)
+{
+    struct fixpid_guard_config defined = config;
+    const bool expected = reference_guard_from_model(&defined, &model);
+    const bool accepted = fixpid_guard_from_model(&config, &model);
+
+    if (accepted != expected || memcmp(&defined, &config, sizeof config) != 0) {
+        char text[200];
+        snprintf(text, sizeof text,
+                 "slope %lu, dead %lu, noise %u, gain %lu, band %u: %d with "
+                 "%u, %u, %u; %d with %u, %u, %u defined",
+                 (unsigned long)model.slope_q24, (unsigned long)model.dead_q4,
+                 model.noise_q4, (unsigned long)model.gain_q8, model.band,
+                 accepted, config.band, config.patience, config.noisy, expected,
+                 defined.band, defined.patience, defined.noisy);
+        TEST_FAIL_MESSAGE(text);
+    }
+    return accepted;
+}
+
+static void rule_is(unsigned band, unsigned patience, bool noisy)
+{
+    TEST_ASSERT_TRUE(from_model());
+    TEST_ASSERT_EQUAL_UINT(band, config.band);
+    TEST_ASSERT_EQUAL_UINT(patience, config.patience);
+    TEST_ASSERT_EQUAL(noisy, config.noisy);
+}
+
+// The result is false, and nothing is written.
+static void has_no_guard(void)
+{
+    config.band = 7;
+    config.patience = 9;
+    config.noisy = true;
+    TEST_ASSERT_FALSE(from_model());
+    TEST_ASSERT_EQUAL_UINT(7, config.band);
+    TEST_ASSERT_EQUAL_UINT(9, config.patience);
+    TEST_ASSERT_TRUE(config.noisy);
+}
+
+void test_from_model_a_heater_and_its_guard(void)
+{
+    take_heater();
+    config.measurement_min = 1;
+    config.measurement_max = 1022;
+    config.reverse = true;
+    rule_is(8, 395, false); // 120 + 274.2
+    TEST_ASSERT_EQUAL_INT16(0, config.output_min);
+    TEST_ASSERT_EQUAL_INT16(255, config.output_max);
+    TEST_ASSERT_EQUAL_INT16(1, config.measurement_min);
+    TEST_ASSERT_EQUAL_INT16(1022, config.measurement_max);
+    TEST_ASSERT_TRUE(config.reverse);
+    TEST_ASSERT_TRUE(fixpid_guard_init(&guard_controller, &config));
+}
+
+void test_from_model_band_is_of_the_noise_or_of_two_counts(void)
+{
+    take_heater();
+    model.noise_q4 = 9; // 8.5
+    rule_is(9, 429, false);
+    model.gain_q8 = 9 * 128;
+    rule_is(9, 429, false);
+    model.gain_q8 = 9 * 128 + 1;
+    rule_is(10, 463, false);
+    model.gain_q8 = UINT32_MAX; // it integrates
+    rule_is(9, 429, false);
+    model.gain_q8 = UINT32_MAX - 1u;
+    has_no_guard();
+}
+
+void test_from_model_a_band_to_take_counts_in_the_patience(void)
+{
+    take_heater();
+    model.band = 20;
+    rule_is(20, 806, false); // 120 + 685.6
+    model.band = 5;
+    rule_is(5, 292, false); // 120 + 171.4
+}
+
+void test_from_model_all_that_rounds_up_does_so_once(void)
+{
+    take_heater();
+    config.output_max = 1;
+    model.slope_q24 = 0x1000000; // a count per step
+    model.dead_q4 = 9;           // 1.125
+    model.band = 1;
+    rule_is(1, 22, false);
+    model.slope_q24 = 0x1000000 * UINT32_C(160) / 7 + 1u; // 20 bands in 7/8
+    model.dead_q4 = 8 * 8;
+    rule_is(1, 9, false);
+    model.dead_q4++;
+    rule_is(1, 9, false); // 9.000
+    model.dead_q4++;
+    rule_is(1, 10, false);
+}
+
+void test_from_model_noisy_of_a_count_and_16_steps(void)
+{
+    take_heater();
+    model.noise_q4 = 15;
+    rule_is(12, 532, false);
+    model.noise_q4 = 16;
+    rule_is(12, 532, true);
+    model.slope_q24 = UINT32_MAX;
+    model.dead_q4 = 15 * 8 - 1;
+    rule_is(12, 15, false);
+    model.dead_q4++;
+    rule_is(12, 16, true);
+}
+
+void test_from_model_patience_at_both_ends(void)
+{
+    take_heater();
+    model.slope_q24 = UINT32_MAX;
+    model.dead_q4 = 0;
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    rule_is(8, 4, false);
+    model.dead_q4 = 4 * 8;
+    rule_is(8, 5, false);
+    model.dead_q4 = 32767 * 8 - 1;
+    rule_is(8, 32767, false);
+    model.dead_q4 = 32767 * 8;
+    has_no_guard();
+    model.dead_q4 = UINT32_MAX;
+    has_no_guard();
+}
+
+void test_from_model_a_plant_that_is_too_slow_is_refused(void)
+{
+    take_heater();
+    model.dead_q4 = 0;
+    model.slope_q24 = 322; // 32692.3
+    rule_is(8, 32693, false);
+    model.slope_q24 = 321;
+    has_no_guard();
+    model.slope_q24 = 1;
+    has_no_guard();
+    config.output_max = 1;
+    model.band = 32767;
+    has_no_guard();
+    model.slope_q24 = 0;
+    has_no_guard();
+}
+
+void test_from_model_widest_band(void)
+{
+    take_heater();
+    model.slope_q24 = UINT32_MAX;
+    model.band = 32767;
+    rule_is(32767, 131, false);
+    model.band = 32768;
+    has_no_guard();
+    model.band = 0;
+    model.noise_q4 = 65526;
+    rule_is(32767, 131, true);
+    model.noise_q4 = 65527;
+    has_no_guard();
+}
+
+void test_from_model_without_a_range_of_the_output_is_refused(void)
+{
+    take_heater();
+    config.output_min = 255;
+    has_no_guard();
+    config.output_min = 256;
+    has_no_guard();
+    config.output_min = 254;
+    model.slope_q24 = 0x1000000;
+    rule_is(8, 280, false);
+}
+
+void test_from_model_random_models_match_the_definition(void)
+{
+    uint32_t accepted = 0;
+
+    numbers_seed(47);
+    for (uint32_t i = 0; i < TEST_RANDOM_STEPS / 10; i++) {
+        numbers_guard_model(&model);
+        config.output_min = numbers_int16();
+        config.output_max = numbers_int16();
+        accepted += from_model() ? 1u : 0u;
+    }
+    TEST_ASSERT_TRUE(accepted > TEST_RANDOM_STEPS / 100);
 }
