@@ -14,9 +14,6 @@
 // As fixpid_autotune has it for a plant without a static gain.
 #define INTEGRATING UINT32_C(0xFFFFFFFF)
 
-// More eighths of a step than any patience has.
-#define TOO_MUCH ((PATIENCE_MAX + 1u) * UINT32_C(8))
-
 #define HIGHEST UINT32_C(0x80000000)
 
 // 64 bits, in two words: SDCC has no such integers for a PIC.
@@ -91,7 +88,7 @@ static uint32_t way_for(uint32_t slope_q24, uint16_t band, uint16_t range)
     way.low = ((a & 0xFFu) << 24) | UINT32_C(0xFFFFFF);
     divide(&way, slope_q24);
     divide(&way, range);
-    return (way.high == 0u) ? way.low : TOO_MUCH;
+    return (way.high == 0u) ? way.low : UINT32_MAX;
 }
 
 // 0: more than PATIENCE_MAX
@@ -99,13 +96,10 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
 {
     uint32_t patience;
 
-    if (dead_q4 > TOO_MUCH) {
+    if (((dead_q4 | way) & HIGHEST) != 0u) {
         return 0;
     }
-    if (way > TOO_MUCH) {
-        return 0;
-    }
-    // 2 L is dead_q4 eighths of a step
+    // 2 L is dead_q4 eighths of a step, and the sum is below 2^32.
     patience = ((dead_q4 + way) >> 3) + 1u;
     if (patience > PATIENCE_MAX) {
         return 0;

@@ -931,6 +931,8 @@ void test_from_model_patience_at_both_ends(void)
     config.output_min = INT16_MIN;
     config.output_max = INT16_MAX;
     rule_is(8, 4, false);
+    model.dead_q4 = 2 * 8;
+    rule_is(8, 4, false);
     model.dead_q4 = 4 * 8;
     rule_is(8, 5, false);
     model.dead_q4 = 32767 * 8 - 1;
@@ -956,6 +958,31 @@ void test_from_model_a_plant_that_is_too_slow_is_refused(void)
     has_no_guard();
     model.slope_q24 = 0;
     has_no_guard();
+}
+
+// 160 * 2^24 = 500719 * 5361 + 1
+void test_from_model_the_least_above_a_whole_number_rounds_up(void)
+{
+    take_heater();
+    config.output_max = 1;
+    model.slope_q24 = 500719;
+    model.band = 1;
+    model.dead_q4 = 6;
+    rule_is(1, 671, false); // (6 + 5362) / 8
+    model.dead_q4 = 7;
+    rule_is(1, 672, false);
+}
+
+// 160 * 2^24 / 65535 = 40960.6 eighths
+void test_from_model_the_smallest_slope(void)
+{
+    take_heater();
+    model.dead_q4 = 0;
+    model.band = 1;
+    model.slope_q24 = 1;
+    config.output_min = INT16_MIN;
+    config.output_max = INT16_MAX;
+    rule_is(1, 5121, false);
 }
 
 void test_from_model_widest_band(void)
