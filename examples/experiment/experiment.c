@@ -5,8 +5,16 @@
 #include "fixpid_autotune.h"
 #include "port.h"
 
-#include "../oven_experiment.h"
 #include "../oven_temperature.h"
+
+#define CONTROL_PERIOD_TICKS 100u
+
+// These are in counts of temperature, of which a degree has 16.
+#define COLDEST 16
+#define HOTTEST 4000 // 250 C; the sensor ends at 256
+#define SWING 160u
+#define TIMEOUT_STEPS 600u // a minute for half a cycle
+#define CYCLES 2u
 
 // Deviation 8.4: the application's one experiment, found by its name.
 FIXPID_DATA struct fixpid_autotune tuner;
@@ -29,8 +37,19 @@ static void control(void)
 
 int main(void)
 {
+    static const struct fixpid_autotune_config experiment = {
+        .output_min = 0,
+        .output_max = PORT_DRIVE_FULL,
+        .output_rest = 0,
+        .measurement_min = COLDEST,
+        .measurement_max = HOTTEST,
+        .swing = SWING,
+        .timeout_steps = TIMEOUT_STEPS,
+        .cycles = CYCLES,
+    };
+
     port_init();
-    start_experiment(&tuner);
+    (void)fixpid_autotune_init(&tuner, &experiment);
     while (port_running()) {
         (void)port_wait_ticks(CONTROL_PERIOD_TICKS);
         control();

@@ -2,7 +2,7 @@
 // Shows the host's trace the terms of the application's controller, which the
 // build names, as in -DHOST_PROBE_OBJECT=thermostat. With the name of a
 // configuration whose gains the application finds, -DPROBE_CONFIG=name, it
-// prints them in the end; and with that of the experiment that finds them,
+// prints them in the end; and with that of the tuner that finds them,
 // -DPROBE_TUNER=name, how far this is, when a row of the trace is due.
 #include "fixpid_pid.h"
 
@@ -11,7 +11,7 @@
 
 #include "host.h"
 #ifdef PROBE_TUNER
-#include "fixpid_autotune.h"
+#include "fixpid_reaction.h"
 #include "world.h"
 #endif
 
@@ -19,37 +19,20 @@
 extern FIXPID_DATA struct fixpid_pid HOST_PROBE_OBJECT;
 
 #ifdef PROBE_TUNER
-#define STEPS_PER_SECOND 10.0
-
 // Deviation 8.5: an application has no header.
-extern FIXPID_DATA struct fixpid_autotune PROBE_TUNER;
-extern uint8_t no_gains;
+extern FIXPID_DATA struct fixpid_reaction PROBE_TUNER;
 
-// A line for each cycle. While it measures, the time is known that is left if
-// nothing disturbs. (Its configuration is legal, so some cycles are expected.)
+// A line for each change; before its init it is at 100, too.
 static void tell_progress(void)
 {
-    static int told = -1;
-    struct fixpid_autotune_stage stage;
+    static int told = 100;
+    const int percent = fixpid_reaction_progress(&PROBE_TUNER);
 
-    fixpid_autotune_progress(&PROBE_TUNER, &stage);
-    if (stage.done == told) {
-        return;
+    if (percent != told) {
+        told = percent;
+        (void)printf("progress: %.1f s, %d %%, status %u\n", world_time_s(),
+                     percent, (unsigned)fixpid_reaction_status(&PROBE_TUNER));
     }
-    told = stage.done;
-    (void)printf("progress: %.1f s, phase %u, %u %%", world_time_s(),
-                 (unsigned)stage.phase, 100u * stage.done / stage.expected);
-    if (stage.phase == 6u) {
-        (void)printf(", status %u, reason %u",
-                     (unsigned)fixpid_autotune_status(&PROBE_TUNER),
-                     (unsigned)no_gains);
-    } else if (stage.phase >= 3u) {
-        (void)printf(", %.1f s left", (stage.expected - stage.done) *
-                                          stage.period / STEPS_PER_SECOND);
-    } else {
-        // it looks for the setpoint
-    }
-    (void)printf("\n");
 }
 #else
 static void tell_progress(void)

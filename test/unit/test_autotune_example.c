@@ -5,10 +5,10 @@
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_more.c")
-TEST_SOURCE_FILE("src/autotune/fixpid_autotune.c")
-TEST_SOURCE_FILE("src/autotune/fixpid_autotune_cycle.c")
-TEST_SOURCE_FILE("src/autotune/fixpid_autotune_relay.c")
-TEST_SOURCE_FILE("src/autotune/fixpid_autotune_result.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction_block.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction_more.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction_result.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/autotune")
 
@@ -18,11 +18,12 @@ int application_main(void);
 #undef main
 
 #define SET 320u // 80 degrees, in counts of one conversion
+#define COLD 80u
+#define DRIVE 255
 
 static int16_t driven;
 static uint16_t temperature_reading;
-static int higher; // conversions of a period that read one count more
-static int conversions;
+static uint16_t set_reading;
 
 static void keep_drive(int16_t duty, int calls)
 {
@@ -33,28 +34,27 @@ static void keep_drive(int16_t duty, int calls)
 static uint16_t reading(uint8_t channel, int calls)
 {
     (void)calls;
-    if (channel == PORT_SETPOINT) {
-        conversions = 0;
-        return SET;
-    }
-    conversions++;
-    return (uint16_t)(temperature_reading + ((conversions <= higher) ? 1 : 0));
+    return (channel == PORT_SETPOINT) ? set_reading : temperature_reading;
 }
 
-void setUp(void)
+// From power-on, with so much set.
+static void power_on(uint16_t set)
 {
     static const struct fixpid_pid_config none = {.output_min = 0};
 
     driven = -1;
-    higher = 0;
+    set_reading = set;
     tuned = none;
     port_drive_Stub(keep_drive);
     port_read_Stub(reading);
     port_init_Ignore();
     port_running_IgnoreAndReturn(false);
     TEST_ASSERT_EQUAL_INT(0, application_main());
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_RUNNING,
-                            fixpid_autotune_status(&tuner));
+}
+
+void setUp(void)
+{
+    power_on(SET);
 }
 
 void tearDown(void)
@@ -68,96 +68,108 @@ static int16_t period(uint16_t counts)
     return driven;
 }
 
-// The experiment listens to the noise first.
-static void listen(uint16_t counts)
+static void expect_status(enum fixpid_reaction_state status)
 {
-    for (int i = 0; i < 33; i++) {
-        TEST_ASSERT_EQUAL_INT16(0, period(counts));
-    }
+    TEST_ASSERT_EQUAL_UINT8(status, fixpid_reaction_status(&tuner));
 }
 
-// A wave of 20 conversions to each side of the setpoint, until the experiment
-// is over; 20 periods each.
-static void swing(void)
+// It listens to the noise first.
+static void listen(void)
 {
-    int periods = 0;
-
-    listen(SET);
-    while ((fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) &&
-           (periods < 2000)) {
-        const bool above = ((periods / 20) % 2) != 0;
-        (void)period((uint16_t)(above ? SET + 20 : SET - 20));
-        periods++;
+    for (int i = 0; i < 31; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, period(COLD));
     }
+    TEST_ASSERT_EQUAL_INT16(DRIVE, period(COLD));
+}
+
+// A delay of ten periods, and then a rise by two conversions in each until the
+// heat-up is over; returns the temperature then.
+static uint16_t heat_up(void)
+{
+    uint16_t counts = COLD;
+
+    listen();
+    for (int i = 0; i < 10; i++) {
+        TEST_ASSERT_EQUAL_INT16(DRIVE, period(COLD));
+    }
+    while (is_tuning() && (counts < SET)) {
+        counts = (uint16_t)(counts + 2u);
+        (void)period(counts);
+    }
+    expect_status(FIXPID_REACTION_DONE);
+    return counts;
 }
 
 void test_main_heater_is_off_while_the_noise_is_measured(void)
 {
-    listen(80);
-    TEST_ASSERT_EQUAL_INT16(1023, period(80));
-}
-
-// Of a swing of 160 counts the hysteresis is 30, and a conversion counts 4.
-void test_main_relay_switches_beyond_the_hysteresis_only(void)
-{
-    listen(80);
-    TEST_ASSERT_EQUAL_INT16(1023, period(80));
-    higher = 2;
-    TEST_ASSERT_EQUAL_INT16(1023, period(SET + 7));
-    higher = 3;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET + 7));
-    higher = 2;
-    TEST_ASSERT_EQUAL_INT16(0, period(SET - 8));
-    higher = 1;
-    TEST_ASSERT_EQUAL_INT16(1023, period(SET - 8));
+    listen();
 }
 
 void test_main_control_runs_once_in_100_ticks(void)
 {
     port_running_ExpectAndReturn(true);
     port_wait_ticks_ExpectAndReturn(100, 255);
-    temperature_reading = 80;
+    temperature_reading = COLD;
     port_running_ExpectAndReturn(false);
     TEST_ASSERT_EQUAL_INT(0, application_main());
     TEST_ASSERT_EQUAL_INT16(0, driven);
 }
 
-void test_main_experiment_over_gains_are_kept(void)
+void test_main_heat_up_over_gains_are_kept(void)
 {
-    swing();
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
-                            fixpid_autotune_status(&tuner));
+    (void)heat_up();
     TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kp_q8);
     TEST_ASSERT_GREATER_THAN_UINT32(0, tuned.gains.ki_q24);
-    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kd_q8);
+    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kd_q8);
+    TEST_ASSERT_EQUAL_INT16(0, tuned.output_min);
     TEST_ASSERT_EQUAL_INT16(1023, tuned.output_max);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_NO_REASON, no_gains);
+    TEST_ASSERT_EQUAL_UINT16(128, tuned.setpoint_weight_q8);
 }
 
-void test_main_control_starts_from_what_holds_the_temperature(void)
+// A delay of ten periods less half of one, half a jump of the sensor and one
+// and a half of the hold are 11.5 periods of eight counts. A quarter of full
+// power over 2.52 times that, and 5/4 of it as the rule is PID, is 1.37.
+void test_main_gains_are_those_of_the_rise(void)
 {
-    struct fixpid_autotune_process process;
+    (void)heat_up();
+    TEST_ASSERT_UINT16_WITHIN(3, 352, tuned.gains.kp_q8);
+}
 
-    swing();
-    TEST_ASSERT_TRUE(fixpid_autotune_model(&tuner, &process));
-    TEST_ASSERT_GREATER_THAN_INT16(0, process.holding);
-    TEST_ASSERT_EQUAL_INT16(process.holding, period(SET - 20));
-    for (int i = 0; i < 50; i++) {
-        (void)period(SET - 20);
-    }
-    TEST_ASSERT_GREATER_THAN_INT16(process.holding, driven);
+// The controller takes its first step in the period in which the heat-up ends,
+// with half of the setpoint for P.
+void test_main_controller_goes_on_in_the_same_period(void)
+{
+    struct fixpid_pid twin;
+    const uint16_t counts = heat_up();
+    const int16_t first = driven;
+
+    TEST_ASSERT_TRUE(fixpid_pid_init(&twin, &tuned));
+    TEST_ASSERT_EQUAL_INT16(
+        fixpid_pid_step(&twin, 4 * SET, (int16_t)(4 * counts)), first);
+    TEST_ASSERT_NOT_EQUAL_INT16(DRIVE, first);
+    TEST_ASSERT_EQUAL_INT16(
+        fixpid_pid_step(&twin, 4 * SET, (int16_t)(4 * counts)), period(counts));
 }
 
 void test_main_broken_wire_of_the_sensor_switches_off_at_once(void)
 {
-    swing();
-    const int16_t before = period(SET);
-    TEST_ASSERT_GREATER_THAN_INT16(0, before);
+    (void)heat_up();
+    TEST_ASSERT_GREATER_THAN_INT16(0, period(COLD));
     for (int i = 0; i < 1000; i++) {
         TEST_ASSERT_EQUAL_INT16(0, period(1023));
         TEST_ASSERT_EQUAL_INT16(0, period(0));
     }
-    TEST_ASSERT_EQUAL_INT16(before, period(SET));
+    TEST_ASSERT_GREATER_THAN_INT16(0, period(COLD));
+    TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kp_q8);
+}
+
+void test_main_wire_broken_in_the_heat_up_begins_it_anew(void)
+{
+    listen();
+    TEST_ASSERT_EQUAL_INT16(DRIVE, period(COLD + 8u));
+    TEST_ASSERT_EQUAL_INT16(0, period(1023));
+    TEST_ASSERT_EQUAL_INT16(0, period(0));
+    (void)heat_up();
 }
 
 static int passes;
@@ -165,8 +177,8 @@ static int passes;
 static bool for_some_passes(int calls)
 {
     (void)calls;
-    passes--;
-    return passes >= 0;
+    passes++;
+    return passes <= 300;
 }
 
 static uint8_t as_many_ticks(uint8_t n, int calls)
@@ -175,66 +187,64 @@ static uint8_t as_many_ticks(uint8_t n, int calls)
     return n;
 }
 
-// Twenty passes on each side of the setpoint.
-static uint16_t slow_wave(uint8_t channel, int calls)
+// It warms while the heater is on, and does not cool.
+static uint16_t warming(uint8_t channel, int calls)
 {
+    static uint16_t counts;
+
     (void)calls;
-    const bool above = ((passes / 20) % 2) != 0;
-    const uint16_t now = (uint16_t)(above ? SET + 20 : SET - 20);
-    return (channel == PORT_SETPOINT) ? SET : now;
+    if (channel == PORT_SETPOINT) {
+        return SET;
+    }
+    if (passes <= 1) {
+        counts = 8 * COLD;
+    }
+    counts = (uint16_t)(counts + ((driven > 0) ? driven / 64 : 0));
+    return (uint16_t)(counts / 8u);
 }
 
-void test_main_goes_from_the_experiment_to_control(void)
+void test_main_goes_from_the_heat_up_to_control(void)
 {
+    passes = 0;
     port_running_Stub(for_some_passes);
     port_wait_ticks_Stub(as_many_ticks);
-    port_read_Stub(slow_wave);
-    passes = 1000;
+    port_read_Stub(warming);
     TEST_ASSERT_EQUAL_INT(0, application_main());
+    expect_status(FIXPID_REACTION_DONE);
     TEST_ASSERT_GREATER_THAN_UINT16(0, tuned.gains.kp_q8);
-    TEST_ASSERT_NOT_EQUAL_INT16(0, driven);
-    TEST_ASSERT_NOT_EQUAL_INT16(1023, driven);
+    TEST_ASSERT_NOT_EQUAL_INT16(DRIVE, driven);
 }
 
-void test_main_failed_experiment_leaves_the_heater_off(void)
+// What was set at power-on is what the heat-up must not pass.
+void test_main_oven_already_warm_stays_off(void)
 {
-    listen(80);
-    TEST_ASSERT_EQUAL_INT16(1023, period(80));
-    TEST_ASSERT_EQUAL_INT16(0, period(1000)); // 4000 counts: the sensor's end
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_SATURATED,
-                            fixpid_autotune_status(&tuner));
-    TEST_ASSERT_EQUAL_INT16(0, period(80));
+    power_on(COLD);
+    for (int i = 0; i < 100; i++) {
+        TEST_ASSERT_EQUAL_INT16(0, period(COLD));
+    }
+    expect_status(FIXPID_REACTION_LIMIT);
     TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_NOT_DONE, no_gains);
 }
 
-// The temperature swings farther where the relay drives more: the experiment
-// measures, but finds two processes and no gains.
-void test_main_measured_without_gains_leaves_the_heater_off(void)
+void test_main_setpoint_too_near_leaves_the_heater_off(void)
+{
+    listen();
+    TEST_ASSERT_EQUAL_INT16(0, period(SET));
+    expect_status(FIXPID_REACTION_LIMIT);
+    TEST_ASSERT_EQUAL_INT16(0, period(COLD));
+    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
+}
+
+void test_main_oven_that_stays_cold_is_given_up(void)
 {
     int periods = 0;
 
-    listen(SET);
-    while ((fixpid_autotune_status(&tuner) == FIXPID_AUTOTUNE_RUNNING) &&
-           (periods < 2000)) {
-        const bool above = ((periods / 20) % 2) != 0;
-        const uint16_t far = (driven > 700) ? 30 : 12;
-        (void)period((uint16_t)(above ? SET + 12 : SET - far));
+    listen();
+    while (is_tuning() && (periods < 2000)) {
+        (void)period(COLD);
         periods++;
     }
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_DONE,
-                            fixpid_autotune_status(&tuner));
-    TEST_ASSERT_EQUAL_UINT8(FIXPID_AUTOTUNE_TWO_PROCESSES, no_gains);
-    TEST_ASSERT_EQUAL_UINT16(0, tuned.gains.kp_q8);
-    TEST_ASSERT_EQUAL_INT16(0, period(80));
-}
-
-void test_main_oven_that_stays_cold_is_given_up_after_a_minute(void)
-{
-    listen(80);
-    for (int i = 0; i < 601; i++) {
-        TEST_ASSERT_EQUAL_INT16(1023, period(80));
-    }
-    TEST_ASSERT_EQUAL_INT16(0, period(80));
+    expect_status(FIXPID_REACTION_NO_MOVEMENT);
+    TEST_ASSERT_EQUAL_INT16(0, period(COLD));
     TEST_ASSERT_EQUAL_INT16(0, period(SET));
 }
