@@ -60,9 +60,8 @@ static int16_t tune()
     experiment.output_max = 255;
     experiment.measurement_min = -1; // no measurement is beyond these
     experiment.measurement_max = 1023;
-    experiment.swing = 80; // about a twelfth of the scale
     experiment.timeout_steps = 2000;
-    experiment.cycles = 2;
+    experiment.cycles = 1;
     (void)fixpid_autotune_init(&tuner, &experiment);
 
     int16_t drive = 0;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// An oven behind a solid-state relay on pin 9, with a sensor on A0. It finds its
-// gains through the relay, keeps the experiment in the EEPROM, and is guarded: an
-// alarm switches the relay off until a person sends `a`. `t` tunes anew.
+// A boiler or an oven behind a solid-state relay on pin 9, with a sensor on A0.
+// It finds its gains when it heats up from cold for the first time, keeps them
+// in the EEPROM, and is guarded: an alarm switches the relay off until a person
+// sends `a`. `t` tunes anew, from cold, and `h` does that with half the power.
 //
 // A relay that fails shut heats whatever a program says, and a reset forgets an
 // alarm: an oven needs a thermal fuse, too.
 #include <EEPROM.h>
-#include <fixpid_autotune.h>
 #include <fixpid_guard.h>
 #include <fixpid_pid.h>
+#include <fixpid_reaction.h>
+#include <fixpid_record.h>
 #include <fixpid_tpo.h>
 
 const int RATE = 1;         // steps per second: of tuner, controller and guard
@@ -19,11 +21,24 @@ static_assert(RELAY_MS * RELAY_STEPS * RATE == 1000,
 
 const int SSR = 9;
 const int16_t FULL = 1000;
-const int16_t SETPOINT = 4000; // a reading is the sum of ten of A0: 0..10230
+// A reading is the sum of ten of A0: 0..10230. The heat-up that tunes ends
+// before it reaches the setpoint.
+const int16_t SETPOINT = 6480;  // 95 C, where 10230 is 150 C
 const int16_t SENSOR_MIN = 100; // an open or a shorted sensor reads beyond
 const int16_t SENSOR_MAX = 10100;
 
-static fixpid_autotune tuner;
+// A sensor's noise, or a relay that knows only tenths of the power, may make
+// the reading swing: that is no reason to switch off.
+const uint8_t ALARMS = FIXPID_GUARD_ALARMS & ~FIXPID_GUARD_OSCILLATING;
+
+// In the EEPROM. The record of the gains has a check of its own.
+struct kept {
+    fixpid_record record;
+    fixpid_reaction_process plant;
+    uint32_t check; // of the plant
+};
+
+static fixpid_reaction tuner;
 static fixpid_pid controller; // refused until there are gains: it puts out 0
 static fixpid_guard guard;
 static fixpid_tpo relay;
@@ -32,118 +47,160 @@ static bool off; // by an alarm, until a person acknowledges
 static int16_t duty;
 static unsigned long last_ms;
 
-static void start_guard(uint16_t band, uint16_t patience, bool noisy)
+static uint32_t check_of(const fixpid_reaction_process &plant)
+{
+    return ~(plant.slope_q24 + plant.dead_q4 + plant.noise_q4);
+}
+
+static fixpid_guard_config sensor_alone()
 {
     fixpid_guard_config config = fixpid_guard_config();
     config.output_max = FULL;
     config.measurement_min = SENSOR_MIN;
     config.measurement_max = SENSOR_MAX;
-    config.band = band;
-    config.patience = patience;
-    config.noisy = noisy;
-    if (!fixpid_guard_init(&guard, &config)) {
-        off = true;
-        Serial.println(F("guard refused"));
-    }
+    config.band = 1;
+    config.patience = 32767;
+    return config;
 }
 
-// The rule of fixpid_guard.h, rounded up as there.
-static void guard_by(const fixpid_autotune_process &found)
+static bool start_guard(const fixpid_reaction_process &plant)
 {
-    uint32_t band = (found.noise_q4 + 1u) / 2 + 4;
-    if (found.gain_q8 != FIXPID_AUTOTUNE_INTEGRATING) {
-        band = max(band, (found.gain_q8 + 127) / 128);
-    }
-    // 2 L + 20 band / (slope * FULL) over one denominator
-    const uint64_t slope = (uint64_t)found.slope_q24 * FULL;
-    const uint64_t patience =
-        (found.dead_q4 * slope + (160ull * band << 24) + 8 * slope - 1) /
-        (8 * slope);
-    const uint16_t steps = max(min(patience, 32767ull), 4ull);
-    start_guard(band, steps, found.noise_q4 >= 16 && steps >= 16);
-    Serial.print(F("guard: band "));
-    Serial.print(band);
-    Serial.print(F(", patience "));
-    Serial.println(steps);
-}
-
-// From an experiment that is over, now or before the power went.
-static bool take_over()
-{
-    fixpid_pid_config config = fixpid_pid_config();
-    fixpid_autotune_process found;
-    config.output_max = FULL;
-    if (!fixpid_autotune_result(&tuner, FIXPID_AUTOTUNE_PI,
-                                FIXPID_AUTOTUNE_SAFE, &config) ||
-        !fixpid_autotune_model(&tuner, &found)) {
+    fixpid_guard_config config = sensor_alone();
+    fixpid_guard_model model = fixpid_guard_model();
+    model.slope_q24 = plant.slope_q24;
+    model.dead_q4 = plant.dead_q4;
+    model.noise_q4 = plant.noise_q4;
+    if (!fixpid_guard_from_model(&config, &model) ||
+        !fixpid_guard_init(&guard, &config)) {
         return false;
     }
-    (void)fixpid_pid_init(&controller, &config);
-    guard_by(found);
+    Serial.print(F("guard: band "));
+    Serial.print(config.band);
+    Serial.print(F(", patience "));
+    Serial.println(config.patience);
     return true;
 }
 
-static void start_tuning()
+// What was found now, or before the power went.
+static bool take_over(const fixpid_pid_config &config,
+                      const fixpid_reaction_process &plant)
 {
-    fixpid_autotune_config experiment = fixpid_autotune_config();
-    experiment.output_max = FULL;
-    experiment.measurement_min = SENSOR_MIN;
-    experiment.measurement_max = SENSOR_MAX;
-    experiment.swing = 800;
-    experiment.timeout_steps = 3600;
-    experiment.cycles = 2;
-    (void)fixpid_autotune_init(&tuner, &experiment);
-    start_guard(1, 32767, false); // until there is a model: the sensor alone
+    return start_guard(plant) && fixpid_pid_init(&controller, &config);
+}
+
+static bool take_over_kept()
+{
+    kept found;
+    fixpid_pid_config config;
+    EEPROM.get(0, found);
+    return fixpid_record_unpack(&found.record, &config) &&
+           found.check == check_of(found.plant) &&
+           take_over(config, found.plant);
+}
+
+static bool take_over_found()
+{
+    kept found;
+    fixpid_pid_config config = fixpid_pid_config();
+    config.output_max = FULL;
+    config.setpoint_weight_q8 = 128; // from cold without an overshoot
+    if (!fixpid_reaction_result(&tuner, FIXPID_REACTION_PID,
+                                FIXPID_REACTION_SAFE, &config.gains) ||
+        !fixpid_reaction_model(&tuner, &found.plant) ||
+        !take_over(config, found.plant)) {
+        return false;
+    }
+    fixpid_record_pack(&found.record, &config);
+    found.check = check_of(found.plant);
+    EEPROM.put(0, found);
+    Serial.println(F("kept"));
+    return true;
+}
+
+static void start_tuning(int16_t power)
+{
+    const fixpid_guard_config config = sensor_alone();
+    fixpid_reaction_config heat_up = fixpid_reaction_config();
+    heat_up.output_drive = power;
+    heat_up.measurement_stop = SETPOINT;
+    (void)fixpid_reaction_init(&tuner, &heat_up);
+    (void)fixpid_guard_init(&guard, &config);
     controller = fixpid_pid();
     tuning = true;
     Serial.println(F("tuning"));
 }
 
-static int16_t tuning_step(int16_t reading)
+static void print_end(uint8_t status)
 {
-    const int16_t output = fixpid_autotune_step(&tuner, SETPOINT, reading);
-    if (fixpid_autotune_status(&tuner) != FIXPID_AUTOTUNE_RUNNING) {
-        fixpid_autotune_record record;
-        tuning = false;
-        if (take_over() && fixpid_autotune_pack(&tuner, &record)) {
-            EEPROM.put(0, record);
-            Serial.println(F("kept"));
-        } else {
-            off = true;
-            Serial.print(F("no gains, reason "));
-            Serial.println(fixpid_autotune_reason(&tuner, FIXPID_AUTOTUNE_PI,
-                                                  FIXPID_AUTOTUNE_SAFE));
-        }
+    Serial.print(F("status "));
+    Serial.print(status);
+    switch (status) {
+    case FIXPID_REACTION_DONE:
+        Serial.println(F(": it has measured"));
+        break;
+    case FIXPID_REACTION_MOVING:
+        Serial.println(F(": it was not at rest. Let it cool, then send t"));
+        break;
+    case FIXPID_REACTION_NO_MOVEMENT:
+        Serial.println(F(": it got no warmer. Look at heater and sensor"));
+        break;
+    case FIXPID_REACTION_WRONG_WAY:
+        Serial.println(F(": it got colder. Look at sensor and wiring"));
+        break;
+    case FIXPID_REACTION_LIMIT:
+        Serial.println(F(": too near the setpoint. Let it cool, then send h"));
+        break;
+    case FIXPID_REACTION_LEVELS_OFF:
+        Serial.println(F(": it answers late. Try fixpid_autotune"));
+        break;
+    default:
+        Serial.println(F(": it is too slow. Make RELAY_STEPS larger"));
+        break;
     }
-    return output;
 }
 
-// Once a step: the duty of the next window.
+// The controller goes on in the step in which the heat-up ends. Without gains
+// it puts out 0.
+static int16_t tuning_step(int16_t reading)
+{
+    const int16_t output = fixpid_reaction_step(&tuner, reading);
+    const uint8_t status = fixpid_reaction_status(&tuner);
+    if (status == FIXPID_REACTION_RUNNING) {
+        return output;
+    }
+    tuning = false;
+    print_end(status);
+    if (!take_over_found()) {
+        Serial.println(F("no gains: off"));
+    }
+    return fixpid_pid_step(&controller, SETPOINT, reading);
+}
+
+// Once a step: the duty of the next window. While it tunes, the guard judges
+// the sensor alone.
 static int16_t step(int16_t reading)
 {
-    int16_t output = 0;
-    uint8_t flags;
     if (off) {
         return 0;
     }
-    if (tuning) {
-        output = tuning_step(reading);
-        flags = fixpid_guard_step(&guard, reading, reading, output);
-    } else {
-        output = fixpid_pid_step(&controller, SETPOINT, reading);
-        flags = fixpid_guard_step(&guard, SETPOINT, reading, output);
+    const int16_t output =
+        tuning ? tuning_step(reading)
+               : fixpid_pid_step(&controller, SETPOINT, reading);
+    const int16_t wanted = tuning ? reading : SETPOINT;
+    const uint8_t alarms =
+        fixpid_guard_step(&guard, wanted, reading, output) & ALARMS;
+    if (alarms == 0) {
+        return output;
     }
-    if ((flags & FIXPID_GUARD_ALARMS) != 0) {
-        off = true;
-        tuning = false;
-        Serial.print(F("ALARM 0x"));
-        Serial.print(flags & FIXPID_GUARD_ALARMS, HEX);
-        Serial.println(F(": off. Look, then send a"));
-        if ((flags & FIXPID_GUARD_NOT_FALLING) != 0) {
-            Serial.println(F("cut the supply"));
-        }
+    off = true;
+    tuning = false;
+    Serial.print(F("ALARM 0x"));
+    Serial.print(alarms, HEX);
+    Serial.println(F(": off. Look, then send a"));
+    if ((alarms & FIXPID_GUARD_NOT_FALLING) != 0) {
+        Serial.println(F("cut the supply"));
     }
-    return off ? 0 : output;
+    return 0;
 }
 
 static void obey(char key)
@@ -154,7 +211,9 @@ static void obey(char key)
         fixpid_pid_reset(&controller);
         Serial.println(F("acknowledged"));
     } else if (key == 't' && !off) {
-        start_tuning();
+        start_tuning(FULL);
+    } else if (key == 'h' && !off) {
+        start_tuning(FULL / 2);
     }
 }
 
@@ -166,11 +225,8 @@ void setup()
     (void)fixpid_tpo_init(&relay, &windows);
     pinMode(SSR, OUTPUT);
     Serial.begin(115200);
-
-    fixpid_autotune_record record;
-    EEPROM.get(0, record);
-    if (!fixpid_autotune_unpack(&tuner, &record) || !take_over()) {
-        start_tuning();
+    if (!take_over_kept()) {
+        start_tuning(FULL);
     }
     last_ms = millis();
 }
