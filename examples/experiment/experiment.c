@@ -12,9 +12,7 @@
 // These are in counts of temperature, of which a degree has 16.
 #define COLDEST 16
 #define HOTTEST 4000 // 250 C; the sensor ends at 256
-#define SWING 160u
 #define TIMEOUT_STEPS 600u // a minute for half a cycle
-#define CYCLES 2u
 
 // Deviation 8.4: the application's one experiment, found by its name.
 FIXPID_DATA struct fixpid_autotune tuner;
@@ -43,9 +41,8 @@ int main(void)
         .output_rest = 0,
         .measurement_min = COLDEST,
         .measurement_max = HOTTEST,
-        .swing = SWING,
         .timeout_steps = TIMEOUT_STEPS,
-        .cycles = CYCLES,
+        .cycles = 1,
     };
 
     port_init();
