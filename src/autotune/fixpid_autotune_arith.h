@@ -7,6 +7,7 @@
 // experiment comes to stay within +-120.
 #ifndef FIXPID_AUTOTUNE_ARITH_H
 #define FIXPID_AUTOTUNE_ARITH_H
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "fixpid.h"
@@ -71,23 +72,22 @@ static void make(FIXPID_DATA struct number16 *result, uint32_t value,
     result->exponent = places;
 }
 
-static void multiply(FIXPID_DATA struct number16 *result,
-                     FIXPID_DATA const struct number16 *a,
+// a = a * b
+static void multiply(FIXPID_DATA struct number16 *a,
                      FIXPID_DATA const struct number16 *b)
 {
-    make(result, (uint32_t)a->mantissa * b->mantissa,
+    make(a, (uint32_t)a->mantissa * b->mantissa,
          (int16_t)(a->exponent + b->exponent));
 }
 
-// a / b; 0 if b is 0, which flipped bits may make of what never is.
-static void divide(FIXPID_DATA struct number16 *result,
-                   FIXPID_DATA const struct number16 *a,
+// a = a / b; 0 if b is 0, which flipped bits may make of what never is.
+static void divide(FIXPID_DATA struct number16 *a,
                    FIXPID_DATA const struct number16 *b)
 {
     if (b->mantissa == 0u) {
-        make(result, 0, 0);
+        make(a, 0, 0);
     } else {
-        make(result, ((uint32_t)a->mantissa << 16) / b->mantissa,
+        make(a, ((uint32_t)a->mantissa << 16) / b->mantissa,
              (int16_t)(a->exponent - b->exponent - 16));
     }
 }
@@ -103,8 +103,8 @@ static uint32_t aligned(FIXPID_DATA const struct number16 *a, int16_t exponent)
     return ((uint32_t)a->mantissa << 15) >> (uint8_t)places;
 }
 
-static void add(FIXPID_DATA struct number16 *result,
-                FIXPID_DATA const struct number16 *a,
+// a = a + b
+static void add(FIXPID_DATA struct number16 *a,
                 FIXPID_DATA const struct number16 *b)
 {
     int16_t exponent = a->exponent;
@@ -112,27 +112,31 @@ static void add(FIXPID_DATA struct number16 *result,
     if (exponent < b->exponent) {
         exponent = b->exponent;
     }
-    make(result, aligned(a, exponent) + aligned(b, exponent),
+    make(a, aligned(a, exponent) + aligned(b, exponent),
          (int16_t)(exponent - 15));
 }
 
-// a - b, or 0 if b is the larger one
-static void subtract(FIXPID_DATA struct number16 *result,
-                     FIXPID_DATA const struct number16 *a,
+// a > b
+static bool greater(FIXPID_DATA const struct number16 *a,
+                    FIXPID_DATA const struct number16 *b)
+{
+    if (a->exponent != b->exponent) {
+        return a->exponent > b->exponent;
+    }
+    return a->mantissa > b->mantissa;
+}
+
+// a = a - b, or 0 if b is the larger one
+static void subtract(FIXPID_DATA struct number16 *a,
                      FIXPID_DATA const struct number16 *b)
 {
     const int16_t exponent = a->exponent;
     uint32_t difference = 0;
 
-    if (exponent >= b->exponent) {
-        const uint32_t minuend = aligned(a, exponent);
-        const uint32_t subtrahend = aligned(b, exponent);
-
-        if (minuend > subtrahend) {
-            difference = minuend - subtrahend;
-        }
+    if (greater(a, b)) {
+        difference = aligned(a, exponent) - aligned(b, exponent);
     }
-    make(result, difference, (int16_t)(exponent - 15));
+    make(a, difference, (int16_t)(exponent - 15));
 }
 
 // number * 2^fraction to the nearest integer, half up; UINT32_MAX if it has

@@ -72,12 +72,13 @@ void prove_plus(void)
     const struct number16 b = any_number();
     const number exponent = (a.exponent < b.exponent) ? b.exponent : a.exponent;
 
-    add(&result, &a, &b);
+    result = a;
+    add(&result, &b);
     claim_result(at_exponent(a, exponent) + at_exponent(b, exponent),
                  exponent - 15);
 }
 
-// Or 0 if b is the larger one.
+// Or 0 unless a is the greater one.
 void prove_minus(void)
 {
     const struct number16 a = any_number();
@@ -87,8 +88,10 @@ void prove_minus(void)
     if (a.exponent >= b.exponent) {
         rest = at_exponent(a, a.exponent) - at_exponent(b, a.exponent);
     }
-    subtract(&result, &a, &b);
+    result = a;
+    subtract(&result, &b);
     claim_result((rest < 0) ? 0 : rest, (number)a.exponent - 15);
+    claim(greater(&a, &b) == (result.mantissa != 0u));
 }
 
 // A product and a quotient, by a power of two: a solver is slow at others.
@@ -99,14 +102,18 @@ void prove_scaling(void)
 
     b.mantissa = 32768;
     assume(autotune_is_number(b));
-    multiply(&result, &a, &b);
+    result = a;
+    multiply(&result, &b);
     claim_result(a.mantissa, (number)a.exponent + b.exponent + 15);
-    multiply(&result, &b, &a);
+    result = b;
+    multiply(&result, &a);
     claim_result(a.mantissa, (number)a.exponent + b.exponent + 15);
-    divide(&result, &a, &b);
+    result = a;
+    divide(&result, &b);
     claim_result(a.mantissa, (number)a.exponent - b.exponent - 15);
     b.mantissa = 0;
-    divide(&result, &a, &b);
+    result = a;
+    divide(&result, &b);
     claim_result(0, 0);
 }
 

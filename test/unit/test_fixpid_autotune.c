@@ -1103,7 +1103,7 @@ void test_reason_says_why_there_are_no_gains(void)
     }
 }
 
-// Flipped bits may have made these of either relay's sums.
+// Flipped bits may have made any sums of either relay's.
 static void with_sums(struct fixpid_autotune_sums sums, bool sensible)
 {
     for (unsigned relay = 0; relay < 2; relay++) {
@@ -1118,21 +1118,21 @@ static void with_sums(struct fixpid_autotune_sums sums, bool sensible)
     }
 }
 
-void test_reason_sums_that_no_cycles_have_make_no_shape(void)
+void test_reason_no_area_or_one_side_alone_is_no_shape(void)
 {
     static const struct {
         struct fixpid_autotune_sums sums;
         bool sensible;
     } rows[] = {
-        {{0, -32767, 0, 32767, 1}, true},
-        {{0, -32767, 0, 32768u, 1}, false},
-        {{0, -32768, 0, 32767, 1}, false},
+        {{0, -1, 0, 40, 20}, true},
+        {{0, 0, 0, 40, 20}, false},
+        {{0, 1, 0, 40, 20}, false},
         {{0, -32767, 0, 32767, 0}, false},
+        {{0, -32767, 0, 32767, 1}, true},
         {{0, -32767, 0, 32767, 32766}, true},
         {{0, -32767, 0, 32767, 32767}, false},
-        {{INT32_C(32767) * 32767, -32767, 0, 32767, 1}, true},
-        {{INT32_C(32767) * 32767 + 1, -32767, 0, 32767, 1}, false},
-        {{INT32_MIN, -32767, 0, 32767, 1}, false},
+        {{INT32_MIN, INT32_MIN, -32768, 65534u, 65535u}, false},
+        {{INT32_MIN, INT32_MIN, -32768, 65535u, 65534u}, true},
     };
 
     for (unsigned i = 0; i < COUNT(rows); i++) {

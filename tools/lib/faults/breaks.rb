@@ -19,9 +19,8 @@ module Breaks
                 'kp' => %w[ki], 'ki' => %w[kd], 'kd' => %w[kp], 'kp_q4' => %w[ki_q4], 'ki_q4' => %w[kd_q4],
                 'kd_q4' => %w[kp_q4], 'left' => %w[right], 'right' => %w[left], 'low' => %w[high], 'high' => %w[low],
                 'true' => %w[false], 'false' => %w[true], 'TIMES' => %w[OVER], 'OVER' => %w[TIMES],
-                'PLUS' => %w[MINUS], 'MINUS' => %w[PLUS], 'LESSER' => %w[GREATER], 'GREATER' => %w[LESSER], 'TIMES_ONTO' => %w[TIMES],
-                'X' => %w[Y], 'Y' => %w[X] }.freeze
-  TOKEN = %r{//[^\n]*|\{END, [0-9, ]*\}|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d+\.\d+|\d\w*|\n|.}m.freeze
+                'PLUS' => %w[MINUS], 'MINUS' => %w[PLUS], 'LESSER' => %w[GREATER], 'GREATER' => %w[LESSER] }.freeze
+  TOKEN = %r{//[^\n]*|->|<<=|>>=|<<|>>|<=|>=|==|!=|&&|\|\||[|&^+-]=|--|[A-Za-z_]\w*|\d+\.\d+|\d\w*|\n|.}m.freeze
 
   # A comparison's other side, one off: with `<` above, the others are here.
   # `-1 + limit` is `limit - 1` whatever follows.
@@ -30,13 +29,15 @@ module Breaks
   ASSIGNMENT = /[A-Za-z_*.\[\]0-9>-]+ [|&^+-]?= [^;{}\\]+;/.freeze
   CALL = /(?!(?:if|for|while|switch|return|sizeof|FIXPID_ASSERT)\b)\w+\([^;{}\\]*\);/.freeze
   STATEMENT = /^ +(?<what>#{ASSIGNMENT}|#{CALL})$/.freeze
-  OPERATION = /(?<what>\{(?!END)[A-Z]\w*(?:, \w+){3}\},)/.freeze # of a table
+  # Of an equation that is a line or more of a table: a verb with its number, and the whole.
+  OPERATION = /(?<what>(?:TIMES|OVER|PLUS|MINUS|LESSER|GREATER), \w+,)/.freeze
+  EQUATION = /^ {4}(?<what>[A-Z]\w*, +\w+,(?:\s+(?:TIMES|OVER|PLUS|MINUS|LESSER|GREATER), \w+,)*)/.freeze
 
   class << self
     def of(file, text = File.read(file))
       skipped = skipped_lines(file, text.lines)
-      of_tokens(file, text, skipped) +
-        left_out(file, text, skipped, STATEMENT, ';') + left_out(file, text, skipped, OPERATION, '')
+      of_tokens(file, text, skipped) + left_out(file, text, skipped, STATEMENT, ';') +
+        [OPERATION, EQUATION].flat_map { |pattern| left_out(file, text, skipped, pattern, '') }
     end
 
     private

@@ -115,6 +115,7 @@ def runs_by_name(file)
   when 'fixpid_pid_private', 'fixpid_pid_accept', 'fixpid_pid_limit'
     pid_runs(Dir['src/pid/fixpid_pid{,_error,_more,_track}.c'])
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/autotune/*.c'].sort)
+  when 'fixpid_autotune_equations' then autotune_runs(%w[src/autotune/fixpid_autotune_result.c])
   when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
   when 'fixpid_table_text' then runs_of('src/table/fixpid_table.c')
   when 'fixpid_difference'
