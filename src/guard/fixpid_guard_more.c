@@ -81,7 +81,7 @@ static uint32_t way_for(uint32_t slope_q24, uint16_t band, uint16_t range)
 {
     // 8 * 20 band / (slope_q24 / 2^24 * range): a - 1 = 160 band 2^24 - 1 <
     // 2^47
-    const uint32_t a = (uint32_t)band * 160u - 1u;
+    const uint32_t a = ((uint32_t)band * 160u) - 1u;
     struct wide way;
 
     way.high = a >> 8;

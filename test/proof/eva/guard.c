@@ -2,6 +2,7 @@
 #include "eva.h"
 
 #include "guard/fixpid_guard.c"
+#include "guard/fixpid_guard_more.c"
 
 void eva(void)
 {
@@ -17,8 +18,12 @@ void eva(void)
         .reverse = GOES_ON,
         .noisy = GOES_ON,
     };
+    const struct fixpid_guard_model model = {ANY_UINT32, ANY_UINT32, ANY_UINT16,
+                                             ANY_UINT32, ANY_UINT16};
+    struct fixpid_guard_config found = config;
     struct fixpid_guard c;
 
+    (void)fixpid_guard_from_model(&found, &model);
     (void)fixpid_guard_init(&c, &config);
     while (GOES_ON) {
         if (GOES_ON) {

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// fixpid_guard_from_model against the rule of its header, whatever the
+// quotients are, and its division turn by turn: a solver is slow at quotients.
+#include "prove.h"
+
+#include "fixpid_guard.h"
+
+struct fixpid_guard_config nondet_guard_config(void);
+struct fixpid_guard_model nondet_guard_model(void);
+
+struct wide;
+static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
+                    uint32_t divisor);
+
+// clang-format would make another macro of it.
+// clang-format off
+#define for(head) for (head) if (at_turn(value, &rest, &turn, divisor))
+// clang-format on
+#include "guard/fixpid_guard_more.c"
+#undef for
+
+struct wide nondet_wide(void);
+
+static uint64_t bits_of(const struct wide *value)
+{
+    return ((uint64_t)value->high << 32) | value->low;
+}
+
+// floor(a / b), of which is known here only that it is one function, and at
+// most a.
+uint64_t __CPROVER_uninterpreted_floor(uint64_t a, uint32_t b);
+
+static number assume_floor(number a, number b)
+{
+    const uint64_t q = __CPROVER_uninterpreted_floor((uint64_t)a, (uint32_t)b);
+
+    assume(q <= (uint64_t)a);
+    return (number)q;
+}
+
+void divide_contract(struct wide *value, uint32_t divisor)
+{
+    number q;
+
+    pre(divisor != 0u);
+    pre(value->high <= 0x7FFFFFFFu);
+    q = assume_floor((number)bits_of(value), divisor);
+    value->high = (uint32_t)floor_by(q, 32);
+    value->low = (uint32_t)q;
+}
+
+// ceil(x / 2^bits)
+static number ceil_by(number x, unsigned bits)
+{
+    return -floor_by(-x, bits);
+}
+
+static number band_by_rule(const struct fixpid_guard_model *model)
+{
+    const number noise = ceil_by(8 * (number)model->noise_q4 + 4 * 16, 4);
+    const number swing = (model->gain_q8 == UINT32_MAX)
+                             ? 0
+                             : ceil_by(2 * (number)model->gain_q8, 8);
+
+    if (model->band != 0u) {
+        return model->band;
+    }
+    return (swing > noise) ? swing : noise;
+}
+
+// In eighths of a step, of which 2 L has dead_q4 and the way 8 * 20 band /
+// (slope * range), each rounded up: ceil(a / b / c) is
+// floor(floor((a - 1) / b) / c) + 1, and ceil((n + x) / 8) of a whole n is
+// ceil((n + ceil(x)) / 8).
+static number patience_by_rule(const struct fixpid_guard_model *model,
+                               number band, number range)
+{
+    const number way =
+        assume_floor(assume_floor(band * 160 * 0x1000000 - 1, model->slope_q24),
+                     range) +
+        1;
+    const number patience = ceil_by((number)model->dead_q4 + way, 3);
+
+    return (patience < 4) ? 4 : patience;
+}
+
+static bool same_config(const struct fixpid_guard_config *a,
+                        const struct fixpid_guard_config *b)
+{
+    return (a->output_min == b->output_min) &&
+           (a->output_max == b->output_max) &&
+           (a->measurement_min == b->measurement_min) &&
+           (a->measurement_max == b->measurement_max) &&
+           (a->reach_min == b->reach_min) && (a->reach_max == b->reach_max) &&
+           (a->band == b->band) && (a->patience == b->patience) &&
+           (a->reverse == b->reverse) && (a->noisy == b->noisy);
+}
+
+// By contract: divide.
+void prove_from_model(void)
+{
+    const struct fixpid_guard_model model = nondet_guard_model();
+    struct fixpid_guard_config config = nondet_guard_config();
+    struct fixpid_guard_config expected;
+    const number range = (number)config.output_max - config.output_min;
+    const number band = band_by_rule(&model);
+    bool accepted = false;
+
+    config.reverse = any_bool;
+    config.noisy = any_bool;
+    expected = config;
+    if ((range > 0) && (model.slope_q24 != 0u) && (band <= 32767)) {
+        const number patience = patience_by_rule(&model, band, range);
+
+        accepted = patience <= 32767;
+        if (accepted) {
+            expected.band = (uint16_t)band;
+            expected.patience = (uint16_t)patience;
+            expected.noisy = (model.noise_q4 >= 16u) && (patience >= 16);
+        }
+    }
+    claim(fixpid_guard_from_model(&config, &model) == accepted);
+    claim(same_config(&config, &expected));
+}
+
+static uint64_t dividend;
+
+// Where the turn began that is proved.
+static struct {
+    number turns; // to go
+    number rest;
+    uint64_t quotient;
+    number next; // bit of the dividend
+} began;
+
+static uint64_t lowest(number bits)
+{
+    return (bits == 64) ? ~(uint64_t)0 : (((uint64_t)1 << bits) - 1u);
+}
+
+// The upper bits, as many as there are turns, are the dividend's.
+static bool is_divided(const struct wide *value, number rest, number turns,
+                       number divisor)
+{
+    return inside(turns, 1, 64) && (rest < divisor) &&
+           ((bits_of(value) >> (64 - turns)) == (dividend & lowest(turns)));
+}
+
+// Domain: a turn of a division by hand: the rest is below the divisor, and the
+// upper bits are those of the dividend.
+static bool guard_may_divide(const struct wide *value, number rest,
+                             number turns, number divisor)
+{
+    return is_divided(value, rest, turns, divisor);
+}
+
+// Long division: the rest and the next bit of the dividend are the next rest,
+// and the divisor if it goes into them.
+static bool is_next(const struct wide *value, number rest, number turns,
+                    number divisor)
+{
+    const uint64_t quotient = bits_of(value) & lowest(64 - turns);
+    const number taken = ((quotient & 1u) != 0u) ? divisor : 0;
+
+    return (turns == began.turns - 1) && ((quotient >> 1) == began.quotient) &&
+           (rest == (began.rest * 2) + began.next - taken);
+}
+
+static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
+                    uint32_t divisor)
+{
+    claim(is_divided(value, *rest, *turn, divisor) &&
+          (begins() ? ((*turn == 64u) && (*rest == 0u))
+                    : is_next(value, *rest, *turn, divisor)));
+    any_turn();
+    *value = nondet_wide();
+    *rest = nondet_uint32();
+    *turn = nondet_uint8();
+    assume(guard_may_divide(value, *rest, *turn, divisor));
+    began.turns = *turn;
+    began.rest = *rest;
+    began.quotient = bits_of(value) & lowest(64 - (number)*turn);
+    began.next = (number)((dividend >> (*turn - 1u)) & 1u);
+    return true;
+}
+
+// The last turn leaves the quotient.
+void prove_divide(void)
+{
+    struct wide value = nondet_wide();
+    const uint32_t divisor = nondet_uint32();
+    number rest;
+    uint64_t quotient;
+
+    assume(inside(divisor, 1, UINT32_MAX));
+    dividend = bits_of(&value);
+    divide(&value, divisor);
+    rest = (began.rest * 2) + began.next;
+    quotient = (began.quotient * 2u) + ((rest >= (number)divisor) ? 1u : 0u);
+    claim(began.turns == 1);
+    claim(bits_of(&value) == quotient);
+}
