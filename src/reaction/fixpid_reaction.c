@@ -7,17 +7,21 @@
 #define TIMEOUT_MAX 32767u
 #define TIMEOUT_USUAL 1000u
 #define REST_MAX 511
+#define MINUS_1 0xFFFFu
 #define BAND_MAX 1022u // so that what is needed has 16 bits
 
-// a - b within -32767..32767
+// a - b, saturated
 static int16_t apart(int16_t a, int16_t b)
 {
-    const uint16_t difference = (uint16_t)((uint16_t)a - (uint16_t)b);
+    const uint16_t from = (uint16_t)b;
+    const uint16_t to = (uint16_t)a;
+    const uint16_t difference = (uint16_t)(to - from);
 
-    if (a >= b) {
-        return (difference > 32767u) ? 32767 : (int16_t)difference;
+    // it has the wrong sign
+    if ((((to ^ from) & (to ^ difference)) & FIXPID_SIGN_BIT) != 0u) {
+        return (a < 0) ? INT16_MIN : INT16_MAX;
     }
-    return (difference <= 32768u) ? -32767 : (int16_t)difference;
+    return (int16_t)difference;
 }
 
 int16_t fixpid_reaction_reach(FIXPID_DATA const struct fixpid_reaction *self)
@@ -27,7 +31,10 @@ int16_t fixpid_reaction_reach(FIXPID_DATA const struct fixpid_reaction *self)
     if (far > REACH_MAX) {
         return REACH_MAX;
     }
-    return (far < 0) ? 0 : far;
+    if (far < 0) {
+        return 0;
+    }
+    return far;
 }
 
 uint16_t fixpid_reaction_scaled(FIXPID_DATA const struct fixpid_reaction *self,
@@ -53,6 +60,14 @@ uint16_t fixpid_reaction_needed(FIXPID_DATA const struct fixpid_reaction *self)
     return fixpid_reaction_scaled(self, (uint16_t)((SELF.band + 1u) << 2));
 }
 
+static bool is_at_rest(int16_t x)
+{
+    if (x > REST_MAX) {
+        return false;
+    }
+    return x >= -REST_MAX;
+}
+
 static void listen(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
 {
     int16_t x;
@@ -61,7 +76,7 @@ static void listen(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
         SELF.start = reading;
     }
     x = apart(reading, SELF.start);
-    if ((uint16_t)(x + REST_MAX) > (uint16_t)(2 * REST_MAX)) {
+    if (!is_at_rest(x)) {
         SELF.state = FIXPID_REACTION_MOVING;
         return;
     }
@@ -75,9 +90,9 @@ static void listen(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
         SELF.record[FIRST_HALF] =
             (uint16_t)(SELF.record[FIRST_HALF] + (uint16_t)x);
     } else {
-        SELF.base = (int16_t)((uint16_t)SELF.base + (uint16_t)x);
+        SELF.base = (int16_t)fixpid_add32(SELF.base, x);
     }
-    SELF.left--;
+    SELF.left = (uint16_t)(SELF.left + MINUS_1);
     if (SELF.left == 0u) {
         fixpid_reaction_begin(self);
     }
@@ -87,6 +102,7 @@ static void heat(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
 {
     const int16_t far = fixpid_reaction_reach(self);
     int16_t x = apart(reading, SELF.start);
+    uint16_t counts;
 
     // Not in the step that judges, which is long enough.
     if (SELF.blocks >= BLOCKS) {
@@ -105,9 +121,10 @@ static void heat(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
 
         SELF.band = (jump < BAND_MAX) ? jump : BAND_MAX;
     }
-    // at most 2^15; the sum at most 2^27
-    SELF.sum += fixpid_reaction_scaled(self, (uint16_t)(x + far));
-    SELF.left--;
+    counts = (uint16_t)((uint16_t)x + (uint16_t)far); // at most 2^15 scaled
+    SELF.sum = (uint32_t)fixpid_add32((int32_t)SELF.sum,
+                                      fixpid_reaction_scaled(self, counts));
+    SELF.left = (uint16_t)(SELF.left + MINUS_1);
     if (SELF.left == 0u) {
         fixpid_reaction_end_block(self);
     }
@@ -135,13 +152,13 @@ bool fixpid_reaction_init(FIXPID_DATA struct fixpid_reaction *self,
     }
     SELF.state = LISTENING;
     if (SELF.output_drive == SELF.output_rest) {
-        SELF.state = FIXPID_REACTION_REFUSED;
+        SELF.state = REFUSED;
     }
     if (SELF.timeout_steps > TIMEOUT_MAX) {
-        SELF.state = FIXPID_REACTION_REFUSED;
+        SELF.state = REFUSED;
     }
     fixpid_reaction_reset(self);
-    return SELF.state != FIXPID_REACTION_REFUSED;
+    return SELF.state != REFUSED;
 }
 
 void fixpid_reaction_reset(FIXPID_DATA struct fixpid_reaction *self)
@@ -149,7 +166,7 @@ void fixpid_reaction_reset(FIXPID_DATA struct fixpid_reaction *self)
     uint8_t i;
 
     FIXPID_ASSERT(VALID_SELF);
-    if (SELF.state != FIXPID_REACTION_REFUSED) {
+    if (SELF.state != REFUSED) {
         SELF.state = LISTENING;
     }
     SELF.blocks = 0;
@@ -184,7 +201,7 @@ int16_t fixpid_reaction_step(FIXPID_DATA struct fixpid_reaction *self,
     if (SELF.state >= HEATING) {
         return SELF.output_drive;
     }
-    if (SELF.state == FIXPID_REACTION_REFUSED) {
+    if (SELF.state == REFUSED) {
         return 0;
     }
     return SELF.output_rest;

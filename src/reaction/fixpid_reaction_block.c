@@ -20,8 +20,8 @@ void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
 {
     const uint16_t band =
         (uint16_t)(SELF.record[HIGHEST] - SELF.record[LOWEST]);
-    const int16_t risen =
-        (int16_t)((uint16_t)SELF.base - SELF.record[FIRST_HALF]);
+    const uint16_t risen =
+        (uint16_t)((uint16_t)SELF.base - SELF.record[FIRST_HALF]);
     uint16_t origin = (uint16_t)fixpid_reaction_reach(self);
     uint8_t places;
 
@@ -32,7 +32,8 @@ void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
         SELF.state = FIXPID_REACTION_LIMIT;
     }
     // Above five bands it would coast on: at most 5 * 1022 + 16.
-    if (risen > (int16_t)(uint16_t)((uint16_t)(band << 2) + band + 16u)) {
+    if ((int16_t)risen >
+        (int16_t)(uint16_t)((uint16_t)(band << 2) + band + 16u)) {
         SELF.state = FIXPID_REACTION_MOVING;
     }
     for (places = SCALE_MAX; places != 0u; places--) {
@@ -40,7 +41,7 @@ void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
         if (origin > (uint16_t)REACH_MAX) {
             break;
         }
-        SELF.scale++;
+        SELF.scale = (uint8_t)(SELF.scale + 1u);
     }
 }
 
@@ -55,10 +56,11 @@ void fixpid_reaction_halve(FIXPID_DATA struct fixpid_reaction *self)
 
         // (a + b) >> 1 in 16 bits
         SELF.record[i] = (uint16_t)((a & b) + ((a ^ b) >> 1));
-        pair += 2;
+        pair++;
+        pair++;
     }
     SELF.blocks = BLOCKS / 2u;
-    SELF.doubled++;
+    SELF.doubled = (uint8_t)(SELF.doubled + 1u);
     SELF.left = (uint16_t)(SELF.left << 1);
 }
 
@@ -176,8 +178,7 @@ static uint8_t judge(FIXPID_DATA const struct fixpid_reaction *self,
             const uint8_t verdict = judge_slopes(
                 &rises, clear, need,
                 fixpid_reaction_excess(
-                    newest,
-                    SELF.record[(uint8_t)(blocks - 2u) & (BLOCKS - 1u)]));
+                    newest, SELF.record[(uint8_t)(blocks - 2u) & MOD_BLOCKS]));
 
             if (verdict != HEATING) {
                 return verdict;
@@ -201,8 +202,8 @@ void fixpid_reaction_end_block(FIXPID_DATA struct fixpid_reaction *self)
         left = (uint16_t)(left << 1);
     }
     SELF.left = left;
-    SELF.record[SELF.blocks & (BLOCKS - 1u)] = (uint16_t)sum;
+    SELF.record[SELF.blocks & MOD_BLOCKS] = (uint16_t)sum;
     SELF.sum = 0;
-    SELF.blocks++;
+    SELF.blocks = (uint8_t)(SELF.blocks + 1u);
     SELF.state = judge(self, (uint16_t)sum);
 }

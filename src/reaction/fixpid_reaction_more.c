@@ -27,20 +27,20 @@ static uint8_t ninetieths(uint16_t part, uint16_t whole)
 uint8_t fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
 {
     uint16_t need;
+    uint16_t newest;
     uint16_t risen;
 
     FIXPID_ASSERT(VALID_SELF);
     if (SELF.state == LISTENING) {
-        return (uint8_t)((LISTEN_STEPS - SELF.left) >> 2);
+        return (uint8_t)(fixpid_reaction_excess(LISTEN_STEPS, SELF.left) >> 2);
     }
     if (SELF.state < HEATING) {
         return 100;
     }
     need = fixpid_reaction_needed(self);
-    risen = fixpid_reaction_excess(
-                SELF.record[(uint8_t)(SELF.blocks - 1u) & (BLOCKS - 1u)],
-                fixpid_reaction_origin(self)) >>
-            1;
+    newest = SELF.record[(uint8_t)(SELF.blocks + MOD_BLOCKS) & MOD_BLOCKS];
+    risen = fixpid_reaction_excess(newest, fixpid_reaction_origin(self));
+    risen >>= 1;
     if (risen >= need) {
         return 98;
     }

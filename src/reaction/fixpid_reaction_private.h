@@ -11,13 +11,16 @@
 #ifndef FIXPID_REACTION_PRIVATE_H
 #define FIXPID_REACTION_PRIVATE_H
 
-// `state` while it runs. Each byte is a status or HEATING.
+// `state` is a status, of which RUNNING stands for LISTENING, or HEATING.
+#define REFUSED ((uint8_t)FIXPID_REACTION_REFUSED)
 #define LISTENING ((uint8_t)FIXPID_REACTION_RUNNING)
+#define DONE ((uint8_t)FIXPID_REACTION_DONE)
 #define HEATING 9u // and above
 
 #define LISTEN_STEPS 32u
 #define REACH_MAX 16384
 #define BLOCKS 8u
+#define MOD_BLOCKS 7u // of any byte, an index
 
 // Any byte of `doubled` counts as 0..15, and of `scale` as 0..7.
 #define DOUBLED 0x0Fu

@@ -8,12 +8,15 @@
 
 #define TOO_MUCH ((uint32_t)0xFFFFFFFFu)
 #define DELAY_MAX ((uint32_t)0x3FFFFFFu) // so that three of them have 28 bits
+#define HALF ((uint32_t)0x7FFFFFFFu)
 #define KD_DELAY_MAX 65535u
 #define KI_MIN 8u
 #define FILTERED 1023u // of a delay x 16: a quarter of Td, or two steps
 
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u
+#define ROBUST_MORE 18u // 19 / 256 of the robustness and 18: at most 1558 / 256
+#define ROBUST_FACTOR 19u
 #define ONCE 256u // the factor of a height as it is
 
 // floor(a * 2^places / b), or TOO_MUCH where that is not below 2^32, and for
@@ -27,8 +30,8 @@ static uint32_t ratio(uint32_t a, uint32_t b, uint8_t places)
     for (turn = (uint8_t)(32u + places); turn != 0u; turn--) {
         const bool carry = (bits >> 31) != 0u;
 
-        rest <<= 1;
-        bits <<= 1;
+        rest = (rest & HALF) << 1;
+        bits = (bits & HALF) << 1;
         if (carry) {
             if (turn <= places) {
                 return TOO_MUCH;
@@ -81,16 +84,16 @@ static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
     for (places = SELF.doubled & DOUBLED; places > 1u; places--) {
         hold >>= 1;
     }
-    height = (int32_t)((uint32_t)rise * (uint8_t)(place - 1u));
-    height -= block[0];
-    height -= block[1];
-    height += (int32_t)((uint32_t)fixpid_reaction_origin(self) << 1);
+    height = (int32_t)rise * (int32_t)(uint8_t)(place - 1u);
+    height += (int32_t)fixpid_reaction_origin(self) * 2;
+    height -= (int32_t)block[0];
+    height -= (int32_t)block[1];
     height += height;
-    height += base >> 2; // Deviation 10.1: rounds down
+    height += shift_right_floor(base, 2);
     if (height < 0) {
         height = 0;
     }
-    height += (int32_t)((uint32_t)fixpid_reaction_scaled(self, SELF.band) << 1);
+    height += (int32_t)fixpid_reaction_scaled(self, SELF.band) * 2;
     return (uint32_t)height + hold;
 }
 
@@ -123,7 +126,7 @@ bool fixpid_reaction_model(FIXPID_DATA const struct fixpid_reaction *self,
 {
     FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(process != 0);
-    if (SELF.state != FIXPID_REACTION_DONE) {
+    if (SELF.state != DONE) {
         return false;
     }
     (void)take_tangent(self, ONCE, process);
@@ -153,7 +156,7 @@ static bool take_gains(struct fixpid_pid_gains *gains, uint8_t rule,
     uint32_t kd = 0;
     uint8_t filter = 0;
 
-    if (rule == FIXPID_REACTION_PI) {
+    if (rule == (uint8_t)FIXPID_REACTION_PI) {
         reset += delay_q4;
     } else {
         kp += kp >> 2;
@@ -187,10 +190,11 @@ bool fixpid_reaction_result(FIXPID_DATA const struct fixpid_reaction *self,
 {
     struct fixpid_reaction_process tangent;
     uint32_t kp;
+    uint16_t factor = robustness_q4;
 
     FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(gains != 0);
-    if (rule > FIXPID_REACTION_PID) {
+    if (rule > (uint8_t)FIXPID_REACTION_PID) {
         return false;
     }
     if (robustness_q4 < ROBUSTNESS_MIN) {
@@ -199,10 +203,15 @@ bool fixpid_reaction_result(FIXPID_DATA const struct fixpid_reaction *self,
     if (robustness_q4 > ROBUSTNESS_MAX) {
         return false;
     }
-    if (SELF.state != FIXPID_REACTION_DONE) {
+    if (SELF.state != DONE) {
         return false;
     }
-    kp = take_tangent(self, (uint16_t)((robustness_q4 + 18u) * 19u), &tangent);
+    factor = (uint16_t)(factor + ROBUST_MORE);
+    factor = (uint16_t)(factor * ROBUST_FACTOR);
+    kp = take_tangent(self, factor, &tangent);
+    if (kp > FIXPID_PID_KP_MAX) {
+        return false;
+    }
     if (tangent.dead_q4 > DELAY_MAX) {
         return false;
     }
