@@ -87,7 +87,7 @@ static const uint8_t *solve(FIXPID_DATA const struct sheet *sheet,
     make(&sum, 0, 0);
     take(sheet, flash_byte(last), &term);
     while (verb >= (uint8_t)TIMES) {
-        last += 2;
+        last = &last[2];
         take(sheet, flash_byte(last), &number);
         if (verb <= (uint8_t)OVER) {
             apply(&term, verb, &number);
@@ -140,16 +140,12 @@ static bool above(FIXPID_DATA const struct sheet *sheet, uint8_t which,
 
 static uint32_t magnitude(int32_t x)
 {
-    const uint32_t pattern = (uint32_t)x;
-
-    return (x < 0) ? (~pattern + 1u) : pattern;
+    return (uint32_t)((x < 0) ? fixpid_sub32(0, x) : x);
 }
 
 static int32_t with_sign_of(int32_t sign, uint32_t value)
 {
-    const uint32_t pattern = (sign < 0) ? (~value + 1u) : value;
-
-    return (int32_t)pattern;
+    return (sign < 0) ? fixpid_sub32(0, (int32_t)value) : (int32_t)value;
 }
 
 // scale * total / steps, in two parts. pre: total / steps is below 2^16. (A
@@ -174,13 +170,9 @@ static uint16_t swing(FIXPID_DATA const struct fixpid_autotune *self)
 static int32_t area(FIXPID_DATA const struct fixpid_autotune_sums *sums)
 {
     const int32_t mean = part_of(sums->all, sums->steps, sums->on_steps);
-    const int32_t turns = sums->rise / 2;
-    // The first two are within 32767^2, the third one within 16376: but flipped
-    // bits may make any sums.
-    const uint32_t pattern =
-        (uint32_t)mean - (uint32_t)sums->on - (uint32_t)turns;
 
-    return (int32_t)pattern;
+    // Both sums are within 32767^2, and half the rise within 16376.
+    return fixpid_sub32(fixpid_sub32(mean, sums->on), sums->rise / 2);
 }
 
 // The numbers of one relay. False if it has no area, or not both sides.
@@ -363,13 +355,8 @@ static int16_t holding(FIXPID_DATA struct sheet *sheet,
     }
     output -= with_sign_of(off, taken);
     output = shift_right_floor(output + 128, 8);
-    if (output < SELF.config.output_min) {
-        return SELF.config.output_min;
-    }
-    if (output > SELF.config.output_max) {
-        return SELF.config.output_max;
-    }
-    return (int16_t)output;
+    return (int16_t)clamp32(output, SELF.config.output_min,
+                            SELF.config.output_max);
 }
 
 bool fixpid_autotune_model(FIXPID_DATA const struct fixpid_autotune *self,
