@@ -2,6 +2,7 @@
 #include "bench.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #define INTEGRATOR_OFF 0.3 // of the scale, below the setpoint at power-on
 #define DRIFT_LASTS 30.0   // times dead time and lags
@@ -11,11 +12,11 @@ static double holding(const struct subject *subject)
     return subject->holding * subject->output_max;
 }
 
-void bench_start(struct bench *self, const struct subject *subject)
+static void start_plant(struct bench *self)
 {
+    const struct subject *const subject = self->subject;
     struct linear slow = subject->plant;
 
-    *self = (struct bench){.subject = subject, .chance = subject->chance};
     sampled_start(&self->plant, &subject->plant);
     motion_start(&self->motion, &self->plant);
     if (subject->cooling > 1.0) {
@@ -35,14 +36,40 @@ void bench_start(struct bench *self, const struct subject *subject)
     }
 }
 
-int bench_read(struct bench *self)
+void bench_start(struct bench *self, const struct subject *subject)
+{
+    self->subject = subject;
+    self->chance = subject->chance;
+    self->offset = 0.0;
+    self->steps = 0;
+    if (subject->machine != NULL) {
+        self->machine = *subject->machine;
+        machine_start(&self->machine, subject->at_rest, subject->chance.state);
+    } else {
+        start_plant(self);
+    }
+}
+
+double bench_value(const struct bench *self)
+{
+    if (self->subject->machine != NULL) {
+        return machine_value(&self->machine);
+    }
+    return self->subject->setpoint + self->offset + motion_value(&self->motion);
+}
+
+static int read_plant(struct bench *self)
 {
     const double noise = self->subject->noise * chance_noise(&self->chance);
-    const double value =
-        self->subject->setpoint + self->offset + motion_value(&self->motion);
-    const double counts = floor(value + noise + 0.5);
+    const double counts = floor(bench_value(self) + noise + 0.5);
 
     return (int)fmin(fmax(counts, 0.0), self->subject->sensor_max);
+}
+
+int bench_read(struct bench *self)
+{
+    return (self->subject->machine != NULL) ? machine_read(&self->machine)
+                                            : read_plant(self);
 }
 
 // What moves the plant: the actuator follows only when the backlash is taken
@@ -55,7 +82,7 @@ static void take_up(struct bench *self, double output)
     self->driven = fmax(self->driven, output - backlash);
 }
 
-void bench_drive(struct bench *self, double output)
+static void drive_plant(struct bench *self, double output)
 {
     const struct subject *const subject = self->subject;
     const double time = linear_steps(&subject->plant) * DRIFT_LASTS;
@@ -69,4 +96,13 @@ void bench_drive(struct bench *self, double output)
     }
     input += subject->drift * fmin(1.0, (double)self->steps / time);
     motion_move(&self->motion, input);
+}
+
+void bench_drive(struct bench *self, double output)
+{
+    if (self->subject->machine != NULL) {
+        machine_drive(&self->machine, output);
+    } else {
+        drive_plant(self, output);
+    }
 }

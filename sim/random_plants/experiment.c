@@ -2,29 +2,46 @@
 #include "experiment.h"
 
 #include <math.h>
-
-#define CYCLES 2
+#include <stddef.h>
 
 static const uint8_t robustness[] = {
     FIXPID_AUTOTUNE_QUICK, FIXPID_AUTOTUNE_SAFE, FIXPID_AUTOTUNE_CALM};
 
-static uint8_t rule_of(int number)
+uint8_t design_rule(int number)
 {
     return (uint8_t)((number < 3) ? FIXPID_AUTOTUNE_PI : FIXPID_AUTOTUNE_PID);
+}
+
+uint8_t design_robustness(int number)
+{
+    return robustness[number % 3];
+}
+
+// All of the output, or a part around its rest.
+static int end_of(const struct subject *subject, double rest, int sign)
+{
+    const double span = subject->output_max - subject->output_min;
+    const double end = rest + (sign * subject->each_side * span);
+
+    if (subject->each_side == 0.0) {
+        return (sign < 0) ? subject->output_min : subject->output_max;
+    }
+    return (int)fmin(fmax(end, subject->output_min), subject->output_max);
 }
 
 void experiment_start(struct experiment *self, const struct subject *subject,
                       double rest)
 {
     const struct fixpid_autotune_config config = {
-        .output_min = 0,
-        .output_max = (int16_t)subject->output_max,
+        .output_min = (int16_t)end_of(subject, rest, -1),
+        .output_max = (int16_t)end_of(subject, rest, 1),
         .output_rest = (int16_t)rest,
-        .measurement_min = 0,
+        // A machine may read 0 at rest.
+        .measurement_min = (subject->machine != NULL) ? -1 : 0,
         .measurement_max = (int16_t)subject->sensor_max,
-        .swing = (uint16_t)subject->swing,
         .timeout_steps = (uint16_t)subject->timeout_steps,
-        .cycles = CYCLES,
+        .cycles = (uint8_t)subject->cycles,
+        .reverse = subject->reverse,
     };
 
     *self = (struct experiment){.status = FIXPID_AUTOTUNE_REFUSED};
@@ -40,7 +57,7 @@ void experiment_run(struct experiment *self, const struct subject *subject)
     const bool holds = subject->at_rest || subject->plant.integrating;
     const double rest = holds ? subject->holding * subject->output_max : 0.0;
     const int16_t setpoint = (int16_t)subject->setpoint;
-    struct bench bench;
+    static struct bench bench;
 
     experiment_start(self, subject, rest);
     bench_start(&bench, subject);
@@ -49,7 +66,7 @@ void experiment_run(struct experiment *self, const struct subject *subject)
         const int16_t measurement = (int16_t)bench_read(&bench);
         const int16_t output =
             fixpid_autotune_step(&self->autotune, setpoint, measurement);
-        if (output < 0 || output > subject->output_max) {
+        if (output < subject->output_min || output > subject->output_max) {
             self->outside++;
         }
         bench_drive(&bench, output);
@@ -58,7 +75,7 @@ void experiment_run(struct experiment *self, const struct subject *subject)
     }
 }
 
-const char *experiment_design_name(int number)
+const char *design_name(int number)
 {
     static const char *const names[DESIGNS] = {
         "PI quick", "PI safe", "PI calm", "PID quick", "PID safe", "PID calm"};
@@ -66,24 +83,28 @@ const char *experiment_design_name(int number)
     return names[number];
 }
 
+struct design design_of(const struct fixpid_pid_gains *gains)
+{
+    return (struct design){.found = true,
+                           .kp = gains->kp_q8 / 256.0,
+                           .ki = gains->ki_q24 / 16777216.0,
+                           .kd = gains->kd_q8 / 256.0,
+                           .filter = gains->derivative_filter};
+}
+
 struct design experiment_design(const struct experiment *self, int number)
 {
     struct fixpid_pid_config config;
-    struct design design = {false, 0.0, 0.0, 0.0, 0};
 
-    if (fixpid_autotune_result(&self->autotune, rule_of(number),
-                               robustness[number % 3], &config)) {
-        design.found = true;
-        design.kp = config.gains.kp_q8 / 256.0;
-        design.ki = config.gains.ki_q24 / 16777216.0;
-        design.kd = config.gains.kd_q8 / 256.0;
-        design.filter = config.gains.derivative_filter;
+    if (!fixpid_autotune_result(&self->autotune, design_rule(number),
+                                design_robustness(number), &config)) {
+        return (struct design){.found = false};
     }
-    return design;
+    return design_of(&config.gains);
 }
 
 int experiment_reason(const struct experiment *self, int number)
 {
-    return fixpid_autotune_reason(&self->autotune, rule_of(number),
-                                  robustness[number % 3]);
+    return fixpid_autotune_reason(&self->autotune, design_rule(number),
+                                  design_robustness(number));
 }

@@ -27,8 +27,12 @@ void experiment_start(struct experiment *self, const struct subject *subject,
 // Does the subject's experiment to its end.
 void experiment_run(struct experiment *self, const struct subject *subject);
 
-// "PI quick", "PI safe", "PI calm", and "PID ..." the same.
-const char *experiment_design_name(int number);
+// "PI quick", "PI safe", "PI calm", and "PID ..." the same; what the tuners'
+// results are asked for; and what they answer.
+const char *design_name(int number);
+uint8_t design_rule(int number);
+uint8_t design_robustness(int number);
+struct design design_of(const struct fixpid_pid_gains *gains);
 
 struct design experiment_design(const struct experiment *self, int number);
 

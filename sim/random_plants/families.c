@@ -2,6 +2,7 @@
 #include "families.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "families_batch.h"
 
@@ -46,6 +47,11 @@ static bool is_servo(enum family family)
 
 double subject_scale(const struct subject *self)
 {
+    const struct machine *const machine = self->machine;
+
+    if (machine != NULL) {
+        return (machine->slowest_s + machine->dead_s) / machine->step_s;
+    }
     return linear_steps(&self->plant) * (self->plant.integrating ? 2.0 : 1.0);
 }
 
@@ -222,39 +228,13 @@ static double draw_delay(struct chance *chance, enum family family)
                                         : 0.0;
 }
 
-// Where its phase falls below this. An unstable plant's begins at -180 degrees,
-// so it must rise above it first.
-static double crossing(const struct linear *plant, double phase)
-{
-    double low = 1e-4;
-    double high;
-
-    while (plant->unstable && linear_phase(plant, low) <= phase && low < 1e3) {
-        low *= 1.02;
-    }
-    high = low;
-    while (linear_phase(plant, high) > phase && high < 1e6) {
-        low = high;
-        high *= 1.05;
-    }
-    for (int i = 0; i < 50; i++) {
-        const double middle = sqrt(low * high);
-        if (linear_phase(plant, middle) > phase) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return high;
-}
-
 // Stretches the plant until it oscillates at -180 degrees with the drawn
 // period. A held output is half a step late, and a servo's delay comes on top.
 static void stretch(struct subject *self, double delay)
 {
     const double step = 2.0 * HALF_TURN / self->period_steps; // radians
     const double phase = -HALF_TURN + (step * (delay + 0.5));
-    const double factor = crossing(&self->plant, phase) / step;
+    const double factor = linear_crossing(&self->plant, phase) / step;
 
     linear_stretch(&self->plant, fmin(factor, STRETCH_MOST));
     self->plant.dead_steps += delay;
@@ -344,26 +324,15 @@ static void draw_trouble(struct chance *chance, struct subject *self)
     }
 }
 
-// Seven of ten ask for what the header recommends.
-static void draw_wishes(struct chance *chance, struct subject *self)
-{
-    const double share = chance_share(chance);
-
-    if (share < 0.7) {
-        self->swing = (self->sensor_max + 1) / 12;
-    } else if (share < 0.85) {
-        self->swing = (self->sensor_max + 1) / 24;
-    }
-    self->timeout_steps =
-        (int)fmin(32767.0, (48.0 * subject_scale(self)) + 400.0);
-    self->chance.state = chance_bits(chance);
-}
-
 struct subject draw_subject(unsigned long seed, long number, enum family family)
 {
     struct chance chance = {((uint64_t)seed * 1000003u) +
                             ((uint64_t)number * 7919u)};
-    struct subject self = {.family = family, .cooling = 1.0, .load_at = -1};
+    struct subject self = {.family = family,
+                           .name = family_name(family),
+                           .cooling = 1.0,
+                           .load_at = -1,
+                           .cycles = 1};
     enum family plant;
     bool servo;
     double delay;
@@ -379,6 +348,8 @@ struct subject draw_subject(unsigned long seed, long number, enum family family)
     draw_circumstances(&chance, &self);
     draw_gain(&chance, &self, servo);
     draw_trouble(&chance, &self);
-    draw_wishes(&chance, &self);
+    self.timeout_steps =
+        (int)fmin(32767.0, (48.0 * subject_scale(&self)) + 400.0);
+    self.chance.state = chance_bits(&chance);
     return self;
 }

@@ -4,6 +4,7 @@
 #define FAMILIES_H
 #include "chance.h"
 #include "linear.h"
+#include "machine.h"
 
 // T is the lag, L the dead time.
 enum family {
@@ -36,9 +37,11 @@ enum family {
 };
 
 struct subject {
-    enum family family;
+    enum family family; // of a machine: FAMILIES
+    const char *name;   // of the family or the kind
     struct linear plant;
-    double period_steps;  // of its oscillation at -180 degrees
+    const struct machine *machine; // that moves in the plant's place, or NULL
+    double period_steps;           // of its oscillation at -180 degrees
     double cooling;       // its first lag is so many times as long as it falls
     double backlash;      // output counts, on each side
     double drift;         // output counts, reached after 30 times T + L
@@ -47,11 +50,14 @@ struct subject {
     double holding;       // share of the output's range
     double noise;         // standard deviation, counts
     int sensor_max;       // counts, from 0
-    int output_max;       // counts, from 0
+    int output_min;       // counts
+    int output_max;       // counts
+    bool reverse;         // the reading falls when the output rises
     bool at_rest;         // it begins at the setpoint, else from power-on
     int setpoint;         // counts
-    int swing;            // that is wanted, counts
     int timeout_steps;    // for half a cycle
+    int cycles;           // of the experiment
+    double each_side;     // share of the output around its rest; 0: all
     struct chance chance; // of the sensor's noise
 };
 
@@ -61,8 +67,8 @@ struct subject draw_subject(unsigned long seed, long number,
 
 const char *family_name(enum family family);
 
-// L + T, twice that if it integrates: what the length of an experiment is
-// measured in.
+// L + T, twice that if it integrates, of a machine about that: what the length
+// of an experiment is measured in.
 double subject_scale(const struct subject *self);
 
 #endif

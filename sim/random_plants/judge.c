@@ -4,25 +4,48 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "answer.h"
+
 #define HALF_TURN 3.141592653589793
+
+// One that is unstable has a linear plant, too, as no answer of it comes to an
+// end.
+static bool is_measured(const struct subject *subject)
+{
+    return subject->machine != NULL && !subject->plant.unstable;
+}
+
+// Below it nothing happens.
+static double least_radians(const struct subject *subject)
+{
+    return fmin(2.0 * HALF_TURN / subject->period_steps / 60.0,
+                0.02 / linear_steps(&subject->plant));
+}
 
 void judge_start(struct judge *self, const struct subject *subject, int points)
 {
-    const struct linear *const plant = &subject->plant;
-    const double least = fmin(2.0 * HALF_TURN / subject->period_steps / 60.0,
-                              0.02 / linear_steps(plant));
+    const bool measured = is_measured(subject);
+    static struct answer answer;
     struct sampled sampled;
+    double least;
 
     self->points = points;
-    self->integrating = plant->integrating;
-    self->unstable = plant->unstable;
-    sampled_start(&sampled, plant);
+    self->integrating = subject->plant.integrating;
+    self->unstable = subject->plant.unstable;
+    if (measured) {
+        answer_of(&answer, subject->machine);
+        least = answer.least;
+    } else {
+        sampled_start(&sampled, &subject->plant);
+        least = least_radians(subject);
+    }
     for (int i = 0; i < self->points; i++) {
         const double share = (double)i / (points - 1);
         const double radians = least * pow(HALF_TURN / least, share);
         self->before[i] = cexp(-I * radians);
         self->sum[i] = 1.0 / (1.0 - self->before[i]);
-        self->response[i] = sampled_response(&sampled, radians);
+        self->response[i] = measured ? answer_response(&answer, radians)
+                                     : sampled_response(&sampled, radians);
     }
 }
 
@@ -96,6 +119,13 @@ double judge_sensitivity(const struct judge *self, const struct design *design)
         return 1.0 / sqrt(least);
     }
     return HUGE_VAL;
+}
+
+double judge_told(const struct judge *self, const struct design *design)
+{
+    const double found = design->found ? judge_sensitivity(self, design) : 0.0;
+
+    return (found < HUGE_VAL) ? found : -1.0;
 }
 
 // Gains with which the loop is nearer to -1 than it may be.

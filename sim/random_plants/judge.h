@@ -28,6 +28,10 @@ void judge_start(struct judge *self, const struct subject *subject, int points);
 // Nyquist's curve shows by how often it goes around -1.
 double judge_sensitivity(const struct judge *self, const struct design *design);
 
+// The same for a row: 0 where there are no gains, and -1 where the loop is
+// unstable.
+double judge_told(const struct judge *self, const struct design *design);
+
 // Of the PI controllers whose loop has at most this Ms, the one with the
 // largest ki: it has the smallest sum of errors after a step of the load, which
 // is 1 / ki. Not found if there is none.

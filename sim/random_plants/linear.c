@@ -57,6 +57,30 @@ double linear_phase(const struct linear *self, double radians)
     return phase;
 }
 
+double linear_crossing(const struct linear *self, double phase)
+{
+    double low = 1e-4;
+    double high;
+
+    while (self->unstable && linear_phase(self, low) <= phase && low < 1e3) {
+        low *= 1.02;
+    }
+    high = low;
+    while (linear_phase(self, high) > phase && high < 1e6) {
+        low = high;
+        high *= 1.05;
+    }
+    for (int i = 0; i < 50; i++) {
+        const double middle = sqrt(low * high);
+        if (linear_phase(self, middle) > phase) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
 double linear_steps(const struct linear *self)
 {
     double steps = self->dead_steps;

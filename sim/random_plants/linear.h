@@ -39,6 +39,10 @@ void linear_amplify(struct linear *self, double gain);
 // Without jumps of a turn, as a sum over the sections.
 double linear_phase(const struct linear *self, double radians);
 
+// Where its phase falls below this. An unstable plant's begins at -180 degrees,
+// so it must rise above it first.
+double linear_crossing(const struct linear *self, double phase);
+
 // Dead time and lags together: how slow the plant is.
 double linear_steps(const struct linear *self);
 
