@@ -177,10 +177,10 @@ function showStage(s) {
 // Beside gains: the guard for the same loop, where the experiment has a model.
 function showGuard(place, results, loop) {
     const top = 2 ** currentState().SENSOR_BITS - 1;
-    const config = results?.HAS_MODEL === 1 ? guardOf(results, { top, ...loop }) : null;
+    const config = results ? guardOf(results, { top, ...loop }) : null;
     place.hidden = config === null;
     const reach = config?.reach_max > 0 ? 'From the setpoint to where the ends of the output would bring the plant, it takes four fifths as surely within reach'
-        : 'What the ends of the output surely reach is not known: reach_min and reach_max of 0 are the range of readings';
+        : 'In place of reach_min and reach_max write the lowest and the highest setpoint of the loop; with 0 a setpoint that it cannot reach is an alarm';
     setText(place.querySelector('p'), config === null ? '' : 'The guard for this loop, by the rule of fixpid_guard.h: a reading outside ' +
         `measurement_min to measurement_max is a broken sensor’s. ${reach}.`);
     setText(place.querySelector('pre'), config === null ? '' : guardText(config));

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What stands beside the controllers: the autotuner, tables, guards, gains and records."""
 import enum
-import math
 import operator
 import textwrap
 
@@ -180,23 +179,19 @@ def slew_rate(counts_per_second, steps_per_second):
 
 
 def guard_config(model, output_min, output_max, **config):
-    """What Guard takes for a plant, by the rule of fixpid_guard.h.
+    """What Guard takes for a plant, by fixpid_guard_from_model.
 
     `model` is a dictionary as Autotune.model gives it, and `config` is all other fields:
     measurement_min, measurement_max, reach_min, reach_max, reverse, and band, patience or
     noisy in place of the rule's. ValueError where the rule has no answer: the plant is too
     slow for a patience of 16 bits, or there is no such guard.
     """
-    noise = model["noise_q4"] / 16
-    slope = model["slope_q24"] / 2**24
-    _accept(slope > 0 and output_min < output_max, f"slope_q24 = {model['slope_q24']}, or an output of {output_min} to {output_max},")
-    gain = 0 if model["gain_q8"] == lib.FIXPID_AUTOTUNE_INTEGRATING else model["gain_q8"] / 256
-    band = config.get("band", math.ceil(max(8 * noise + 4, 2 * gain)))
-    way = 20 * band / (slope * (output_max - output_min))
-    patience = config.get("patience", max(math.ceil(2 * model["dead_q4"] / 16 + way), 4))
-    chosen = {"band": band, "patience": patience, "noisy": noise >= 1 and patience >= 16,
+    known = {name: model[name] for name, _ in ffi.typeof("struct fixpid_guard_model").fields if name in model}
+    found = _new("guard_config", {"output_min": output_min, "output_max": output_max})
+    _accept(lib.fixpid_guard_from_model(found, _new("guard_model", {**known, "band": config.get("band", 0)})),
+            f"a guard of {known} and an output of {output_min} to {output_max}")
+    chosen = {"band": found.band, "patience": found.patience, "noisy": found.noisy,
               "output_min": output_min, "output_max": output_max, **config}
-    _accept(band <= 32767 and patience <= 32767, f"band = {band} or patience = {patience}")
     _accept(lib.fixpid_guard_init(_new("guard", {}), _new("guard_config", chosen)),
             ", ".join(f"{name} = {value}" for name, value in chosen.items()))
     return chosen

@@ -46,6 +46,12 @@ def _verb(noun, verb):
     return method
 
 
+def _takes(name, noun):
+    """True for a function of C whose first argument is the noun's object."""
+    first = ffi.typeof(getattr(lib, name)).args[0]
+    return first.kind == "pointer" and first.item.cname == f"struct fixpid_{noun}"
+
+
 class Noun:
     """An object of C, and a method for each function that has its name."""
 
@@ -61,7 +67,7 @@ class Noun:
             verb = name[len(own):]
             if verb == "check" and name.startswith(own):
                 cls.check = staticmethod(lambda **config: problem(noun, new(cls._config, config)))
-            elif name.startswith(own) and not verb.startswith(("8bit_", "init")):
+            elif name.startswith(own) and verb != "init" and _takes(name, noun):
                 setattr(cls, verb, _verb(noun, verb))
 
     def __init__(self, *numbers, **config):

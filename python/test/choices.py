@@ -1,18 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What the package chooses, to compare the tuner page with: lists of guards and of tables in
-JSON on the standard input, and on the standard output what they come to, or null."""
+"""The tables that the package finds, to compare the tuner page with: sensors in JSON on the
+standard input, and on the standard output what they come to."""
 import json
 import sys
 
 import fixpid
 from sensors import ntc, type_k
-
-
-def guard(config):
-    try:
-        return fixpid.guard_config(**config)
-    except ValueError:
-        return None
 
 
 def table(sensor):
@@ -22,5 +15,4 @@ def table(sensor):
     return {"points": found.points, "error": found.error}
 
 
-asked = json.load(sys.stdin)
-json.dump({"guards": list(map(guard, asked["guards"])), "tables": list(map(table, asked["tables"]))}, sys.stdout)
+json.dump(list(map(table, json.load(sys.stdin))), sys.stdout)

@@ -8,6 +8,7 @@
 #include "fixpid_an937.h"
 #include "fixpid_an964.h"
 #include "fixpid_autotune.h"
+#include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "params.h"
 #include "plant.h"
@@ -460,6 +461,25 @@ static void tell_experiment(void)
     }
 }
 
+// Of the model that was told, if there is one.
+static void tell_guard(int16_t output_min, int16_t output_max)
+{
+    const struct fixpid_guard_model model = {
+        .slope_q24 = (uint32_t)results[RESULT_SLOPE],
+        .dead_q4 = (uint32_t)results[RESULT_DEAD],
+        .noise_q4 = (uint16_t)results[RESULT_NOISE],
+        .gain_q8 = (uint32_t)results[RESULT_GAIN],
+    };
+    struct fixpid_guard_config config = {.output_min = output_min,
+                                         .output_max = output_max};
+
+    if (fixpid_guard_from_model(&config, &model)) {
+        results[RESULT_BAND] = config.band;
+        results[RESULT_PATIENCE] = config.patience;
+        results[RESULT_NOISY] = config.noisy ? 1.0 : 0.0;
+    }
+}
+
 int tuner_experiment(void)
 {
     int n = 0;
@@ -489,6 +509,8 @@ int tuner_experiment(void)
         n++;
     }
     tell_experiment();
+    tell_guard((int16_t)param(PARAM_OUTPUT_MIN),
+               (int16_t)param(PARAM_OUTPUT_MAX));
     return n;
 }
 
@@ -512,6 +534,7 @@ int tuner_unpack(void)
     tell_experiment();
     results[RESULT_OUTPUT_MIN] = recorded(RECORD_OUTPUT_MIN);
     results[RESULT_OUTPUT_MAX] = recorded(RECORD_OUTPUT_MAX);
+    tell_guard(recorded(RECORD_OUTPUT_MIN), recorded(RECORD_OUTPUT_MAX));
     results[RESULT_OPTIONS] =
         (record.bytes[RECORD_REVERSE] != 0u) ? TUNER_OPTION_REVERSE : 0u;
     return 1;

@@ -134,6 +134,9 @@ enum tuner_result {
     RESULT_HOLDING,
     RESULT_NOISE,
     RESULT_HYSTERESIS,
+    RESULT_BAND, // of the plant's guard; 0: it has none
+    RESULT_PATIENCE,
+    RESULT_NOISY,
     RESULT_REASON, // why the rule has no gains
     TUNER_RESULTS
 };
@@ -150,17 +153,18 @@ double *tuner_values(int series);
 int tuner_run(void);
 
 // fixpid_autotune in the controller's place, at the setpoint, without events.
-// Returns its steps, or -1 where it is refused; its status and its model are in
-// tuner_results.
+// Returns its steps, or -1 where it is refused; its status, its model and the
+// guard that fixpid_guard_from_model makes of it are in tuner_results.
 int tuner_experiment(void);
 
 // The record of the experiment, into tuner_record. Returns 1, or 0 where there
 // is none: it has not ended within TUNER_STEPS, or it was refused.
 int tuner_pack(void);
 
-// The experiment that tuner_record has, maybe a chip's: its status, its model
-// and its range of outputs are in tuner_results, and in RESULT_OPTIONS whether
-// it is reverse acting. Returns 1, or 0 where the record is refused.
+// The experiment that tuner_record has, maybe a chip's: its status, its model,
+// its guard and its range of outputs are in tuner_results, and in
+// RESULT_OPTIONS whether it is reverse acting. Returns 1, or 0 where the record
+// is refused.
 int tuner_unpack(void);
 
 // The gains of one rule after one of these, by the robustness of the
