@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A loop in operation gets new gains: the experiment keeps within a fifth of
-// the actuator's range on each side of where the controller holds it, and so
-// the process stays near its setpoint. Where the experiment finds no gains, the
-// controller goes on with those that it has.
+// A loop in operation gets new gains: the experiment starts at rest, from the
+// output where the controller holds it, and so the process stays near its
+// setpoint. Where the experiment finds no gains, the controller goes on with
+// those that it has.
 #include <stdio.h>
 
 #include "fixpid_autotune.h"
@@ -13,13 +13,12 @@
 #define RETUNED_AT 1000
 #define DISTURBED_AT 1500
 #define DISTURBED_TO 2600
-#define DISTURBANCE (-350.0) // more than a fifth of the range makes up for
+#define DISTURBANCE (-350.0)
 #define LOADED_AT 4000
 #define LOAD (-100.0)
 
 // recipe
 #define FULL 1000
-#define FIFTH (FULL / 5)
 #define SETPOINT 500
 
 static struct fixpid_pid_config config = {
@@ -30,19 +29,17 @@ static struct fixpid_pid pid;
 static struct fixpid_autotune tuner;
 static bool tuning;
 
-// When the user asks for it and the process is at rest: retune(FIFTH).
-static void retune(int16_t range)
+// When the user asks for it and the process is at rest.
+static void retune(void)
 {
-    const int16_t now = fixpid_pid_output(&pid);
     const struct fixpid_autotune_config experiment = {
-        .output_min = (int16_t)((now > range) ? now - range : 0),
-        .output_max = (int16_t)((now < FULL - range) ? now + range : FULL),
-        .output_rest = now,
-        .measurement_min = SETPOINT - 120, // what the process may do
+        .output_min = 0,
+        .output_max = FULL,
+        .output_rest = fixpid_pid_output(&pid), // what holds the setpoint
+        .measurement_min = SETPOINT - 120,      // what the process may do
         .measurement_max = SETPOINT + 120,
-        .swing = 85, // a twelfth of the scale
         .timeout_steps = 600,
-        .cycles = 2,
+        .cycles = 1,
     };
 
     tuning = fixpid_autotune_init(&tuner, &experiment);
@@ -84,9 +81,9 @@ struct sample {
     int16_t output;
 };
 
-// One run with an experiment within this range, 0: none, and with a load that
-// comes while it is under way.
-static void run(int16_t range, double disturbance, struct sample *samples)
+// One run with an experiment or without, and with a load that comes while it is
+// under way.
+static void run(bool retuned, double disturbance, struct sample *samples)
 {
     static const struct plant_counts process = {.gain = 0.9,
                                                 .lag_steps = 60.0,
@@ -105,8 +102,8 @@ static void run(int16_t range, double disturbance, struct sample *samples)
         const double load =
             (disturbed ? disturbance : 0.0) + ((k >= LOADED_AT) ? LOAD : 0.0);
 
-        if (k == RETUNED_AT && range != 0) {
-            retune(range);
+        if (k == RETUNED_AT && retuned) {
+            retune();
         }
         samples[k].output = control(SETPOINT, motion_read(&motion));
         motion_move(&motion, samples[k].output + load);
@@ -117,20 +114,18 @@ static void run(int16_t range, double disturbance, struct sample *samples)
 
 int main(void)
 {
-    static struct sample narrow[STEPS];
-    static struct sample whole[STEPS];
+    static struct sample retuned[STEPS];
     static struct sample old[STEPS];
     static struct sample disturbed[STEPS];
 
-    run(FIFTH, 0.0, narrow);
-    run(FULL, 0.0, whole);
-    run(0, 0.0, old);
-    run(FIFTH, DISTURBANCE, disturbed);
-    (void)printf("time_s,narrow,whole,old,disturbed,output,output_disturbed\n");
+    run(true, 0.0, retuned);
+    run(false, 0.0, old);
+    run(true, DISTURBANCE, disturbed);
+    (void)printf("time_s,retuned,old,disturbed,output,output_disturbed\n");
     for (int k = 0; k < STEPS; k++) {
-        (void)printf("%d,%.6g,%.6g,%.6g,%.6g,%d,%d\n", k, narrow[k].value,
-                     whole[k].value, old[k].value, disturbed[k].value,
-                     (int)narrow[k].output, (int)disturbed[k].output);
+        (void)printf("%d,%.6g,%.6g,%.6g,%d,%d\n", k, retuned[k].value,
+                     old[k].value, disturbed[k].value, (int)retuned[k].output,
+                     (int)disturbed[k].output);
     }
     return 0;
 }

@@ -28,9 +28,8 @@ static void start(void)
         .output_rest = 0,
         .measurement_min = -10, // counts of a converter that has 4096
         .measurement_max = 4085,
-        .swing = 340, // a twelfth of them
         .timeout_steps = 3600,
-        .cycles = 2,
+        .cycles = 1,
     };
     // The window is one step of the tuner and of the controller.
     static const struct fixpid_tpo_config windows = {.full = FULL,

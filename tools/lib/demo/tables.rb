@@ -259,8 +259,10 @@ module Tables
     end
 
     def retune
-      table('range of the experiment', 'farthest from the setpoint of 500',
-            recipe_rows('%.0f', %w[retune_NAME_far], 'narrow' => 'a fifth to each side', 'whole' => 'all'))
+      numbers = Report.numbers['recipes']
+      far, new, old = %w[far retuned_errors old_errors].map { |what| format('%.0f', numbers["retune_#{what}"]) }
+      table('gains', 'farthest from the setpoint of 500 while it tunes', 'sum of errors after a load',
+            [['old', '-', old], ['new', far, new]])
     end
 
     private
