@@ -11,7 +11,7 @@
 
 // These are in counts of temperature, of which a degree has 16.
 #define COLDEST 16
-#define HOTTEST 4000 // 250 C; the sensor ends at 256
+#define HOTTEST 4000       // 250 C; the sensor ends at 256
 #define TIMEOUT_STEPS 600u // a minute for half a cycle
 
 // Deviation 8.4: the application's one experiment, found by its name.
