@@ -58,7 +58,7 @@ static struct fixpid_autotune_config config_for(const struct subject *subject)
         .measurement_min = -1023,
         .measurement_max = (int16_t)subject->plant->sensor_max,
         .timeout_steps = subject->timeout_steps,
-        .cycles = 2,
+        .cycles = 1,
     };
 }
 
@@ -190,11 +190,6 @@ void print_failures(void)
                   FIXPID_AUTOTUNE_SATURATED, &subject, &config);
 
     config.measurement_max = 2000;
-    config.output_max = 127; // of 125 that hold the setpoint
-    print_failure("output held next to the end of its range",
-                  FIXPID_AUTOTUNE_IRREGULAR, &subject, &config);
-
-    config.output_max = 255;
     plant.lag_steps = 1.0;
     plant.delay_steps = 2;
     print_failure("a plant of 3 steps", FIXPID_AUTOTUNE_TOO_FAST, &subject,

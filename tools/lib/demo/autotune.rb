@@ -32,7 +32,7 @@ def autotune
   check_progress(Host.printed(RULES.fetch('PID')))
   runs.each { |rule, run| check_tuned(rule, run) }
   check_tuned_plants(Loops.table('autotune', 12))
-  check_failed_experiments(Loops.table('failures', 5))
+  check_failed_experiments(Loops.table('failures', 4))
   draw_autotune(runs)
 end
 
