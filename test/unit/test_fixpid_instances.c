@@ -165,7 +165,7 @@ void test_autotune_several_instances_keep_their_own_state(void)
 
     for (unsigned i = 0; i < 2; i++) {
         const struct fixpid_autotune_config config = {
-            -300, 300, 0, INT16_MIN, INT16_MAX, 50, 1000, 1, false};
+            -300, 300, 0, INT16_MIN, INT16_MAX, 75, 1000, 1, false};
 
         TEST_ASSERT_TRUE(fixpid_autotune_init(&experiments[i], &config));
     }
