@@ -115,7 +115,7 @@ module Modules
       # PIC18, in object mode, and so does not tell the kinds of its steps apart there.
       calls: [{ object: 'tuner', calls: 20_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
-                flags: %w[-DCALLS_BY_KIND], turns: { 'in_proportion_q8' => [17, 9] } },
+                flags: %w[-DCALLS_BY_KIND], turns: { 'fixpid_autotune_fit_relay' => 17, 'in_proportion_q8' => 17 } },
               { object: 'tuner', calls: 10_000, kinds: %i[pic], program: [], pic: %w[object],
                 functions: { 'fixpid_autotune_step_tuner' => 'any step', 'fixpid_autotune_result_tuner' => 'result' },
                 turns: { 'in_proportion_q8' => 17, 'share' => 9 }, unbounded: %w[fixpid_autotune_result_tuner] }]
