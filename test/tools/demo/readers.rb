@@ -79,7 +79,8 @@ end
 
 # Rows of the study, one for each of these Ms: 0 has no gains, -1 is not stable.
 def study_of(*sensitivities, rule: 'PI safe', outside: 0)
-  Study.rows(sensitivities.map { |ms| "0;batch;#{rule};2;0;900;28;#{outside};#{ms};1.5\n" })
+  Study.rows(["family;rule;status;reason;possible;lasts;outside;ms;slower\n",
+              *sensitivities.map { |ms| "batch;#{rule};2;0;1;28;#{outside};#{ms};1.5\n" }])
 rescue Study::Failure => e
   e.message
 end

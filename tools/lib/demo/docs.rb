@@ -31,7 +31,8 @@ module Docs
   # Made by tools/demo --long only, of these loops.
   LONG = { 'docs/faults.md' => { 'long' => :long_faults, 'places' => :fault_places },
            'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
-                                'study_refusals' => :study_refusals } }.freeze
+                                'study_refusals' => :study_refusals, 'study_machines' => :study_machines,
+                                'study_heaters' => :study_heaters, 'study_advice' => :study_advice } }.freeze
   LONG_LOOPS = { long_faults: %w[faults faults_chip], fault_places: %w[faults_places] }.freeze
 
   class << self

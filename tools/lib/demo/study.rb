@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What sim/random_plants prints, summed up: how good the gains are that the autotuner finds
-# on plants of many families.
+# What sim/random_plants prints, summed up: how good the gains are that the tuners find on
+# plants of many families and kinds.
 module Study
   class Failure < StandardError; end
 
@@ -36,7 +36,12 @@ module Study
   ROBUST = (1.2..1.8).freeze # Ms of a loop with a margin that is not too calm
   THIN = 2.2                 # Ms of one with too little
 
-  Row = Struct.new(:family, :rule, :status, :reason, :lasts, :outside, :ms, :slower) do
+  WORDS = %i[family rule advice].freeze
+  WHOLE = %i[plant part status reason possible outside status_then reason_then].freeze
+  COLUMNS = [*WORDS, *WHOLE, :lasts, :periods, :minutes, :beyond, :ms, :slower].freeze
+
+  # What its study has no column for is nil.
+  Row = Struct.new(*COLUMNS, keyword_init: true) do
     def found?
       !ms.zero?
     end
@@ -69,8 +74,16 @@ module Study
       Rows.new(found)
     end
 
-    def family(name)
-      Rows.new(rows.select { |row| row.family == name })
+    def family(*names)
+      Rows.new(rows.select { |row| names.include?(row.family) })
+    end
+
+    def but(*names)
+      Rows.new(rows.reject { |row| names.include?(row.family) })
+    end
+
+    def possible
+      Rows.new(rows.select { |row| row.possible == 1 })
     end
 
     def with_gains
@@ -79,6 +92,10 @@ module Study
 
     def gains
       with_gains.size
+    end
+
+    def gains_percent
+      percent(gains, count)
     end
 
     def ended(status)
@@ -120,9 +137,9 @@ module Study
       sensitivities.last
     end
 
-    # Of the experiments that gave gains, in units of L + T.
-    def lasts(share)
-      Rows.quantile(with_gains.map(&:lasts).sort, share)
+    # Of the experiments that gave gains, in units of L + T, or of a column.
+    def lasts(share, column = :lasts)
+      Rows.quantile(with_gains.map(&column).sort, share)
     end
 
     # The sum of errors after a step of the load, over that of the best PI.
@@ -145,18 +162,26 @@ module Study
     end
   end
 
-  COLUMNS = 10
-
-  # Of the program's lines, without their first one.
+  # Of the program's lines, of which the first names the columns.
   def self.rows(lines)
-    Rows.new(lines.map do |line|
-      line.count(';') == COLUMNS - 1 or raise Failure, "not a row: #{line.chomp}"
-      _, family, rule, status, reason, _, lasts, outside, ms, slower = line.chomp.split(';')
-      Row.new(family, rule, Integer(status), Integer(reason), Float(lasts), Integer(outside), Float(ms), Float(slower))
-    end)
+    columns = lines[0].to_s.chomp.split(';').map(&:to_sym)
+    (columns - COLUMNS).empty? or raise Failure, "not the head of a study: #{lines[0]}"
+    Rows.new(lines.drop(1).map { |line| row(columns, line.chomp.split(';')) })
+  end
+
+  def self.row(columns, values)
+    values.size == columns.size or raise Failure, "not a row: #{values.join(';')}"
+    Row.new(**columns.zip(values).to_h { |column, value| [column, read(column, value)] })
   rescue ArgumentError => e
     raise Failure, e.message
   end
+
+  def self.read(column, value)
+    return value if WORDS.include?(column)
+
+    WHOLE.include?(column) ? Integer(value) : Float(value)
+  end
+  private_class_method :row, :read
 
   # Ms with two digits.
   def self.shown(sensitivity)

@@ -91,6 +91,30 @@ module Tables
       table('family', 'gains', *columns.map { |_, name| name }, [*rows, totals('all', rows)])
     end
 
+    # What fixpid_autotune made of machines, and fixpid_reaction of those that are heated.
+    def study_machines
+      rows = Report.numbers[LONG_STUDY]['machines'].map do |row|
+        [row['kind'], row['gains'], row['possible'], *row['loops'].values.map { |loop| machine_cell(loop) },
+         row['periods'].round, short_minutes(row['minutes'])]
+      end
+      table('machine', 'gains', 'a PI exists', 'PI safe', 'PI quick', 'PID safe', 'periods', 'minutes', rows)
+    end
+
+    def study_heaters
+      rows = Report.numbers[LONG_STUDY]['heaters'].map do |row|
+        [row['kind'], row['once'], row['gains'], *row['loops'].values.map { |loop| machine_cell(loop) },
+         row['minutes'].map { |minutes| short_minutes(minutes) }.join(', ')]
+      end
+      table('machine', 'gains at once', 'or with less output', 'PI safe', 'PI quick', 'PID safe', 'minutes: 50, 90 %', rows)
+    end
+
+    def study_advice
+      table('status or reason', 'what was changed', 'tried', 'gains', 'above 2.2',
+            Report.numbers[LONG_STUDY]['advice'].map do |row|
+              ["`#{row['ended']}`", row['advice'], row['tried'], row['gains'], row['thin'] + row['unstable']]
+            end)
+    end
+
     # What came of the faults, a row for each kind and its numbers for each loop.
     def faults
       table('fault', *FAULT_LOOPS.keys, FAULT_KINDS.map do |kind, what|
@@ -277,6 +301,15 @@ module Tables
       [row['rule'], row['gains'], row['ms'].first(3).join(', '), row['ms'].last, format('%.1f %%', row['robust']), row['thin'],
        row['unstable'], row['slower'] ? format('%.2f', row['slower']) : '',
        row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }.join(', ')]
+    end
+
+    def machine_cell(loop)
+      middle, most = loop['ms']
+      "#{[middle, loop['high'], most].join(' / ')}, #{loop['thin'] + loop['unstable']}"
+    end
+
+    def short_minutes(minutes)
+      minutes < 10.0 ? format('%.1f', minutes) : minutes.round.to_s
     end
 
     def totals(title, rows)
