@@ -15,12 +15,15 @@
 #include "unity.h"
 
 TEST_SOURCE_FILE("sim/plant/plant_lags.c")
+TEST_SOURCE_FILE("sim/random_plants/answer.c")
 TEST_SOURCE_FILE("sim/random_plants/chance.c")
 TEST_SOURCE_FILE("sim/random_plants/draw.c")
 TEST_SOURCE_FILE("sim/random_plants/families.c")
 TEST_SOURCE_FILE("sim/random_plants/families_batch.c")
 TEST_SOURCE_FILE("sim/random_plants/judge.c")
 TEST_SOURCE_FILE("sim/random_plants/linear.c")
+TEST_SOURCE_FILE("sim/random_plants/machine.c")
+TEST_SOURCE_FILE("sim/random_plants/machine_kinds.c")
 TEST_INCLUDE_PATH("sim/plant")
 TEST_INCLUDE_PATH("sim/random_plants")
 
