@@ -12,6 +12,7 @@
 // These are in counts of temperature, of which a degree has 16.
 #define COLDEST 16
 #define HOTTEST 4000       // 250 C; the sensor ends at 256
+#define SWING 160u         // 10 C are enough, from top to bottom
 #define TIMEOUT_STEPS 600u // a minute for half a cycle
 
 // Deviation 8.4: the application's one experiment, found by its name.
@@ -41,6 +42,7 @@ int main(void)
         .output_rest = 0,
         .measurement_min = COLDEST,
         .measurement_max = HOTTEST,
+        .swing = SWING,
         .timeout_steps = TIMEOUT_STEPS,
         .cycles = 1,
     };
