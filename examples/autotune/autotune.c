@@ -65,7 +65,8 @@ static int16_t tune(int16_t measurement)
 }
 
 // Without a sensor the heater is off. A heat-up begins anew then, and a
-// controller rests until the sensor is there again.
+// controller rests until the sensor is there again. The controller goes on in
+// the period in which the heat-up ends.
 static int16_t heater_duty(int16_t setpoint, int16_t measurement)
 {
     int16_t duty = 0;
@@ -79,7 +80,10 @@ static int16_t heater_duty(int16_t setpoint, int16_t measurement)
     if (is_tuning()) {
         duty = tune(measurement);
     }
-    return is_tuning() ? duty : fixpid_pid_step(&oven, setpoint, measurement);
+    if (!is_tuning()) {
+        duty = fixpid_pid_step(&oven, setpoint, measurement);
+    }
+    return duty;
 }
 
 static void control(void)
