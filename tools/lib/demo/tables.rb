@@ -77,8 +77,9 @@ module Tables
 
     # What README.md says of it: gains by the rule and the word to take first.
     def study_figures
-      designs = Report.numbers[LONG_STUDY]['designs']
-      { 'tuned' => designs.find { |row| row['rule'] == 'PI safe' }['gains'], 'unstable' => designs.sum { |row| row['unstable'] } }
+      designs, heaters = Report.numbers[LONG_STUDY].values_at('designs', 'heaters')
+      { 'heaters' => heaters.last['plants'], 'heated' => heaters.last['gains'],
+        'tuned' => designs.find { |row| row['rule'] == 'PI safe' }['gains'], 'unstable' => designs.sum { |row| row['unstable'] } }
     end
 
     # What never happened has no column.
