@@ -48,14 +48,16 @@ void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
 void fixpid_reaction_halve(FIXPID_DATA struct fixpid_reaction *self)
 {
     FIXPID_DATA const uint16_t *pair = SELF.record;
-    uint8_t i;
+    FIXPID_DATA uint16_t *mean = SELF.record;
+    uint8_t left;
 
-    for (i = 0; i < (BLOCKS / 2u); i++) {
+    for (left = BLOCKS / 2u; left != 0u; left--) {
         const uint16_t a = pair[0];
         const uint16_t b = pair[1];
 
         // (a + b) >> 1 in 16 bits
-        SELF.record[i] = (uint16_t)((a & b) + ((a ^ b) >> 1));
+        mean[0] = (uint16_t)((a & b) + ((a ^ b) >> 1));
+        mean++;
         pair++;
         pair++;
     }

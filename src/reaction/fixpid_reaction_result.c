@@ -46,36 +46,39 @@ static uint32_t ratio(uint32_t a, uint32_t b, uint8_t places)
     return bits;
 }
 
-// Where the record rises most in two blocks, the first of equals: 2..7
+// From which block on the record rises most in two, the first of equals: 0..5
 static uint8_t steepest(FIXPID_DATA const struct fixpid_reaction *self)
 {
     uint16_t most = 0;
-    uint8_t found = 2;
-    uint8_t place;
+    uint8_t found = 0;
+    uint8_t left;
 
-    for (place = 2; place < BLOCKS; place++) {
-        if (place < SELF.blocks) {
+    for (left = BLOCKS - 2u; left != 0u; left--) {
+        if ((uint8_t)(left + 1u) < SELF.blocks) {
             const uint16_t rise = fixpid_reaction_excess(
-                SELF.record[place], SELF.record[place - 2u]);
-            if (rise > most) {
+                SELF.record[left + 1u], SELF.record[left - 1u]);
+
+            if (rise >= most) {
                 most = rise;
-                found = place;
+                found = (uint8_t)(left - 1u);
             }
         }
     }
     return found;
 }
 
-// In quarters of 2^-scale counts, below 2^20: what the tangent misses, half of
-// the noise's band, and one and a half steps of slope for the hold and the
-// sampling.
+// By what the tangent misses the start at the change of the output, in quarters
+// of 2^-scale counts and below 2^20, with half of the noise's band, and with
+// one and a half steps of slope for the hold and the sampling. The definition's
+// sum of three blocks is twice that of two, because the rise is what they
+// differ by.
 static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
-                          uint8_t place, uint16_t rise)
+                          uint8_t from, uint16_t rise)
 {
-    FIXPID_DATA const uint16_t *const block = &SELF.record[place - 2u];
+    FIXPID_DATA const uint16_t *const block = &SELF.record[from];
     uint16_t hold = (uint16_t)(rise + (rise >> 1));
     int32_t base = SELF.base;
-    int32_t height;
+    int32_t height = (int32_t)rise * (int32_t)(uint8_t)(from + 1u);
     uint8_t places;
 
     for (places = SELF.scale & SCALE; places != 0u; places--) {
@@ -84,7 +87,6 @@ static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
     for (places = SELF.doubled & DOUBLED; places > 1u; places--) {
         hold >>= 1;
     }
-    height = (int32_t)rise * (int32_t)(uint8_t)(place - 1u);
     height += (int32_t)fixpid_reaction_origin(self) * 2;
     height -= (int32_t)block[0];
     height -= (int32_t)block[1];
@@ -104,11 +106,10 @@ static uint32_t take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
 {
     const uint8_t doubled = SELF.doubled & DOUBLED;
     const uint8_t scale = SELF.scale & SCALE;
-    const uint8_t place = steepest(self);
+    const uint8_t from = steepest(self);
     const uint16_t rise =
-        (uint16_t)(SELF.record[place] - SELF.record[place - 2u]);
-    const uint32_t height =
-        (height_of(self, place, rise) * factor) >> 8; // 1558 at most
+        (uint16_t)(SELF.record[from + 2u] - SELF.record[from]);
+    const uint32_t height = (height_of(self, from, rise) * factor) >> 8;
     uint16_t change =
         (uint16_t)((uint16_t)SELF.output_drive - (uint16_t)SELF.output_rest);
 

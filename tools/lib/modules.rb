@@ -126,12 +126,19 @@ module Modules
       rows: %w[output_rest:int16_t output_drive:int16_t measurement_stop:int16_t timeout_steps:uint16_t options:uint8_t
                robustness_q4:uint8_t],
       pieces: %w[readings],
-      # A turn for each place of a shift: of the scale, of 2^doubled steps of a block, and what ends it.
-      calls: [{ object: 'reaction', calls: 20_000, kinds: %i[avr arm],
+      # A turn for each place by which a number is shifted, for each rise of the record and for each bit of a
+      # quotient, and where a loop is left. Of the rows a PIC18F4520 has room for some.
+      calls: [{ kinds: %i[avr arm], flags: %w[-DCALLS_BY_KIND],
                 program: %w[test/support/numbers_control.c test/support/numbers_reaction.c test/chips/modules/steps_reaction.c],
-                functions: { 'reaction_ordinary_step' => 'ordinary step', 'reaction_block_step' => 'end of a block',
-                             'reaction_halving_step' => 'record halved', 'reaction_last_listening_step' => 'end of listening' },
-                flags: %w[-DCALLS_BY_KIND] }]
+                functions: { 'reaction_ordinary_step' => 'ordinary step', 'reaction_block_step' => 'end of a block' } },
+              { kinds: %i[avr arm], functions: { 'fixpid_reaction_result' => 'result' } },
+              { kinds: %i[pic], pic: %w[pointer object], rows: 16,
+                functions: { 'fixpid_reaction_step' => 'any step', 'fixpid_reaction_result' => 'result' } }].map do |call|
+        { object: 'reaction', calls: 10_000, **call,
+          turns: { 'fixpid_reaction_scaled' => 8, 'fixpid_reaction_begin' => 5, 'fixpid_reaction_halve' => 5,
+                   'fixpid_reaction_end_block' => [16, 7], 'measure' => 7, 'steepest' => 7, 'take_tangent' => [8, 16], 'height_of' => [8, 16],
+                   'ratio' => 56, 'fixpid_reaction_result' => 8, 'take_gains' => 8 } }
+      end
     },
     'an937' => {
       title: 'AN937', what: 'The controller of Microchip AN937',

@@ -13,7 +13,7 @@ class CalledModule
   HOST = %w[gcc -std=c99 -O2 -Wall -Wextra -Werror -Iinclude -Itest/support].freeze
 
   # What is metered, if not `step`.
-  FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result],
+  FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result], 'reaction' => %w[step result],
                 'step_error' => %w[step_error state restore], 'table' => %w[at], 'link' => %w[step receive answer] }.freeze
 
   # Whether a machine has the same of the autotuner's record, too.
@@ -21,7 +21,7 @@ class CalledModule
 
   # Where the calls of a module with its rows, each of its functions among them, need more
   # than 32 KB.
-  CHIPS = %w[autotune guard step_error link].to_h { |name| [name, 'pic18f26k22'] }.freeze
+  CHIPS = %w[autotune guard reaction step_error link].to_h { |name| [name, 'pic18f26k22'] }.freeze
 
   attr_reader :name
 
