@@ -14,6 +14,7 @@
 
 TEST_SOURCE_FILE("sim/random_plants/answer.c")
 TEST_SOURCE_FILE("sim/random_plants/chance.c")
+TEST_SOURCE_FILE("sim/random_plants/families_batch.c")
 TEST_SOURCE_FILE("sim/random_plants/linear.c")
 TEST_SOURCE_FILE("sim/random_plants/machine.c")
 TEST_SOURCE_FILE("sim/random_plants/machine_kinds.c")
