@@ -425,6 +425,26 @@ void test_result_gains_at_the_ends_of_their_ranges_are_as_defined(void)
     }
 }
 
+// Only flipped bits make a delay of a quarter of a step: ki is 1024 * 2^20 / 12
+// and 31744 * 2^20 / 12, of which the second is above 0x7FFF0000.
+void test_result_of_flipped_bits_is_within_its_ranges(void)
+{
+    struct fixpid_pid_gains gains = {0, 0, 0, 0};
+
+    for (int16_t change = 31; change >= 1; change = (int16_t)(change - 30)) {
+        done(0, 0, 15, 0, change);
+        reaction_controller.stop = 0; // the start
+        memset(reaction_controller.record, 0,
+               sizeof reaction_controller.record);
+        reaction_controller.record[1] = 65535;
+        reaction_controller.record[2] = 65535;
+        TEST_ASSERT_EQUAL(
+            change == 1, fixpid_reaction_result(&reaction_controller,
+                                                FIXPID_REACTION_PI, 8, &gains));
+    }
+    TEST_ASSERT_EQUAL_UINT32(1024u * (1048576u / 12u) + 341u, gains.ki_q24);
+}
+
 // A block whose mean is next to what decides: as steep as before and an eighth
 // more, half as steep as the steepest, a clear movement, and so on.
 static int64_t mean_at_a_bound(const struct reference_reaction *ahead)
@@ -444,7 +464,7 @@ static int64_t mean_at_a_bound(const struct reference_reaction *ahead)
         steepest = rise > steepest ? rise : steepest;
         before = j < n - 1 ? steepest : before;
     }
-    switch (numbers_below(10)) {
+    switch (numbers_below(24)) {
     case 0:
         return older + before + before / 8 + close;
     case 1:
@@ -488,7 +508,7 @@ void test_step_at_the_bounds_of_each_verdict_is_as_defined(void)
     unsigned seen = 0;
 
     numbers_seed(12);
-    for (unsigned turn = 0; turn < TEST_RANDOM_STEPS / 100u; turn++) {
+    for (unsigned turn = 0; turn < TEST_MEMORIES / 8u; turn++) {
         const int16_t noise = (int16_t)(numbers_any_size() & 0x1FFu);
 
         config.measurement_stop = (int16_t)(numbers_any_size() & 0x7FFFu);
