@@ -43,7 +43,7 @@ static bool is_tuning(void)
 static void take_over(void)
 {
     struct fixpid_pid_config config = {
-        .output_min = 0, .output_max = FULL, .setpoint_weight_q8 = 128};
+        .gains = {0}, .output_min = 0, .output_max = FULL};
     struct fixpid_guard_config watch = {.output_min = 0,
                                         .output_max = FULL,
                                         .measurement_min = -200,
@@ -57,6 +57,7 @@ static void take_over(void)
                                                  .dead_q4 = process.dead_q4,
                                                  .noise_q4 = process.noise_q4};
 
+        config.setpoint_weight_q8 = 128; // from cold without an overshoot
         (void)fixpid_guard_from_model(&watch, &model);
         (void)fixpid_guard_init(&guard, &watch);
         (void)fixpid_pid_init(&pid, &config);

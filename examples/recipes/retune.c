@@ -38,6 +38,7 @@ static void retune(void)
         .output_rest = fixpid_pid_output(&pid), // what holds the setpoint
         .measurement_min = SETPOINT - 120,      // what the process may do
         .measurement_max = SETPOINT + 120,
+        .swing = 0, // the tuner chooses
         .timeout_steps = 600,
         .cycles = 1,
     };

@@ -28,6 +28,7 @@ static void start(void)
         .output_rest = 0,
         .measurement_min = -10, // counts of a converter that has 4096
         .measurement_max = 4085,
+        .swing = 0, // the tuner chooses
         .timeout_steps = 3600,
         .cycles = 1,
     };
