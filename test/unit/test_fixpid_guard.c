@@ -935,9 +935,9 @@ void test_from_model_patience_at_both_ends(void)
     rule_is(8, 4, false);
     model.dead_q4 = 4 * 8;
     rule_is(8, 5, false);
-    model.dead_q4 = 32767 * 8 - 1;
+    model.dead_q4 = UINT32_C(32767) * 8u - 1u;
     rule_is(8, 32767, false);
-    model.dead_q4 = 32767 * 8;
+    model.dead_q4 = UINT32_C(32767) * 8u;
     has_no_guard();
     model.dead_q4 = UINT32_MAX;
     has_no_guard();
