@@ -12,6 +12,7 @@
 #include "fixpid_autotune.h"
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
+#include "fixpid_reaction.h"
 #include "fixpid_slew.h"
 #include "fixpid_tpo.h"
 #include "fuzz.h"
@@ -24,6 +25,7 @@ static struct fixpid_an964 an964;
 static struct fixpid_an964_8bit an964_8bit;
 static struct fixpid_pid pid;
 static struct fixpid_autotune autotune;
+static struct fixpid_reaction reaction;
 static struct fixpid_slew slew;
 static struct fixpid_tpo tpo;
 static struct fixpid_guard guard;
@@ -229,6 +231,25 @@ static void autotune_steps(void)
     }
 }
 
+static void reaction_steps(void)
+{
+    struct fixpid_reaction_process process;
+    struct fixpid_pid_gains gains;
+
+    spoil(&reaction, sizeof reaction);
+    for (unsigned i = 0; i < STEPS; i++) {
+        const int16_t output = fixpid_reaction_step(&reaction, numbers_int16());
+
+        if (output != reaction.output_rest && output != 0) {
+            within(reaction.output_drive, reaction.output_drive, output);
+        }
+        within(0, 100, fixpid_reaction_progress(&reaction));
+    }
+    (void)fixpid_reaction_model(&reaction, &process);
+    (void)fixpid_reaction_result(&reaction, (uint8_t)numbers_below(2),
+                                 (uint8_t)numbers_below(66), &gains);
+}
+
 static void other_steps(void)
 {
     spoil(&slew, sizeof slew);
@@ -247,8 +268,9 @@ static void other_steps(void)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static void (*const kinds[])(void) = {an937_steps, an964_steps, pid_steps,
-                                          autotune_steps, other_steps};
+    static void (*const kinds[])(void) = {an937_steps,    an964_steps,
+                                          pid_steps,      autotune_steps,
+                                          reaction_steps, other_steps};
 
     numbers_from(data, size);
     while (numbers_are_left()) {

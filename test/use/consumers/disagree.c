@@ -9,6 +9,7 @@
 #include "fixpid_guard.h"
 #include "fixpid_link.h"
 #include "fixpid_pid.h"
+#include "fixpid_reaction.h"
 
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
