@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative '../../../tools/lib/measure/cores'
 require_relative '../../../tools/lib/modules'
 require_relative 'images'
 
@@ -10,7 +11,8 @@ class CalledModule
   FOLDER = 'test/chips/modules'
   FLAGS = %W[-I#{WORK} -I#{FOLDER} #{FOLDER}/main.c test/support/numbers.c].freeze
   MORE_NUMBERS = %w[test/support/numbers_control.c test/support/numbers_pid.c].freeze
-  HOST = %w[gcc -std=c99 -O2 -Wall -Wextra -Werror -Iinclude -Itest/support].freeze
+  INCLUDES = %w[-Iinclude -Itest/support].freeze
+  HOST = [*%w[gcc -std=c99 -O2 -Wall -Wextra -Werror], *INCLUDES].freeze
 
   # What is metered, if not `step`.
   FUNCTIONS = { 'gains' => %w[from_milli to_milli], 'record' => %w[pack unpack], 'autotune' => %w[step result], 'reaction' => %w[step result],
@@ -46,6 +48,23 @@ class CalledModule
     meters = BUILT.command("#{WORK}/calls", *Programs::CC, "#{FOLDER}/chip.cc", *Programs::SIMULATORS['gpsim'], '-o', "#{WORK}/calls")
     image = Images.program("calls-#{@name}#{mode}", ['-DCALLS_SILENT', *options, *calls, *sources(source)], CHIPS.fetch(@name, 'pic18f4520'))
     text = said(meters, image, *@functions)
+    Target.same(answers, text.lines.first.sub(/ different.*/, ''))
+    text
+  end
+
+  # The same on a core with a C library, of what no unit test has the rows there.
+  ON_CORES = { 'atmega2560' => %w[reaction], 'cortex-m0' => %w[reaction] }.freeze
+
+  def on_core(core)
+    program = "#{WORK}/calls-#{@name}.#{core}"
+    given = [*calls, *sources('src')]
+    if CORES.key?(core)
+      CORES.fetch(core).link(program, '-Os', *INCLUDES, *given, *CORES.fetch(core).sources)
+      text = CORES.fetch(core).run(program)
+    else
+      said('avr-gcc', "-mmcu=#{core}", '-std=gnu99', '-Os', *INCLUDES, *given, 'test/chips/cores/avr_stdio.c', '-o', program)
+      text = said('test/chips/cores/simavr', core, program)
+    end
     Target.same(answers, text.lines.first.sub(/ different.*/, ''))
     text
   end

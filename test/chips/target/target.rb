@@ -372,6 +372,7 @@ class Table
     CalledModule.all.each do |module_|
       module_.modes.each { |mode, options| test('modules', "pic18#{mode}", module_.name, daily: mode.empty? && module_.name != 'guard') { module_.on_pic18(mode, *options) } }
     end
+    CalledModule::ON_CORES.each { |core, names| names.each { |name| test('modules', core, name, daily: true) { CalledModule.new(name).on_core(core) } } }
     test('seeded', 'seeded_module') { Target.noticed(/line 1: .*expected/) { CalledModule.new('slew').on_pic18('-broken', source: Broken.module('slew')) } }
   end
 
