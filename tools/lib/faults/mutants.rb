@@ -72,7 +72,7 @@ end
 
 # Of fixpid_autotune also the recorded experiments.
 def autotune_runs(sources)
-  %w[test_fixpid_autotune test_fixpid_autotune_rows].map { |test| Run.new(test, sources) }
+  %w[test_fixpid_autotune test_fixpid_autotune_result test_fixpid_autotune_rows].map { |test| Run.new(test, sources) }
 end
 
 # Of fixpid_pid with all features and with none.
