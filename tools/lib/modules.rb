@@ -110,8 +110,8 @@ module Modules
       title: 'Autotune', what: 'Gains for fixpid_pid from an experiment on the plant',
       fuzz: [2000, 256],
       # The end of a cycle halves a number of 16 bits until it is small, and divides
-      # by eight turns; both test once more than they turn. A result is what a table of
-      # operations calculates, some of them until a number is 0: it has no bound. It fills a
+      # by eight turns; both test once more than they turn. A result is what tables of
+      # equations tell, one of them until a number is small enough: it has no bound. It fills a
       # PIC18, in object mode, and so does not tell the kinds of its steps apart there.
       calls: [{ object: 'tuner', calls: 20_000, kinds: %i[avr arm], program: %w[test/chips/modules/steps_autotune.c],
                 functions: { 'autotune_ordinary_step' => 'ordinary step', 'autotune_cycle_step' => 'end of a cycle' },
