@@ -69,7 +69,7 @@ static void start_guard(struct boiler *self)
         .reach_max = ROOM + 750, // on a supply 20 % low
     };
 
-    rule_for(&config, &model, 1.0);
+    rule_for(&config, &model);
     (void)fixpid_guard_init(&self->guard, &config);
 }
 

@@ -149,19 +149,11 @@ static void set_reach(struct guarded *self)
     self->config.reach_max = (int16_t)high;
 }
 
-// A number of the model, wrong by up to a factor either way.
-static double mistaken(struct guarded *self, double number, double factor)
-{
-    return number * pow(factor, 2.0 * guarded_chance(self) - 1.0);
-}
-
 // As the header of fixpid_guard says.
-static void start_guard(struct guarded *self, const struct choice *choice)
+static void start_guard(struct guarded *self)
 {
-    const double gain = integrates(self) ? 0.0 : self->gain;
-    const double dead = mistaken(self, self->dead, choice->wrong);
-    const double slope = mistaken(self, self->slope, choice->wrong);
-    const struct model model = {gain, dead, slope, self->task.noise};
+    const struct model model = {integrates(self) ? 0.0 : self->gain, self->dead,
+                                self->slope, self->task.noise};
 
     self->config = (struct fixpid_guard_config){
         .output_max = (int16_t)self->span,
@@ -169,13 +161,13 @@ static void start_guard(struct guarded *self, const struct choice *choice)
         .measurement_max = (int16_t)(self->top - 1.0),
         .reverse = self->task.reverse,
     };
-    rule_for(&self->config, &model, choice->patience_share);
+    rule_for(&self->config, &model);
     set_reach(self);
     (void)fixpid_guard_init(&self->guard, &self->config);
 }
 
 void guarded_start(struct guarded *self, const struct task *task,
-                   unsigned number, const struct choice *choice)
+                   unsigned number)
 {
     memset(self, 0, sizeof *self);
     self->task = *task;
@@ -186,9 +178,6 @@ void guarded_start(struct guarded *self, const struct task *task,
     }
     self->span = task->output_max;
     self->top = task->sensor_max;
-    self->supply = 1.0;
-    self->load_until = self->supply_until = -1;
-    self->off_until = self->hand_until = -1;
     find_model(self);
     self->goal = integrates(self)
                      ? guarded_between(self, 0.2, 0.7) * self->top
@@ -197,11 +186,9 @@ void guarded_start(struct guarded *self, const struct task *task,
     if (integrates(self)) {
         self->task.zero = 0.1 * self->top;
     }
-    self->ramp_to = self->goal;
-    self->next_event = (long)(10.0 * guarded_scale(self)) + 100;
     lags_start(&self->motion, &self->task.plant, 0.0);
     start_pid(self);
-    start_guard(self, choice);
+    start_guard(self);
 }
 
 // Where a stuck sensor stays.
@@ -226,9 +213,7 @@ static double stuck_at(const struct guarded *self, enum fault fault)
 void guarded_break(struct guarded *self, enum fault fault)
 {
     self->fault = fault;
-    self->load_until = self->supply_until = -1;
-    self->load_to = self->load;
-    self->limit = fmax(fmax(self->goal, self->ramp_to), self->value);
+    self->limit = fmax(self->goal, self->value);
     self->stuck = fmin(fmax(stuck_at(self, fault), 2.0), self->top - 2.0);
     self->fallen = self->value;
 }
@@ -308,9 +293,7 @@ static int16_t turned(const struct guarded *self, double counts)
 
 static void move_plant(struct guarded *self, int16_t output)
 {
-    const double drive = driven(self, output * self->supply);
-
-    lags_move(&self->motion, drive - self->load - self->task.drift);
+    lags_move(&self->motion, driven(self, output) - self->task.drift);
     if (integrates(self)) {
         self->motion.integral = fmax(self->motion.integral, 0.0); // empty
     }
@@ -318,20 +301,15 @@ static void move_plant(struct guarded *self, int16_t output)
 
 uint8_t guarded_step(struct guarded *self)
 {
-    const double distance = self->ramp_to - self->goal;
     int16_t setpoint;
     int16_t measurement;
     int16_t output;
     uint8_t flags;
 
-    self->goal += fmin(fmax(distance, -self->ramp_rate), self->ramp_rate);
     self->value = lags_value(&self->motion) + self->task.zero;
     measurement = turned(self, sensed(self));
     setpoint = turned(self, floor(self->goal + 0.5));
     output = fixpid_pid_step(&self->pid, setpoint, measurement);
-    if (self->now < self->hand_until) {
-        setpoint = measurement;
-    }
     flags = fixpid_guard_step(&self->guard, setpoint, measurement, output);
     move_plant(self, output);
     self->now++;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A plant of random_plants/draw.h under fixpid_pid, with fixpid_guard beside
-// it: what happens to a loop every day, and what breaks for good.
+// it: what breaks for good.
 #ifndef GUARDED_H
 #define GUARDED_H
 #include <stdbool.h>
@@ -43,30 +43,20 @@ struct guarded {
     double gain, lag, dead, slope;
     double span, top; // of the output and of the sensor
 
-    // What happens to it, in its own time.
-    double goal, ramp_to, ramp_rate;
-    double load, load_to, load_rate, supply;
-    long now, next_event;
-    long load_until, supply_until, off_until, hand_until;
-    double goal_after_off;
+    double goal; // the setpoint
+    long now;
     uint64_t chance;
 
     enum fault fault;
     double stuck, fallen, drifted;
-    double limit; // the highest of value and setpoint when it broke
+    double limit; // the higher of value and setpoint when it broke
     double value; // what the sensor should read
     bool cut;     // no drive, as somebody has cut the supply
 };
 
-// How the guard gets its parameters, if not as its header says.
-struct choice {
-    double patience_share; // of the patience that its header says
-    double wrong;          // the model is wrong by up to this factor
-};
-
 // The plant is cold, and the gains are those of one of three rules.
 void guarded_start(struct guarded *self, const struct task *task,
-                   unsigned number, const struct choice *choice);
+                   unsigned number);
 
 // T + L in steps, of an integrating plant 4 L.
 double guarded_scale(const struct guarded *self);
@@ -74,13 +64,6 @@ double guarded_scale(const struct guarded *self);
 // From 0 to below 1.
 double guarded_chance(struct guarded *self);
 double guarded_between(struct guarded *self, double low, double high);
-
-// Perhaps something happens: a setpoint, a ramp, a door, a load, a low supply,
-// off and on, by hand.
-void guarded_event(struct guarded *self);
-
-// Nothing goes on that an event began.
-bool guarded_is_calm(const struct guarded *self);
 
 // From now on.
 void guarded_break(struct guarded *self, enum fault fault);

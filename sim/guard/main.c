@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Whether fixpid_guard has false alarms, and whether it sees what burns things:
+// Whether fixpid_guard sees what burns things:
 //
-//   guard healthy SEED PLANTS STEPS SHARE WRONG
-//   guard faults SEED PLANTS
+//   guarded SEED PLANTS
 //
-// Each has a row for each plant, of semicolon-separated values. In the first,
-// only what happens every day happens to it, with SHARE of the patience that
-// the header of fixpid_guard tells, and a model that is wrong by a factor of up
-// to WRONG. In the second are, for each fault, the steps until the alarm, or
-// -1, and how far the plant got beyond its setpoint, in percent of the sensor's
-// range, if nobody acts and if the alarm cuts the supply.
+// A row for each plant, of semicolon-separated values: for each fault, the
+// steps until the alarm, or -1, and how far the plant got beyond its setpoint,
+// in percent of the sensor's range, if nobody acts and if the alarm cuts the
+// supply.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,18 +27,6 @@ static const char *const faults[FAULTS] = {
     [FAULT_STUCK_AT] = "stuck_at",   [FAULT_STUCK_NOISY] = "stuck_noisy",
     [FAULT_DRIFT] = "drift",         [FAULT_HALF] = "half",
 };
-
-static void healthy(struct guarded *loop, long steps)
-{
-    uint8_t seen = 0;
-
-    for (long n = 0; n < steps; n++) {
-        guarded_event(loop);
-        seen |= guarded_step(loop);
-    }
-    printf(";%u;%u\n", seen & FIXPID_GUARD_ALARMS,
-           (seen & FIXPID_GUARD_SETTLED) != 0u ? 1u : 0u);
-}
 
 struct outcome {
     long alarm; // steps; -1: none
@@ -101,8 +86,7 @@ static void broken(struct guarded *loop)
     const long at = 300 + (long)((14.0 + 20.0 * guarded_chance(loop)) *
                                  guarded_scale(loop));
 
-    while (loop->now < at || !guarded_is_calm(loop)) {
-        guarded_event(loop);
+    while (loop->now < at) {
         (void)guarded_step(loop);
     }
     for (int fault = FAULT_OPEN; fault < FAULTS; fault++) {
@@ -115,56 +99,28 @@ static void broken(struct guarded *loop)
     printf(";%.1f;%.3f\n", guarded_scale(loop), loop->dead / loop->lag);
 }
 
-static void head(bool whole)
+int main(int argc, char *argv[])
 {
-    printf("plant;kind");
-    if (whole) {
-        printf(";alarms;settled\n");
-        return;
+    static struct guarded loop;
+    struct draw draw = {.kind = KIND_MIXED, .holding = -1.0};
+
+    if (argc != 3) {
+        fprintf(stderr, "usage: guarded SEED PLANTS\n");
+        return 2;
     }
+    draw_start(&draw, strtoul(argv[1], NULL, 10));
+    printf("plant;kind");
     for (int fault = FAULT_OPEN; fault < FAULTS; fault++) {
         printf(";%s;%s_without;%s_with", faults[fault], faults[fault],
                faults[fault]);
     }
     printf(";scale;dead\n");
-}
-
-static void all(const char *seed, const char *plants, long steps,
-                const struct choice *choice)
-{
-    static struct guarded loop;
-    struct draw draw = {.kind = KIND_MIXED, .holding = -1.0};
-
-    draw_start(&draw, strtoul(seed, NULL, 10));
-    head(steps > 0);
-    for (int i = 0; i < atoi(plants); i++) {
+    for (int i = 0; i < atoi(argv[2]); i++) {
         const struct task task = draw_task(&draw, i);
 
-        guarded_start(&loop, &task, (unsigned)i, choice);
+        guarded_start(&loop, &task, (unsigned)i);
         printf("%d;%s", i, kinds[task.kind]);
-        if (steps > 0) {
-            healthy(&loop, steps);
-        } else {
-            broken(&loop);
-        }
+        broken(&loop);
     }
-}
-
-int main(int argc, char *argv[])
-{
-    struct choice choice = {1.0, 1.0};
-
-    if (argc == 4 && strcmp(argv[1], "faults") == 0) {
-        all(argv[2], argv[3], 0, &choice);
-        return 0;
-    }
-    if (argc == 7 && strcmp(argv[1], "healthy") == 0 && atol(argv[4]) > 0) {
-        choice.patience_share = atof(argv[5]);
-        choice.wrong = atof(argv[6]);
-        all(argv[2], argv[3], atol(argv[4]), &choice);
-        return 0;
-    }
-    fprintf(stderr, "usage: guard healthy SEED PLANTS STEPS SHARE WRONG\n"
-                    "       guard faults SEED PLANTS\n");
-    return 2;
+    return 0;
 }

@@ -3,15 +3,13 @@
 
 #include <math.h>
 
-void rule_for(struct fixpid_guard_config *config, const struct model *model,
-              double share)
+void rule_for(struct fixpid_guard_config *config, const struct model *model)
 {
-    const double span = (double)config->output_max - config->output_min;
-    const double band = ceil(fmax(8.0 * model->noise + 4.0, 2.0 * model->gain));
-    const double patience =
-        share * (2.0 * model->dead + 20.0 * band / (model->slope * span));
+    const struct fixpid_guard_model found = {
+        .slope_q24 = (uint32_t)lrint(model->slope * 16777216.0),
+        .dead_q4 = (uint32_t)lrint(model->dead * 16.0),
+        .noise_q4 = (uint16_t)lrint(model->noise * 16.0),
+        .gain_q8 = (uint32_t)lrint(model->gain * 256.0)};
 
-    config->band = (uint16_t)band;
-    config->patience = (uint16_t)fmin(fmax(ceil(patience), 4.0), 32767.0);
-    config->noisy = model->noise >= 1.0 && patience >= 16.0;
+    (void)fixpid_guard_from_model(config, &found);
 }

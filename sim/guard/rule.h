@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rule of fixpid_guard.h for a guard's parameters.
+// The rule of fixpid_guard.h, of a plant that is known.
 #ifndef RULE_H
 #define RULE_H
 #include "fixpid_guard.h"
@@ -13,8 +13,6 @@ struct model {
 };
 
 // Band, patience and `noisy` of a configuration that has its output's range.
-// `share` is of the patience that the rule says.
-void rule_for(struct fixpid_guard_config *config, const struct model *model,
-              double share);
+void rule_for(struct fixpid_guard_config *config, const struct model *model);
 
 #endif

@@ -23,10 +23,10 @@ module Docs
     'docs/faults.md' => { 'faults' => { 'faults' => :faults, 'limits' => :fault_limits,
                                         'staying' => :staying, 'staying_limits' => :staying_limits },
                           'guard' => { 'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
-                                       'guard_half' => :guard_half } }
+                                       'guard_healthy' => :guard_healthy } }
   }.freeze
   # These tell of all that a loop has.
-  WHOLE = %i[faults staying guard_sees guard_half].freeze
+  WHOLE = %i[faults staying guard_sees guard_healthy].freeze
 
   # Made by tools/demo --long only, of these loops.
   LONG = { 'docs/faults.md' => { 'long' => :long_faults, 'places' => :fault_places },

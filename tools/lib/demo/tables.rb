@@ -151,8 +151,13 @@ module Tables
       end)
     end
 
-    def guard_half
-      "#{Report.numbers['guard']['half_patience']}\n"
+    # How many whole machines raise an alarm.
+    def guard_healthy
+      table('set by', 'machines', 'with an alarm', *GUARD_FLAGS.keys.map { |flag| "`#{flag}`" }, 'with half of the patience',
+            GUARD_RULES.map do |rule, (title, _)|
+              row = Report.numbers['guard']["healthy #{rule}"]
+              [title, row['plants'], row['alarms'], *row['flags'].values, row['hasty']]
+            end)
     end
 
     # How hot the boiler of the quick start gets.
