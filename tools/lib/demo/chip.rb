@@ -96,7 +96,7 @@ CHIPS = [
            THERMOSTAT_ON_CHIP, step_ticks: 100),
   Chip.new('autotune', 'oven by itself on a PIC18F4520', 'fixpid_pid_step',
            { seconds: 41 }, step_ticks: 100),
-  Chip.new('experiment', "the relay's experiment alone on a PIC18F4520", 'fixpid_autotune_step',
+  Chip.new('experiment', 'relay experiment alone on a PIC18F4520', 'fixpid_autotune_step',
            { seconds: 85 }, step_ticks: 100),
   Chip.new('motor_pic18f26k22', 'motor, AN937 on a PIC18F26K22', 'fixpid_an937_step',
            {}),
