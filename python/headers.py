@@ -10,7 +10,7 @@ import pprint
 import re
 import textwrap
 
-EXTENDED = ("Autotune", "Pid")  # classes of which Python has more: not for `from ._nouns import *`
+EXTENDED = ("Autotune", "Pid", "Reaction")  # classes of which Python has more: not for `from ._nouns import *`
 WITHOUT = ("link",)  # the board's end, of which Python is the other: no class is made of it
 TRAILING = 8  # a comment that begins further to the right goes on with the line above
 FUNCTION = re.compile(r"(?:static inline )?((?:const )?[\w ]+?[ *]+)(fixpid_\w+)\(([^{;]*)\)\s*[;{]")

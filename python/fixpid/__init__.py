@@ -19,8 +19,8 @@ from ._core import __version__
 from ._library import ffi, lib
 from ._link import Difference, Link, Step
 from ._loop import Fit, Loop, Plant, fit, simulate, tune
-from ._modules import (Autotune, AutotuneCause, AutotuneState, Table, gains_from_milli, gains_to_milli,
-                       guard_config, record_pack, record_unpack, sat16, slew_rate, table)
+from ._modules import (Autotune, AutotuneCause, AutotuneState, Reaction, ReactionState, Table, gains_from_milli,
+                       gains_to_milli, guard_config, record_pack, record_unpack, sat16, slew_rate, table)
 from ._nouns import *  # noqa: F403, the constants, and the classes that C alone makes
 from ._pid import Pid, pid_gains
 from ._units import Actuator, Sensor

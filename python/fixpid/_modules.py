@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What stands beside the controllers: the autotuner, tables, guards, gains and records."""
+"""What stands beside the controllers: the tuners, tables, guards, gains and records."""
 import enum
 import operator
 import textwrap
@@ -106,6 +106,43 @@ class Autotune(_nouns.Autotune):
         if not lib.fixpid_autotune_unpack(tuner.c, _new("autotune_record", {"bytes": list(record)})):
             raise ValueError("a byte of the record is wrong")
         return tuner
+
+
+ReactionState = _causes("reaction_state", "reaction", {
+    "REFUSED": "output_drive is output_rest, or timeout_steps is above 32767.",
+    "RUNNING": "Keep stepping.",
+    "DONE": "It has measured: ask for a result.",
+    "MOVING": "The reading was not at rest: wait until it stands or falls.",
+    "NO_MOVEMENT": "Nothing moved within timeout_steps: is the heater on, and the sensor in place? If both are, "
+                   "take a longer timeout_steps.",
+    "WRONG_WAY": "The reading went the other way: change reverse.",
+    "LIMIT": "The reading would come to measurement_stop: begin colder, let it go further, or take half of "
+             "output_drive where half the output has half the effect.",
+    "LEVELS_OFF": "The reading came to rest before its slope was clear: take Autotune, or a faster rate.",
+    "TOO_SLOW": "It took more than 32768 steps: sample more slowly."})
+
+
+class Reaction(_nouns.Reaction):
+    """Finds gains for Pid from the first minutes of a heat-up: fixpid_reaction.h.
+
+    The rules are fixpid.REACTION_PI and REACTION_PID; for robustness_q4 there are three
+    words, REACTION_QUICK, REACTION_SAFE and REACTION_CALM.
+    """
+
+    def status(self):
+        """A ReactionState, whose `advice` says what to do about it."""
+        return ReactionState(lib.fixpid_reaction_status(self.c))
+
+    def model(self):
+        """The process that was found, as a dictionary, or None."""
+        process = _new("reaction_process", {})
+        return _fields(process[0]) if lib.fixpid_reaction_model(self.c, process) else None
+
+    def result(self, rule, robustness_q4=lib.FIXPID_REACTION_SAFE):
+        """The gains that Pid takes, by a rule. None if there are none: it has not measured, or
+        one of them is out of its range. They want a setpoint_weight_q8 of 128."""
+        gains = _new("pid_gains", {})
+        return _fields(gains[0]) if lib.fixpid_reaction_result(self.c, rule, robustness_q4, gains) else None
 
 
 class Table:

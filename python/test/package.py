@@ -7,6 +7,7 @@
 Prints `ok NAME` or `FAILED NAME` and why.
 """
 import contextlib
+import copy
 import io
 import math
 import os
@@ -258,10 +259,11 @@ def autotune_says_what_to_do():
     tuner.reset()
     assert tuner.model() is None and tuner.reason(0) is fixpid.AutotuneCause.NOT_DONE
     same(tuner.status().advice, "Keep stepping.")
-    for causes, count in (fixpid.AutotuneState, 9), (fixpid.AutotuneCause, 8):
+    for causes, prefix, count in ((fixpid.AutotuneState, "AUTOTUNE", 9), (fixpid.AutotuneCause, "AUTOTUNE", 8),
+                                  (fixpid.ReactionState, "REACTION", 9)):
         assert len(causes) == len({cause.advice for cause in causes}) == count
-        assert all(re.fullmatch("[A-Zk].*[.]", cause.advice) for cause in causes)
-        assert all(getattr(fixpid, f"AUTOTUNE_{cause.name}") == cause for cause in causes)
+        assert all(re.fullmatch("[A-Zko].*[.]", cause.advice) for cause in causes)
+        assert all(getattr(fixpid, f"{prefix}_{cause.name}") == cause for cause in causes)
 
 
 def experiments_come_back():
@@ -279,6 +281,39 @@ def experiments_come_back():
     for wrong in (record[:-1], record + b"\0", bytes([2]) + record[1:], record.hex()[1:],
                   record.hex()[:-1] + "g", "", bytes([record[0], record[1] ^ 1]) + record[2:]):
         assert refuses(ValueError, unpack, wrong), wrong
+
+
+class Kettle:
+    """A lag of 80 steps and a dead time of 5: 1000 counts of output are 3000 of the measurement."""
+
+    def __init__(self):
+        self.level, self.line = 0.0, [0] * 5
+
+    def move(self, output):
+        self.line.append(output)
+        self.level += (3 * self.line.pop(0) - self.level) / 80
+        return round(self.level)
+
+
+def heat_up_hands_over():
+    tuner, kettle, measurement = fixpid.Reaction(output_drive=1000, measurement_stop=1500), Kettle(), 0
+    assert tuner.model() is None and tuner.result(fixpid.REACTION_PI) is None
+    while tuner.status() is fixpid.ReactionState.RUNNING:
+        measurement = kettle.move(tuner.step(measurement))
+    assert tuner.status() is fixpid.ReactionState.DONE and tuner.progress() == 100 and measurement < 1500
+    # 3 counts per count in 80 steps
+    assert abs(tuner.model()["slope_q24"] / 2**24 - 3 / 80) < 0.005, tuner.model()
+    same(tuner.result(2), None)
+    for rule in fixpid.REACTION_PI, fixpid.REACTION_PID:
+        quick, safe, calm = (tuner.result(rule, word)["kp_q8"] for word in
+                             (fixpid.REACTION_QUICK, fixpid.REACTION_SAFE, fixpid.REACTION_CALM))
+        assert quick > safe > calm > 0
+        pid, one = fixpid.Pid(gains=tuner.result(rule), output_max=1000, setpoint_weight_q8=128), copy.deepcopy(kettle)
+        way, now = [], measurement
+        for _ in range(400):
+            now = one.move(pid.step(1500, now))
+            way.append(now)
+        assert max(way) < 1515 and abs(way[-1] - 1500) <= 1, (max(way), way[-1])
 
 
 def gains_are_those_of_the_macro():
@@ -360,6 +395,6 @@ TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_met
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
          table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
          records_come_back, states_come_back, autotune_finds_gains,
-         autotune_says_what_to_do, experiments_come_back,
+         autotune_says_what_to_do, experiments_come_back, heat_up_hands_over,
          gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
 run(TESTS)

@@ -34,7 +34,8 @@ def rows_of(path):
 
 
 def numbers(row):
-    return {name: int(value) for name, value in row.items()}
+    """What of a row is a number, as one."""
+    return {name: int(value) if value.lstrip("-").isdigit() else value for name, value in row.items()}
 
 
 def accepted(call, *arguments, **fields):
@@ -165,6 +166,39 @@ def guard_row(guard, at, _):
     yield at["flags"], flags
 
 
+def pieces(text):
+    """Of `value*times value`, each value as often as it says."""
+    for piece in str(text).split():
+        value, _, times = piece.partition("*")
+        yield from [value] * int(times or 1)
+
+
+REACTION = ("output_rest", "output_drive", "measurement_stop", "timeout_steps")
+REACTION_MODEL = ("slope_q24", "dead_q4", "noise_q4")
+
+
+def reaction_row(tuner, at, _):
+    """A reading is the difference to the one before it; an R is a reset in front of the next."""
+    config = {name: at[name] for name in REACTION}
+    yield at["accepted"], accepted(tuner.init, **config, reverse=at["options"] == 0x80)
+    told, measurement, outputs = 2166136261, 0, []
+    for piece in pieces(at["readings"]):
+        if piece == "R":
+            tuner.reset()
+            continue
+        measurement += int(piece)
+        outputs.append(tuner.step(measurement))
+        told = fnv(told, tuner.status(), tuner.progress())
+    yield list(map(int, pieces(at["outputs"]))), outputs
+    yield [at["status"], at["told"]], [tuner.status(), told]
+    model = tuner.model() or {}
+    yield [at[name] for name in REACTION_MODEL], [model.get(name, "") for name in REACTION_MODEL]
+    for rule, prefix in (fixpid.REACTION_PI, "pi"), (fixpid.REACTION_PID, "pid"):
+        for word, robustness in ("8", 8), ("16", 16), ("32", 32), ("other", at["robustness_q4"]):
+            gains = tuner.result(rule, robustness)
+            yield at[f"{prefix}_{word}"], "-" if gains is None else " ".join(map(str, gains.values()))
+
+
 def table_row(points, at, fresh):
     """A table's points come first, then its verdict, then what it gives."""
     if fresh:
@@ -293,6 +327,7 @@ FILES = (
     ("step_error", 500, lambda: fixpid.Pid(output_max=1), step_error_row),
     ("slew", 1000, fixpid.Slew, slew_row),
     ("tpo", 1000, lambda: fixpid.Tpo(full=1, window=1), tpo_row),
+    ("reaction", 64, lambda: fixpid.Reaction(output_drive=1), reaction_row),
     ("guard", 1000, lambda: fixpid.Guard(output_max=1, band=1, patience=2), guard_row),
     ("gains", 1000, lambda: None, gains_row),
     ("link", 348, Board, link_row),
