@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sliders and numbers of the panel. Their ranges follow the plant, so that
 // the middle of each is a sensible value.
-import { CONTROLLER, PLANT, WORD } from './built.js';
+import { CONTROLLER, EXPERIMENT, PLANT, WORD } from './built.js';
 import { calmSlider, hasLine } from './calm.js';
 import { make } from './dom.js';
 import { createField } from './fields.js';
@@ -145,10 +145,14 @@ function setpointControls(s) {
         : [['SETPOINT', 'Setpoint', s.unit, sensor]];
 }
 
-function tunerControls() {
+function tunerControls({ EXPERIMENT: kind }) {
     return [
-        ['SWING', 'Swing', 'counts; 0: by the noise', (s) => straight(0, Math.round(2 ** s.SENSOR_BITS / 4), 8)],
-        ['CYCLES', 'Cycles', 'of each relay', () => straight(1, 4, 1)],
+        ...(kind === EXPERIMENT.HEAT_UP ? [
+            ['DRIVE', 'Heat-up', '% of the highest output', () => straight(10, 100, 5)],
+        ] : [
+            ['SWING', 'Swing', 'counts at most; 0: an eighth', (s) => straight(0, Math.round(2 ** s.SENSOR_BITS / 4), 8)],
+            ['CYCLES', 'Cycles', 'of each relay', () => straight(1, 4, 1)],
+        ]),
         ['ROBUSTNESS', 'Robustness', Object.entries(WORD).map(([word, number]) => `${number} ${word.toLowerCase()}`).join(', '),
             () => straight(8, 64, 1)],
     ];
@@ -169,7 +173,7 @@ function ownSections(s, line) {
         { title: '1 Your sensor, actuator, rate', open: true, head: [unitField], controls: hardware },
         { title: '2 Your plant', open: true, head: [kindChoice], controls: plantControls(s) },
         { title: '3 Your gains', open: true, head: [controllerChoice, firstButton, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
-        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
+        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls(s) }] : []),
         { title: 'Noise, integral, time', open: false, controls: more },
     ];
 }
@@ -183,7 +187,7 @@ export function sectionsOf(s) {
         { title: 'Gains', open: true, head: s.PLANT === PLANT.PENDULUM ? [] : [controllerChoice, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
         { title: 'Plant', open: true, controls: plantControls(s) },
         { title: 'Sensor, actuator, rate', open: false, controls: sensorControls(s) },
-        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls() }] : []),
+        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls(s) }] : []),
     ];
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page: all that it shows follows from the one state, each time anew.
-import { CONTROLLER, LIMIT, OPTION, PLANT, VERSION } from './built.js';
+import { CONTROLLER, EXPERIMENT, LIMIT, OPTION, PLANT, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
 import { figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
@@ -63,14 +63,15 @@ function tunedFor(s) {
 }
 
 function rowsFor(s) {
+    const heated = tuned.found.results.EXPERIMENT === EXPERIMENT.HEAT_UP;
     tuned.rows ??= tuned.found.rules.map(({ rule, robustness, has, results }) => {
         if (!has) {
-            return { rule, robustness, gains: null };
+            return { rule, robustness, heated, gains: null };
         }
         const gains = gainsOfRule(s, results);
         const one = run({ ...s, ...gains });
-        return one.n < 0 ? { rule, robustness, gains: null }
-            : { rule, robustness, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
+        return one.n < 0 ? { rule, robustness, heated, gains: null }
+            : { rule, robustness, heated, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
     });
     return tuned.rows;
 }
@@ -124,7 +125,7 @@ function panesOf(s, found) {
     };
     const progress = {
         title: 'Progress', unit: '%', leastSpan: 100,
-        series: [{ name: 'cycles done', color: 'i', held: true,
+        series: [{ name: 'done', color: 'i', held: true,
             data: tuning ? progressOf(found) : none }],
     };
     return tuning ? [measurement, output, progress] : [measurement, output, terms, difference];
@@ -194,6 +195,7 @@ function showTuning(s) {
         showGuard(find('#guard'), null);
         return null;
     }
+    find('#experiment').value = s.EXPERIMENT;
     const found = tunedFor(s);
     const lasted = `Measured after ${digits(found.n / s.RATE)} s, ${whole(found.n)} steps`;
     const rows = isMeasured(found.results) ? rowsFor(s) : [];
@@ -560,6 +562,7 @@ function listen() {
             past.travel(way);
         }
     });
+    find('#experiment').addEventListener('change', (event) => change({ EXPERIMENT: Number(event.target.value) }));
     find('#copy-record').addEventListener('click', () => toClipboard(recordText(tuned.found.record), 'The record is copied.'));
     find('#record').addEventListener('input', () => showRecord(currentState()));
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));

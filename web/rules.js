@@ -23,8 +23,10 @@ export function gainsOfRecord(s, results) {
         OUTPUT_MIN: results.OUTPUT_MIN, OUTPUT_MAX: results.OUTPUT_MAX };
 }
 
-// The row to take first, as docs/tuning.md advises: PI, safe; PID where PI has no gains.
+// The row to take first, as docs/tuning.md advises: safe, by a relay PI, by a heat-up PID, or the
+// other one where that has no gains.
 export function firstRow(rows) {
+    const liked = rows[0]?.heated ? 'PID' : 'PI';
     const safe = rows.filter(({ gains, robustness }) => gains !== null && robustness === WORD.SAFE);
-    return safe.find(({ rule }) => rule === 'PI') ?? safe[0] ?? null;
+    return safe.find(({ rule }) => rule === liked) ?? safe[0] ?? null;
 }

@@ -2,7 +2,7 @@
 // The page's one state, from which everything else follows: the parameters of
 // the C by their names there, and a few of the page's own. A preset is a whole
 // state; a link has what differs from one.
-import { CONTROLLER, EVENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
+import { CONTROLLER, EVENT, EXPERIMENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
 import { gainsFor, plantOfKind, withPlant } from './own.js';
 
 const common = {
@@ -10,7 +10,7 @@ const common = {
     SENSOR_BITS: 12, SENSOR_LOW: 0, SENSOR_RANGE: 100, NOISE: 0,
     OUTPUT_MIN: 0, OUTPUT_MAX: 1000, RATE: 20, DURATION: 60, SETPOINT: 50,
     KP: 1, KI: 0, KD: 0, FILTER: 0, WEIGHT: 1, OPTIONS: 0, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
-    SWING: 0, CYCLES: 2, ROBUSTNESS: 16,
+    EXPERIMENT: EXPERIMENT.RELAY, SWING: 0, CYCLES: 1, DRIVE: 100, ROBUSTNESS: 16,
     CLOCK: 16, unit: '%', rule: 'PI', events: [], kept: [],
 };
 
@@ -22,7 +22,7 @@ export const PRESETS = [
     preset('oven', 'Oven', 'A reflow oven: an element warms a body, and the sensor sees it late. It cannot cool, so overshoot is expensive.', {
         PLANT: PLANT.OVEN, GAIN: 400, T1: 60, T2: 6, DEAD: 2.5, START: 22, unit: '°C',
         SENSOR_RANGE: 409.5, NOISE: 1, RATE: 10, DURATION: 600, SETPOINT: 180,
-        KP: 2.1, KI: 0.07, KD: 8, FILTER: 3, WEIGHT: 0.6,
+        KP: 2.1, KI: 0.07, KD: 8, FILTER: 3, WEIGHT: 0.6, EXPERIMENT: EXPERIMENT.HEAT_UP,
         events: [{ at: 260, what: 'SETPOINT', a: 220 }, { at: 440, what: 'LOAD', a: -0.12 }],
     }),
     preset('flow', 'Lag and dead time', 'A flow, a pressure, a mixing tank: one lag behind a pipe. Most loops of a plant look like this.', {
@@ -100,9 +100,10 @@ const BOUNDS = {
     OUTPUT_MIN: COUNTS, OUTPUT_MAX: COUNTS, RATE: [0.01, 20000], DURATION: [1e-4, 1e6], SETPOINT: REAL,
     KP: REAL, KI: REAL, KD: REAL, FILTER: [0, 255], WEIGHT: [0, 10], OPTIONS: [0, EVERY_OPTION],
     INTEGRAL_MIN: COUNTS, INTEGRAL_MAX: [-32768, 65535], CLOCK: [0.001, 1000], SWING: [0, 16383], CYCLES: [1, 4], ROBUSTNESS: [8, 64],
+    EXPERIMENT: [EXPERIMENT.RELAY, EXPERIMENT.HEAT_UP], DRIVE: [0, 100],
 };
 export const WHOLE = ['SENSOR_BITS', 'OUTPUT_MIN', 'OUTPUT_MAX', 'FILTER', 'OPTIONS', 'INTEGRAL_MIN', 'INTEGRAL_MAX',
-    'SWING', 'CYCLES', 'ROBUSTNESS'];
+    'EXPERIMENT', 'SWING', 'CYCLES', 'ROBUSTNESS'];
 
 function clamped(value, [low, high]) {
     return Math.min(high, Math.max(low, value));

@@ -12,13 +12,14 @@ from ._fit import fit_models, model_at
 from ._header import header_of
 from ._margins import margins_of, scale_seconds
 from ._metrics import limited_steps, metrics_of, unit_per_count, units_of
-from ._modules import AutotuneCause, AutotuneState
-from ._nouns import AUTOTUNE_DONE
+from ._modules import AutotuneCause, AutotuneState, ReactionState
 from ._own import plant_of_model, range_for, rate_for, with_plant
 from ._pid import Pid
 from ._units import Actuator, Sensor, number
 
 KINDS = {"lags": "LAGS", "oscillator": "OSCILLATOR", "integrator": "INTEGRATOR", "oven": "OVEN"}
+TUNERS = {"autotune": ("RELAY", AutotuneState), "reaction": ("HEAT_UP", ReactionState)}
+OUT_OF_RANGE = "A gain is out of its range: take PI, a finer measurement or another rate."
 BOUNDS = {"gain": (-1e6, 1e6), "lag": (0, 1e5), "dead": (0, 1e5), "lag2": (0, 1e5), "start": (-1e6, 1e6),
           "damping": (1e-3, 100)}  # as on the page
 
@@ -371,12 +372,13 @@ def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0) -> 
     return Loop(_scene.within_reason(state), actuator)
 
 
-def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe") -> Loop:
+def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe", tuner="autotune") -> Loop:
     """The Loop with the gains of a rule for a Fit.
 
-    `rule` is PI or PID, as fixpid_autotune finds them in its experiment on the fitted plant, with
-    a `robustness` of quick, safe, calm or 8..64; or SIMC, Skogestad's. `sensor`, `actuator` and
-    `rate` are your hardware's; u of the fit is in the actuator's units, or with no actuator a part
+    `rule` is PI or PID, with a `robustness` of quick, safe, calm or 8..64, as a tuner finds them in
+    its experiment on the fitted plant: `tuner` is autotune, which swings it about the setpoint, or
+    reaction, which heats it up from rest towards the setpoint. Or it is SIMC, Skogestad's.
+    `sensor`, `actuator` and `rate` are your hardware's; u of the fit is in the actuator's units, or with no actuator a part
     of full drive. ValueError, with what to do, where the rule has no gains.
     """
     if not isinstance(fit, Fit):
@@ -389,6 +391,8 @@ def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe
         raise ValueError(f"robustness = {robustness!r} is refused: quick, safe, calm and 8..64 are legal")
     if rule not in ("PI", "PID", "SIMC"):
         raise ValueError(f"rule = {rule!r} is refused: PI, PID and SIMC are legal")
+    if tuner not in TUNERS:
+        raise ValueError(f"tuner = {tuner!r} is refused: {' and '.join(TUNERS)} are legal")
     given = Actuator(0, 1000, full=1.0) if actuator is None else actuator
     full = given.full or given.most
     plant = plant_of_model(fit._model, fit.step / full, fit.before / full)
@@ -402,11 +406,14 @@ def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe
                         "SENSOR_LOW": low, "SENSOR_RANGE": span, "OUTPUT_MIN": given.lowest, "OUTPUT_MAX": given.highest,
                         "ROBUSTNESS": robust, "rule": "PI" if rule == "SIMC" else rule, "unit": sensor.unit if sensor else ""}))
     if rule != "SIMC":
+        kind, states = TUNERS[tuner]
+        state["EXPERIMENT"] = _scene.EXPERIMENT[kind]
         tried = _scene.experiment(state, [(rule, robust)])
-        status = int(tried["results"]["STATUS"])
-        if status != AUTOTUNE_DONE:
-            raise ValueError(f"no gains: {AutotuneState(status).advice}")
+        status = states(int(tried["results"]["STATUS"]))
+        if status is not states.DONE:
+            raise ValueError(f"no gains: {status.advice}")
         if not tried["rules"][0]["has"]:
-            raise ValueError(f"no gains: {AutotuneCause(int(tried['rules'][0]['results']['REASON'])).advice}")
+            reason = AutotuneCause(int(tried["rules"][0]["results"]["REASON"]))
+            raise ValueError(f"no gains: {reason.advice if tuner == 'autotune' else OUT_OF_RANGE}")
         state.update(_scene.gains_of_rule(state, tried["rules"][0]["results"]))
     return Loop(state, given)

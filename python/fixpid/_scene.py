@@ -18,6 +18,7 @@ COUNT = _names("tuner_count", "COUNT_")
 VALUE = _names("tuner_value", "VALUE_")
 RESULT = _names("tuner_result", "RESULT_")
 EVENT = _names("tuner_event", "EVENT_")
+EXPERIMENT = _names("tuner_experiment_kind", "EXPERIMENT_")
 CONTROLLER = {name: value for name, value in _names("tuner_controller", "TUNER_").items() if name != "S"}
 PLANT = _names("tuner_plant", "TUNER_")
 RULE = {"PI": lib.FIXPID_AUTOTUNE_PI, "PID": lib.FIXPID_AUTOTUNE_PID}
@@ -32,7 +33,7 @@ COMMON = {
     "SENSOR_BITS": 12, "SENSOR_LOW": 0, "SENSOR_RANGE": 100, "NOISE": 0,
     "OUTPUT_MIN": 0, "OUTPUT_MAX": 1000, "RATE": 20, "DURATION": 60, "SETPOINT": 50,
     "KP": 1, "KI": 0, "KD": 0, "FILTER": 0, "WEIGHT": 1, "OPTIONS": 0, "INTEGRAL_MIN": 0, "INTEGRAL_MAX": 0,
-    "SWING": 0, "CYCLES": 2, "ROBUSTNESS": 16, "unit": "%", "rule": "PI", "events": []}
+    "EXPERIMENT": 0, "SWING": 0, "CYCLES": 1, "DRIVE": 100, "ROBUSTNESS": 16, "unit": "%", "rule": "PI", "events": []}
 
 
 def within_reason(s):
@@ -78,7 +79,7 @@ def run(s):
 
 
 def experiment(s, rules):
-    """The autotuner in the controller's place: {"n", "results", "rules"}, with {"has", "results"}
+    """The scene's tuner in the controller's place: {"n", "results", "rules"}, with {"has", "results"}
     for each pair of a rule and a robustness."""
     with _lock:
         _put(s)

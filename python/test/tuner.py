@@ -391,8 +391,10 @@ def lags_that_are_no_part_of_a_step_are_simulated():
 
 def tuning_is_on_the_hardware_that_is_given():
     found = fixpid.fit(*recording())
-    for rule, least, most in (("PI", 1.2, 1.8), ("PID", 1.1, 1.9), ("SIMC", 1.3, 1.8)):
-        loop = fixpid.tune(found, rule, rate=10, sensor=SENSOR, actuator=ACTUATOR)
+    for rule, tuner, least, most in (("PI", "autotune", 1.2, 1.8), ("PID", "autotune", 1.1, 1.9), ("SIMC", "autotune", 1.3, 1.8),
+                                     ("PI", "reaction", 1.2, 1.8), ("PID", "reaction", 1.1, 1.9)):
+        loop = fixpid.tune(found, rule, rate=10, sensor=SENSOR, actuator=ACTUATOR, tuner=tuner)
+        same(loop.state["WEIGHT"], 0.5 if tuner == "reaction" else loop.state["WEIGHT"])
         same([loop.state[name] for name in ("SENSOR_BITS", "SENSOR_RANGE", "OUTPUT_MAX", "RATE", "unit")], [10, 300, 255, 10, "C"])
         assert loop.margins["stable"] and least < loop.margins["ms"] < most, (rule, loop)
         assert loop.metrics["overshoot"] < 0.1 and loop.metrics["settled"] is not None, loop
@@ -423,6 +425,7 @@ def without_hardware_it_is_the_pages():
 def what_has_no_gains_says_what_to_do():
     found = fixpid.fit(*recording())
     for fields, start in (({"rule": "ZN"}, "rule = 'ZN' is refused: PI, PID"), ({"robustness": 7}, "robustness = 7 is refused"),
+                          ({"tuner": "relay"}, "tuner = 'relay' is refused: autotune and reaction"), ({"rate": 0.01, "tuner": "reaction"}, "no gains: The reading"),
                           ({"rate": 0.01}, "no gains: "), ({"rate": math.nan}, "rate = nan is refused")):
         said = message(ValueError, fixpid.tune, found, **fields)
         assert said.startswith(start), said

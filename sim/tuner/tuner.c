@@ -10,6 +10,7 @@
 #include "fixpid_autotune.h"
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
+#include "fixpid_reaction.h"
 #include "params.h"
 #include "plant.h"
 #include "scene.h"
@@ -20,6 +21,13 @@
 #define DRIFT_LIMIT 55         // eighths of a count, the note's value
 #define ERROR_PER_COUNT 4      // of AN937's motor: 1023 counts are its 4000
 #define TIMEOUT_STEPS 32767
+#define HEAT_UP_WEIGHT 128 // of the setpoint, as fixpid_reaction.h advises
+#define LISTENS 8          // percent: below that it has not begun to heat
+
+// As fixpid_autotune_progress has them.
+#define PHASE_LISTENS 0
+#define PHASE_HEATS 1
+#define PHASE_OVER 6
 
 // Where a record has these.
 #define RECORD_OUTPUT_MIN 1
@@ -36,6 +44,8 @@ static struct fixpid_an937 an937;
 static struct fixpid_an964 an964;
 static struct fixpid_autotune autotune;
 static struct fixpid_autotune_record record;
+static struct fixpid_reaction reaction;
+static bool heat_up; // what the last experiment was
 static struct fit fit;
 
 // A loop that runs: the library's, or its twin's. Each has its own drift
@@ -236,13 +246,16 @@ static bool is_plant(int kind)
     return (int)param(PARAM_PLANT) == kind;
 }
 
+static bool is_reverse(void)
+{
+    return ((unsigned)param(PARAM_OPTIONS) & TUNER_OPTION_REVERSE) != 0u;
+}
+
 // What the firmware of a note's controller would pass to it.
 static int16_t error_of(int16_t setpoint, int16_t measurement)
 {
-    const unsigned options = (unsigned)param(PARAM_OPTIONS);
-    const bool reverse = (options & TUNER_OPTION_REVERSE) != 0u;
-    const int32_t error = reverse ? ((int32_t)measurement - setpoint)
-                                  : ((int32_t)setpoint - measurement);
+    const int32_t error = is_reverse() ? ((int32_t)measurement - setpoint)
+                                       : ((int32_t)setpoint - measurement);
     const bool notes_motor =
         (param(PARAM_CONTROLLER) == TUNER_AN937) && is_plant(TUNER_MOTOR);
     const int32_t scale = notes_motor ? ERROR_PER_COUNT : 1;
@@ -422,9 +435,21 @@ int tuner_run(void)
     return n;
 }
 
-static bool begin_experiment(void)
+static bool begin_heat_up(void)
 {
-    const unsigned options = (unsigned)param(PARAM_OPTIONS);
+    const double drive = param(PARAM_OUTPUT_MAX) * param(PARAM_DRIVE) / 100.0;
+    const struct fixpid_reaction_config config = {
+        .output_rest = limited(0),
+        .output_drive = limited((int32_t)floor(drive + 0.5)),
+        .measurement_stop = scene_counts(param(PARAM_SETPOINT)),
+        .timeout_steps = TIMEOUT_STEPS,
+        .reverse = is_reverse(),
+    };
+    return fixpid_reaction_init(&reaction, &config);
+}
+
+static bool begin_relay(void)
+{
     struct fixpid_autotune_config config = {
         .output_min = (int16_t)param(PARAM_OUTPUT_MIN),
         .output_max = (int16_t)param(PARAM_OUTPUT_MAX),
@@ -433,13 +458,50 @@ static bool begin_experiment(void)
         .swing = (uint16_t)param(PARAM_SWING),
         .timeout_steps = TIMEOUT_STEPS,
         .cycles = (uint8_t)param(PARAM_CYCLES),
-        .reverse = (options & TUNER_OPTION_REVERSE) != 0u,
+        .reverse = is_reverse(),
     };
     config.output_rest = limited(0);
     return fixpid_autotune_init(&autotune, &config);
 }
 
-static void tell_experiment(void)
+static bool experiment_runs(void)
+{
+    return heat_up
+               ? (fixpid_reaction_status(&reaction) == FIXPID_REACTION_RUNNING)
+               : (fixpid_autotune_status(&autotune) == FIXPID_AUTOTUNE_RUNNING);
+}
+
+static void heat_up_progress(struct fixpid_autotune_stage *stage)
+{
+    stage->done = fixpid_reaction_progress(&reaction);
+    stage->expected = 100;
+    stage->period = 0;
+    if (!experiment_runs()) {
+        stage->phase = PHASE_OVER;
+    } else {
+        stage->phase = (stage->done < LISTENS) ? PHASE_LISTENS : PHASE_HEATS;
+    }
+}
+
+static void tell_heat_up(void)
+{
+    struct fixpid_reaction_process process;
+    struct fixpid_autotune_stage stage;
+
+    heat_up_progress(&stage);
+    results[RESULT_STATUS] = fixpid_reaction_status(&reaction);
+    results[RESULT_DONE] = stage.done;
+    results[RESULT_EXPECTED] = stage.expected;
+    if (fixpid_reaction_model(&reaction, &process)) {
+        results[RESULT_HAS_MODEL] = 1.0;
+        results[RESULT_GAIN] = FIXPID_AUTOTUNE_INTEGRATING;
+        results[RESULT_DEAD] = process.dead_q4;
+        results[RESULT_SLOPE] = process.slope_q24;
+        results[RESULT_NOISE] = process.noise_q4;
+    }
+}
+
+static void tell_relay(void)
 {
     struct fixpid_autotune_process process;
     struct fixpid_autotune_stage stage;
@@ -480,23 +542,38 @@ static void tell_guard(int16_t output_min, int16_t output_max)
     }
 }
 
+static int16_t step_experiment(int i, int16_t setpoint, int16_t measurement)
+{
+    struct fixpid_autotune_stage stage;
+    int16_t output;
+
+    if (heat_up) {
+        output = fixpid_reaction_step(&reaction, measurement);
+        heat_up_progress(&stage);
+    } else {
+        output = fixpid_autotune_step(&autotune, setpoint, measurement);
+        fixpid_autotune_progress(&autotune, &stage);
+    }
+    keep_stage(i, &stage);
+    return output;
+}
+
 int tuner_experiment(void)
 {
     int n = 0;
 
     forget_results();
-    if (!begin_experiment()) {
+    heat_up = param(PARAM_EXPERIMENT) == EXPERIMENT_HEAT_UP;
+    results[RESULT_EXPERIMENT] =
+        heat_up ? EXPERIMENT_HEAT_UP : EXPERIMENT_RELAY;
+    if (!(heat_up ? begin_heat_up() : begin_relay())) {
         return -1;
     }
     scene_begin(&scene);
     const int16_t r = scene_counts(param(PARAM_SETPOINT));
-    while ((n < TUNER_STEPS) &&
-           (fixpid_autotune_status(&autotune) == FIXPID_AUTOTUNE_RUNNING)) {
+    while ((n < TUNER_STEPS) && experiment_runs()) {
         const int16_t y = scene_read(&scene);
-        const int16_t u = fixpid_autotune_step(&autotune, r, y);
-        struct fixpid_autotune_stage stage;
-        fixpid_autotune_progress(&autotune, &stage);
-        keep_stage(n, &stage);
+        const int16_t u = step_experiment(n, r, y);
         counts[COUNT_SETPOINT][n] = r;
         counts[COUNT_MEASUREMENT][n] = y;
         counts[COUNT_OUTPUT][n] = u;
@@ -508,7 +585,11 @@ int tuner_experiment(void)
         scene_move(&scene, u);
         n++;
     }
-    tell_experiment();
+    if (heat_up) {
+        tell_heat_up();
+    } else {
+        tell_relay();
+    }
     tell_guard((int16_t)param(PARAM_OUTPUT_MIN),
                (int16_t)param(PARAM_OUTPUT_MAX));
     return n;
@@ -516,7 +597,7 @@ int tuner_experiment(void)
 
 int tuner_pack(void)
 {
-    return fixpid_autotune_pack(&autotune, &record) ? 1 : 0;
+    return (!heat_up && fixpid_autotune_pack(&autotune, &record)) ? 1 : 0;
 }
 
 // A number of the record, whose layout is in fixpid_autotune.h.
@@ -531,7 +612,8 @@ int tuner_unpack(void)
     if (!fixpid_autotune_unpack(&autotune, &record)) {
         return 0;
     }
-    tell_experiment();
+    heat_up = false;
+    tell_relay();
     results[RESULT_OUTPUT_MIN] = recorded(RECORD_OUTPUT_MIN);
     results[RESULT_OUTPUT_MAX] = recorded(RECORD_OUTPUT_MAX);
     tell_guard(recorded(RECORD_OUTPUT_MIN), recorded(RECORD_OUTPUT_MAX));
@@ -540,15 +622,25 @@ int tuner_unpack(void)
     return 1;
 }
 
-int tuner_rule(int rule)
+static bool result_of(uint8_t rule, struct fixpid_pid_config *config)
 {
     const uint8_t robustness = (uint8_t)param(PARAM_ROBUSTNESS);
-    struct fixpid_pid_config config = {.output_min = 0};
-    const bool has =
-        fixpid_autotune_result(&autotune, (uint8_t)rule, robustness, &config);
 
+    if (heat_up) {
+        config->setpoint_weight_q8 = HEAT_UP_WEIGHT;
+        return fixpid_reaction_result(&reaction, rule, robustness,
+                                      &config->gains);
+    }
     results[RESULT_REASON] =
-        fixpid_autotune_reason(&autotune, (uint8_t)rule, robustness);
+        fixpid_autotune_reason(&autotune, rule, robustness);
+    return fixpid_autotune_result(&autotune, rule, robustness, config);
+}
+
+int tuner_rule(int rule)
+{
+    struct fixpid_pid_config config = {.output_min = 0};
+    const bool has = result_of((uint8_t)rule, &config);
+
     // A rule without gains leaves zeros.
     results[RESULT_KP] = config.gains.kp_q8;
     results[RESULT_KI] = config.gains.ki_q24;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tuner page computes: the library's controllers and its autotuner in
+// What the tuner page computes: the library's controllers and its tuners in
 // closed loop with the plants of sim/plant, and beside them the same law in
 // double precision. Compiled to WebAssembly for the page and natively for
 // Python's package, it gives the same numbers: see libm/math.h.
@@ -32,6 +32,11 @@ enum tuner_plant {
     TUNER_OVEN,       // plant_oven.h
     TUNER_MOTOR,      // plant_motor.h
     TUNER_PENDULUM    // plant_pendulum.h
+};
+
+enum tuner_experiment_kind {
+    EXPERIMENT_RELAY,  // fixpid_autotune
+    EXPERIMENT_HEAT_UP // fixpid_reaction, which stops before the setpoint
 };
 
 enum tuner_param {
@@ -71,8 +76,10 @@ enum tuner_param {
     PARAM_INTEGRAL_MAX, // AN937: the accumulated error's limit
 
     // Of the experiment.
-    PARAM_SWING,
+    PARAM_EXPERIMENT, // of enum tuner_experiment_kind
+    PARAM_SWING,      // of a relay, as PARAM_CYCLES
     PARAM_CYCLES,
+    PARAM_DRIVE, // of a heat-up: its output, in percent of the highest
     PARAM_ROBUSTNESS,
 
     TUNER_PARAMS
@@ -97,8 +104,9 @@ enum tuner_count {
     COUNT_I,
     COUNT_D,
     COUNT_FLAGS,
-    COUNT_PHASE, // of an experiment, as fixpid_autotune_progress has it
-    COUNT_DONE,
+    COUNT_PHASE, // of an experiment, as fixpid_autotune_progress has it; of a
+                 // heat-up 0 listens, 1 heats, 6: it is over
+    COUNT_DONE,  // cycles, or percent
     COUNT_PERIOD,
     TUNER_COUNTS
 };
@@ -122,12 +130,14 @@ enum tuner_result {
     RESULT_DEAD_S,     // the dead time as it is simulated
     RESULT_OUTPUT_MIN, // of a record that was unpacked
     RESULT_OUTPUT_MAX,
-    RESULT_STATUS, // of the experiment, as all below
+    RESULT_EXPERIMENT, // of enum tuner_experiment_kind
+    RESULT_STATUS,     // of the experiment, as all below
     RESULT_DONE,
     RESULT_EXPECTED,
     RESULT_PERIOD,
     RESULT_HAS_MODEL, // 1, or 0: then the model is zeros
-    RESULT_GAIN,
+    RESULT_GAIN, // of a heat-up as of what integrates; it has no lag, holding
+                 // output and hysteresis
     RESULT_LAG,
     RESULT_DEAD,
     RESULT_SLOPE,
@@ -137,7 +147,7 @@ enum tuner_result {
     RESULT_BAND, // of the plant's guard; 0: it has none
     RESULT_PATIENCE,
     RESULT_NOISY,
-    RESULT_REASON, // why the rule has no gains
+    RESULT_REASON, // why the rule of a relay has no gains
     TUNER_RESULTS
 };
 
@@ -152,13 +162,14 @@ double *tuner_values(int series);
 // refuses a value; the integers are in tuner_results.
 int tuner_run(void);
 
-// fixpid_autotune in the controller's place, at the setpoint, without events.
-// Returns its steps, or -1 where it is refused; its status, its model and the
-// guard that fixpid_guard_from_model makes of it are in tuner_results.
+// A tuner in the controller's place, without events: fixpid_autotune at the
+// setpoint, or fixpid_reaction on the way to it. Returns its steps, or -1 where
+// it is refused; its status, its model and the guard that
+// fixpid_guard_from_model makes of it are in tuner_results.
 int tuner_experiment(void);
 
-// The record of the experiment, into tuner_record. Returns 1, or 0 where there
-// is none: it has not ended within TUNER_STEPS, or it was refused.
+// The record of the relay's experiment, into tuner_record. Returns 1, or 0
+// where there is none: it has not ended within TUNER_STEPS, or it was refused.
 int tuner_pack(void);
 
 // The experiment that tuner_record has, maybe a chip's: its status, its model,

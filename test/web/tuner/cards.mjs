@@ -4,7 +4,7 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { check, checkNone, finish, fragment, frame, moduleOf, open, press, random, stale, text, violations } from './harness.mjs';
 
-const { CAUSE, STATUS } = await moduleOf('built');
+const { CAUSE, EXPERIMENT, HEAT_UP, STATUS } = await moduleOf('built');
 const { experiment, startEngine } = await moduleOf('engine');
 const { experimentText } = await moduleOf('experiment');
 const { HELP, documentOf } = await moduleOf('help');
@@ -130,12 +130,12 @@ for (const [name, viewport] of Object.entries({ phone: PHONE, desk: DESK })) {
     check('it is over at its end', /^At \d+ s it is over\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
     await here.focus('#plots');
     await press(here, 'Home');
-    check('it begins with the noise', /^At 0 (ms|s) it measures the noise: 0 of 13 cycles, 0 %\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
+    check('it begins with the noise', /^At 0 (ms|s) it measures the noise: 0 of 10 cycles, 0 %\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
     await press(here, ...new Array(60).fill('ArrowRight'));
     const amid = await text(here, '#stage');
-    const [, at, done, left] = amid.match(/^At (.*) s it swings .*: (\d+) of 13 cycles, \d+ %; at most (.*) s more\.$/) ?? [];
+    const [, at, done, left] = amid.match(/^At (.*) s it swings .*: (\d+) of 10 cycles, \d+ %; at most (.*) s more\.$/) ?? [];
     const whole = Number(found.match(/after (\d+) s/)[1]);
-    check('amid it says what is left', Number(done) > 5 && Number(done) < 13 && Number(at) + Number(left) >= whole * 0.95 && Number(left) < 0.8 * whole, amid);
+    check('amid it says what is left', Number(done) > 4 && Number(done) < 10 && Number(at) + Number(left) >= whole * 0.95 && Number(left) < 0.8 * whole, amid);
     const s = presetState('flow');
     const { BAND, PATIENCE } = experiment(s).results;
     const guard = await text(here, '#guard pre');
@@ -147,9 +147,40 @@ for (const [name, viewport] of Object.entries({ phone: PHONE, desk: DESK })) {
     await frame(here);
     check('and is used with its rule', /robustness=24&rule=PID/.test(await fragment(here)), await fragment(here));
     await ends(here, 'an experiment');
-    const said = (status, REASON) => experimentText(1, 'Measured', { results: { STATUS: status, HAS_MODEL: 0, DONE: 1, EXPECTED: 13 }, rules: [{ rule: 'PI', robustness: 16, has: false, results: { REASON } }] });
-    const texts = [...Object.values(STATUS).map((one) => said(one, CAUSE.SHAPE)), ...Object.values(CAUSE).filter((one) => one !== CAUSE.NO_REASON).map((one) => said(STATUS.DONE, one))];
-    checkNone('each status and each reason has a sentence', texts.filter((one, i) => !/^[A-Z].{20,}\.$/.test(one) || one.includes('undefined') || (texts.indexOf(one) !== i && !one.includes('wave'))));
+    const said = (status, REASON, kind = EXPERIMENT.RELAY) => experimentText(1, 'Measured', { results: { EXPERIMENT: kind, STATUS: status, HAS_MODEL: 0, DONE: 1, EXPECTED: 10 },
+        rules: [{ rule: 'PI', robustness: 16, has: false, results: { REASON } }] });
+    const texts = [...Object.values(STATUS).map((one) => said(one, CAUSE.SHAPE)), ...Object.values(CAUSE).map((one) => said(STATUS.DONE, one)),
+        ...Object.values(HEAT_UP).map((one) => said(one, CAUSE.NO_REASON, EXPERIMENT.HEAT_UP))];
+    const shared = /wave|These limits|more steps than|out of its range|too many steps/i;
+    checkNone('each status and each reason has a sentence', texts.filter((one, i) => !/^[A-Z].{20,}\.$/.test(one) || one.includes('undefined') || (texts.indexOf(one) !== i && !shared.test(one))));
+}
+{
+    const here = await open('p=flow');
+    await here.click('#modes button[value=tune]');
+    await here.selectOption('#experiment', { label: 'Heat-up, from rest towards the setpoint' });
+    await frame(here);
+    check('a heat-up that would go too far says so', (await text(here, '#found')).startsWith('What is stored would bring the measurement to the setpoint') && !(await here.isVisible('#rules')), await text(here, '#found'));
+    await here.click('#panel details[data-title="Autotune"] summary');
+    await here.fill('#c-drive', '0');
+    await frame(here);
+    check('without an output it is refused', (await text(here, '#found')) === 'It refuses these limits.', await text(here, '#found'));
+    await here.click('#presets button[value=oven]');
+    await here.click('#modes button[value=tune]');
+    await frame(here);
+    const lasted = Number((await text(here, '#found')).match(/^Measured after (\d+)[\d.]* s, \d+ steps: it moves by 0\.\d+ counts per second for each of the output, delay \d.* s; noise \d.* counts\.$/)?.[1]);
+    check('an oven is measured within a minute', lasted > 5 && lasted < 60, await text(here, '#found'));
+    await here.focus('#plots');
+    await press(here, 'End', ...new Array(20).fill('ArrowLeft'));
+    check('on its way it heats', /^At .* s it heats: \d+ %\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
+    const marked = await here.locator('#rules tbody tr').filter({ hasText: 'take this first' }).locator('th').allTextContents();
+    check('PID is to be taken first', marked.join() === 'PID, safe 16' && await here.isDisabled('#copy-record'), marked.join());
+    check('its guard has no reach', /0, +\/\* reach_max/.test(await text(here, '#guard pre')), await text(here, '#guard pre'));
+    await press(here, 'Escape');
+    checkNone('nothing is stale', await stale(here, true));
+    await here.click('#rules button[aria-label="Use PID, safe 16"]');
+    await frame(here);
+    check('and is used with half a setpoint weight', (await here.inputValue('#c-weight')) === '0.5' && /rule=PID/.test(await fragment(here)), await fragment(here));
+    await ends(here, 'a heat-up');
 }
 
 // --- A chip's record ------------------------------------------------------------------

@@ -14,7 +14,7 @@ const [folder, ...options] = process.argv.slice(2);
 const TABLE = 'test/web/tuner/shared.json';
 
 const load = (name) => import(`${process.cwd()}/${folder}/${name}.js`);
-const { PARAM, PLANT, WORD } = await load('built');
+const { EXPERIMENT, PARAM, PLANT, WORD } = await load('built');
 const { experiment, run, startEngine } = await load('engine');
 const { digits, percent, short, whole } = await load('format');
 const { gainsOfRule } = await load('rules');
@@ -178,7 +178,7 @@ function sceneRow(state) {
         advice: adviceOf(state, found, margins), ...more };
 }
 
-// By each rule and each word: the integers, and the gains that fold to them.
+// By each rule and each word: whether there are gains, and those that fold to the integers.
 function ruleRow(state) {
     const found = experiment(state);
     const words = Object.values(WORD);
@@ -213,7 +213,8 @@ const table = {
     fits,
     plants: fits.filter(({ name }) => TAKEN.includes(name)).flatMap(plantRows),
     scenes: SCENES.map(sceneRow),
-    rules: pids.filter(({ PLANT: plant }) => plant !== PLANT.MOTOR).map(ruleRow),
+    rules: pids.filter(({ PLANT: plant }) => plant !== PLANT.MOTOR)
+        .flatMap((state) => Object.values(EXPERIMENT).map((kind) => ruleRow({ ...state, EXPERIMENT: kind }))),
     links: [...pids, SCENES[7]].map(linkRow),
     numbers: NUMBERS_SHOWN.map(numberRow),
 };
