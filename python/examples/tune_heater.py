@@ -47,68 +47,56 @@ class Heater:
 
 
 # %% [markdown]
-# The experiment takes the controller's place until it knows the plant.
+# From cold, the heat-up takes the controller's place until it knows the plant. It ends before
+# what it stores brings the heater to the setpoint.
 
 # %%
 heater = Heater()
 setpoint = round(90 * COUNTS_PER_DEGREE)
-tuner = fixpid.Autotune(output_max=FULL_POWER, measurement_min=-1, measurement_max=4095,
-                        swing=4096 // 12, timeout_steps=2000, cycles=2)
-experiment = []
-while tuner.status() == fixpid.AUTOTUNE_RUNNING:
+tuner = fixpid.Reaction(output_drive=FULL_POWER, measurement_stop=setpoint)
+heat_up = []
+while tuner.status() == fixpid.REACTION_RUNNING:
     measurement = heater.measure()
-    output = tuner.step(setpoint, measurement)
-    experiment.append((measurement, output))
+    output = tuner.step(measurement)
+    heat_up.append((measurement, output))
     heater.move(output)
-if tuner.status() != fixpid.AUTOTUNE_DONE:
-    sys.exit(f"the experiment failed: {tuner.status().name}. {tuner.status().advice}")
-
-# %% [markdown]
-# A chip that is too small for the rest does the experiment alone and sends its record, 62
-# bytes. That is all that is needed here, too.
-
-# %%
-text = tuner.pack().hex(" ")
-print(f"record: {text}")
-tuner = fixpid.Autotune.unpack(text)
-if tuner.reason(fixpid.AUTOTUNE_PI):
-    sys.exit(f"there are no gains. {tuner.reason(fixpid.AUTOTUNE_PI).advice}")
+if tuner.status() != fixpid.REACTION_DONE:
+    sys.exit(f"the heat-up failed: {tuner.status().name}. {tuner.status().advice}")
 
 model = tuner.model()
-gain = model["gain_q8"] / 256 * FULL_POWER / COUNTS_PER_DEGREE
-lag, delay = (model[name] / 16 / RATE for name in ("lag_q4", "dead_q4"))
-print(f"experiment: {len(experiment) / RATE:.0f} s")
-print(f"found: {gain:.0f} degrees at full power, lag {lag:.1f} s, delay {delay:.1f} s")
+slope = model["slope_q24"] / 2**24 * FULL_POWER / COUNTS_PER_DEGREE * RATE
+print(f"heat-up: {len(heat_up) / RATE:.0f} s")
+print(f"found: {slope:.1f} degrees a second at full power, delay {model['dead_q4'] / 16 / RATE:.1f} s")
 
 # %% [markdown]
-# The controller with the gains of a rule goes on where the experiment ended; then the
-# setpoint steps, and a window is opened.
+# The controller with the gains of a rule goes on where the heat-up ended; then the setpoint
+# steps, and a window is opened.
 
 # %%
-RULES = {"PI": fixpid.AUTOTUNE_PI, "PID": fixpid.AUTOTUNE_PID}
+RULES = {"PI": fixpid.REACTION_PI, "PID": fixpid.REACTION_PID}
 SECONDS = 600
 time = np.arange(int(SECONDS * RATE)) / RATE
-setpoints = np.where(time < 40, setpoint, round(110 * COUNTS_PER_DEGREE))
+setpoints = np.where(time < 200, setpoint, round(110 * COUNTS_PER_DEGREE))
 
 
 def closed_loop(rule):
     """Setpoints in, measurements and outputs back."""
-    config = tuner.result(rule, output_max=FULL_POWER)
+    gains = tuner.result(rule)
+    if gains is None:
+        sys.exit("a gain is out of its range")
+    config = {"gains": gains, "output_max": FULL_POWER, "setpoint_weight_q8": 128}
     pid = fixpid.Pid(**config)
     plant = Heater()
     plant.x, plant.line = heater.x.copy(), list(heater.line)
-    pid.seed(model["holding"])
     measurements, outputs = np.empty((2, time.size), dtype=int)
     for i, wanted in enumerate(setpoints):
-        plant.lost = 0 if time[i] < 220 else 100
+        plant.lost = 0 if time[i] < 400 else 100
         measurements[i] = plant.measure()
         outputs[i] = pid.step(int(wanted), measurements[i])
         plant.move(outputs[i])
     # The same measurements once more, as arrays: the same outputs, bit for bit.
-    again = fixpid.Pid(**config)
-    again.seed(model["holding"])
-    assert np.array_equal(again.steps(setpoints, measurements), outputs)
-    return config["gains"], measurements, outputs
+    assert np.array_equal(fixpid.Pid(**config).steps(setpoints, measurements), outputs)
+    return gains, measurements, outputs
 
 
 runs = {}
@@ -125,9 +113,9 @@ for name, rule in RULES.items():
 figure, ((left, right), (below_left, below_right)) = plt.subplots(
     2, 2, sharex="col", figsize=(11, 5.5), gridspec_kw={"height_ratios": [2, 1]},
     constrained_layout=True)
-before = np.arange(len(experiment)) / RATE
-measured, driven = np.array(experiment).T
-left.set_title("the experiment")
+before = np.arange(len(heat_up)) / RATE
+measured, driven = np.array(heat_up).T
+left.set_title("the heat-up")
 left.plot(before, measured / COUNTS_PER_DEGREE, color="tab:blue")
 left.axhline(setpoint / COUNTS_PER_DEGREE, color="0.6", zorder=0)
 left.set_ylabel("degrees")
@@ -135,7 +123,7 @@ below_left.step(before, driven, where="post", color="tab:blue")
 below_left.set_ylabel("power of 1000")
 right.set_title("what its gains do")
 right.step(time, setpoints / COUNTS_PER_DEGREE, where="post", color="0.6", label="setpoint")
-right.axvspan(220, SECONDS, color="0.93", zorder=0, label="window open")
+right.axvspan(400, SECONDS, color="0.93", zorder=0, label="window open")
 for colour, (name, (_, measurements, outputs)) in zip(("tab:orange", "tab:green"), runs.items()):
     right.plot(time, measurements / COUNTS_PER_DEGREE, color=colour, label=name)
     below_right.step(time, outputs, where="post", color=colour)
