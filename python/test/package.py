@@ -307,7 +307,7 @@ def heat_up_hands_over():
     for rule in fixpid.REACTION_PI, fixpid.REACTION_PID:
         quick, safe, calm = (tuner.result(rule, word)["kp_q8"] for word in
                              (fixpid.REACTION_QUICK, fixpid.REACTION_SAFE, fixpid.REACTION_CALM))
-        assert quick > safe > calm > 0
+        assert quick > safe > calm > 0 and tuner.result(rule)["kp_q8"] == safe
         pid, one = fixpid.Pid(gains=tuner.result(rule), output_max=1000, setpoint_weight_q8=128), copy.deepcopy(kettle)
         way, now = [], measurement
         for _ in range(400):
