@@ -17,10 +17,10 @@ class Eva
   OPTIONS = %w[-main eva -c11].freeze
   APART = %w[-eva-split-return full].freeze # a state for each value that a function returns
   PRECISE = ['-eva-precision', '5', *APART].freeze
-  # More takes minutes. With these Eva follows the autotuner's tables row by row, sees
+  # More takes minutes. With these Eva follows the autotuner's equations one by one, sees
   # that the link's controller has gains or was refused, and takes points one by one.
   ROUGH = {
-    'autotune' => ['-eva-precision', '2', '-eva-slevel-function', 'calculate:1000,operate:0,make:0', *APART],
+    'autotune' => ['-eva-precision', '2', '-eva-slevel-function', 'calculate:1000,solve:1000,apply:0,make:0', *APART],
     'link' => ['-eva-precision', '2', '-eva-slevel-function', 'accept_config:1000,fixpid_pid_init:1000', *APART],
     'table' => %w[-eva-slevel 400 -eva-auto-loop-unroll 260]
   }.freeze
