@@ -96,6 +96,15 @@ def study_checks(sensitivity, wrong, **changes)
   Report.checks.drop(before).reject(&:ok?).map(&:what).join('; ')
 end
 
+# The checks that fail of two heaters, of which one may need less output.
+def heater_checks(*sensitivities)
+  lines = %w[0;1;6 0;2;2 1;1;2].zip(sensitivities).map { |row, ms| "kettle;PI safe;#{row};1.0;#{ms}\n" }
+  Report.start('heaters')
+  before = Report.checks.size
+  check_heaters(Study.rows(["family;rule;plant;part;status;minutes;ms\n", *lines]), 1, 2)
+  Report.checks.drop(before).reject(&:ok?).map(&:what).join('; ')
+end
+
 BEFORE = "loop | settled | 116\n"
 EVEN = "#{HEAD}0,1\n1,1\n2,1\n3,1\n"
 # A run of a loop that must be back in 2 s; nothing is wrong with it until `changes`.
@@ -151,6 +160,9 @@ Gate.expect('a word whose loops are not stable', study_checks(-1, 'PID calm'), '
 Gate.expect('a safe loop without a margin', study_checks(2.3, 'PI safe'),
             'seed, PI safe: Ms within 1.2 to 1.8; safe, of the loops: Ms above 2.2')
 Gate.expect('a tuner that refuses all', study_checks(0, 'PI safe'), /plain families with gains/)
+Gate.expect('heaters, one with less output', heater_checks(0, 1.5, 1.5), '')
+Gate.expect('no gains with less output', heater_checks(0, 0, 1.5), 'heaters with gains, or with less output')
+Gate.expect('a heater whose loop is not stable', heater_checks(0, 1.5, -1), 'heaters: unstable')
 Gate.expect('an output outside its range', study_checks(1.4, 'PI safe', outside: 1), 'seed: outputs outside their range')
 Gate.expect('a value as it was', regression('loop', BEFORE) { Report.unchanged('settled', 116) }, true)
 Gate.expect('another value', regression('loop', BEFORE) { Report.unchanged('settled', 115) }, false)
