@@ -5,12 +5,13 @@
 # that break for good. Whoever gets a false alarm takes the guard out, and whoever gets none
 # when the oven burns need not have built it in.
 require_relative 'extent'
+require_relative 'machines'
 
 GUARD_SEED = 1
 GUARD_PLANTS = Extent.share(800, 5)
 GUARD_STEPS = 20_000
 GUARD_MACHINES = Extent.share(30, 5) # of each kind
-GUARD_KINDS = 22                     # all but the unstable one
+GUARD_KINDS = MACHINE_KINDS - 1      # all but the unstable one
 
 # What a guard is set by, and percent of the machines on which it may raise an alarm.
 GUARD_RULES = { 'autotune' => ['a model of `fixpid_autotune`', 6.4], 'reaction' => ['a model of `fixpid_reaction`', 6.4],

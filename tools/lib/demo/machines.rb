@@ -3,6 +3,7 @@
 
 # Both tuners on machines: 23 kinds by fixpid_autotune, what is heated or filled by
 # fixpid_reaction, and what the documents advise where there are no gains.
+MACHINE_KINDS = 23
 HEATERS = ['furnace', '0.25 C', 'SSR', 'oven', 'tank', 'jitter', 'kettle', 'hot end'].freeze
 HEATER_SEED = 20_261_128
 BOILERS_TUNED = 40

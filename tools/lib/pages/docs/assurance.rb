@@ -169,8 +169,9 @@ module Assurance
     [Claim.new('measured', 'what a step takes at most: cycles, flash, RAM and stack',
                'a bound of the linked code, and the worst that a search finds',
                '`tools/test cost`'),
-     Claim.new('measured', 'how good the gains of the autotuner are',
-               "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants " \
+     Claim.new('measured', 'how good the gains of the tuners are',
+               "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants and " \
+               "#{LONG_SEEDS.size * MACHINES_EACH * MACHINE_KINDS} machines " \
                'in [tuning.md](tuning.md#which-autotuner)',
                '`tools/demo random_plants`'),
      Claim.new('measured', 'how the loops settle, and beside double precision', 'all loops of `tools/demo`',
