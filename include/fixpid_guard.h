@@ -148,13 +148,19 @@ struct fixpid_guard_model {
     // A band to take instead of the rule's: wider than a swing that is no
     // fault, or than a standing offset. 0: the rule's.
     uint16_t band;
+
+    // Within the patience, full output could move the reading by so many bands.
+    // 0: 20, for setpoints that 5 to 95 % of the output hold. What cools slowly
+    // needs more: 100 over the percentage that holds the lowest setpoint, 50
+    // for a kettle that 2 % keep hot.
+    uint8_t bands;
 };
 
 // Writes band, patience and `noisy` of a configuration that has its output's
 // range, and nothing else:
 //   band     = ceil(max(8 s + 4, 2 K))
-//   patience = ceil(2 L + 20 band / (slope * (output_max - output_min))), at
-//              least 4
+//   patience = ceil(2 L + bands * band / (slope * (output_max -
+//              output_min))), at least 4
 //   noisy      if s >= 1 and patience >= 16
 // Half of that patience raises false alarms. False, and nothing written, if the
 // slope is 0, the output has no range, or band or patience would be above

@@ -218,9 +218,9 @@ def slew_rate(counts_per_second, steps_per_second):
 def guard_config(model, output_min, output_max, **config):
     """What Guard takes for a plant, by fixpid_guard_from_model.
 
-    `model` is a dictionary as Autotune.model gives it, and `config` is all other fields:
-    measurement_min, measurement_max, reach_min, reach_max, reverse, and band, patience or
-    noisy in place of the rule's. ValueError where the rule has no answer: the plant is too
+    `model` is a dictionary as Autotune.model gives it, maybe with `bands`, and `config` is all
+    other fields: measurement_min, measurement_max, reach_min, reach_max, reverse, and band,
+    patience or noisy in place of the rule's. ValueError where the rule has no answer: the plant is too
     slow for a patience of 16 bits, or there is no such guard.
     """
     known = {name: model[name] for name, _ in ffi.typeof("struct fixpid_guard_model").fields if name in model}

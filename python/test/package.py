@@ -104,6 +104,7 @@ def guard_is_chosen_by_its_rule():
     same(fixpid.Guard(**config).flags(), 0)
     steep = {**HEATER, "gain_q8": 9 * 256}
     same(fixpid.guard_config(steep, 0, 255)["band"], 18)  # 2 K
+    same(fixpid.guard_config({**HEATER, "bands": 50}, 0, 255)["patience"], 806)
     integrating = {**steep, "gain_q8": fixpid.AUTOTUNE_INTEGRATING}
     same(fixpid.guard_config(integrating, 0, 255)["band"], 8)
     noisy = {**HEATER, "noise_q4": 17}  # ceil(8 * 17 / 16 + 4), and 120 + 445.7
@@ -113,6 +114,9 @@ def guard_is_chosen_by_its_rule():
     same(fixpid.guard_config(quick, 0, 255)["patience"], 4)
     assert not fixpid.guard_config(quick, 0, 255)["noisy"]  # of 16 steps and more
     same(fixpid.guard_config(noisy, 0, 255, patience=5, noisy=True)["patience"], 5)
+    same(fixpid.guard_config(noisy, 0, 255, band=20)["patience"], 806)
+    without = {name: HEATER[name] for name in ("slope_q24", "dead_q4", "noise_q4")}  # as a heat-up has it
+    same(fixpid.guard_config(without, 0, 255)["band"], 8)
     assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 0}, 0, 255)
     assert refuses(ValueError, fixpid.guard_config, {**HEATER, "slope_q24": 10}, 0, 255)
     assert refuses(ValueError, fixpid.guard_config, HEATER, 255, 255)

@@ -9,6 +9,7 @@
 #define PATIENCE_MIN 4u
 #define PATIENCE_MAX 32767u
 #define NOISE_MIN_Q4 16u // a count
+#define BANDS 20u
 #define NOISY_PATIENCE_MIN 16u
 
 // As fixpid_autotune has it for a plant without a static gain.
@@ -75,13 +76,19 @@ static uint32_t band_for(const struct fixpid_guard_model *model)
     return (swing > band) ? swing : band;
 }
 
-// In eighths, less one: ceil(a / b) = floor((a - 1) / b) + 1.
-// pre: 1 <= band <= BAND_MAX
-static uint32_t way_for(uint32_t slope_q24, uint16_t band, uint16_t range)
+// Below 2^23. pre: band <= BAND_MAX
+static uint32_t counts_in(uint8_t bands, uint16_t band)
 {
-    // 8 * 20 band / (slope_q24 / 2^24 * range): a - 1 = 160 band 2^24 - 1 <
-    // 2^47
-    const uint32_t a = ((uint32_t)band * 160u) - 1u;
+    return (uint32_t)band * bands;
+}
+
+// In eighths, less one: ceil(a / b) = floor((a - 1) / b) + 1.
+// pre: none is 0, and band <= BAND_MAX
+static uint32_t way_for(uint32_t slope_q24, uint16_t range, uint16_t band,
+                        uint8_t bands)
+{
+    // 8 bands * band / (slope_q24 / 2^24 * range), and 8 bands * band < 2^26
+    const uint32_t a = (counts_in(bands, band) << 3) - 1u;
     struct wide way;
 
     way.high = a >> 8;
@@ -110,6 +117,7 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
                              const struct fixpid_guard_model *model)
 {
+    const uint8_t bands = (model->bands != 0u) ? model->bands : BANDS;
     uint32_t band;
     uint16_t patience;
 
@@ -127,8 +135,9 @@ bool fixpid_guard_from_model(struct fixpid_guard_config *config,
     }
     patience = patience_for(
         model->dead_q4,
-        way_for(model->slope_q24, (uint16_t)band,
-                fixpid_difference(config->output_max, config->output_min)));
+        way_for(model->slope_q24,
+                fixpid_difference(config->output_max, config->output_min),
+                (uint16_t)band, bands));
     if (patience == 0u) {
         return false;
     }

@@ -68,20 +68,57 @@ static number band_by_rule(const struct fixpid_guard_model *model)
     return (swing > noise) ? swing : noise;
 }
 
-// In eighths of a step, of which 2 L has dead_q4 and the way 8 * 20 band /
-// (slope * range), each rounded up: ceil(a / b / c) is
-// floor(floor((a - 1) / b) / c) + 1, and ceil((n + x) / 8) of a whole n is
+// floor((8 bands * band - 1 / 2^24) / slope / range), or more than any patience
+// has; of which is known here only that it is one function.
+uint32_t __CPROVER_uninterpreted_way(uint32_t slope_q24, uint16_t range,
+                                     uint16_t band, uint8_t bands);
+
+uint32_t way_for_contract(uint32_t slope_q24, uint16_t range, uint16_t band,
+                          uint8_t bands)
+{
+    pre((slope_q24 != 0u) && (range != 0u) && (bands != 0u));
+    pre(inside(band, 1, 32767));
+    return __CPROVER_uninterpreted_way(slope_q24, range, band, bands);
+}
+
+// In eighths of a step, of which 2 L has dead_q4, each rounded up: ceil(a / b)
+// is floor((a - 1) / b) + 1, and ceil((n + x) / 8) of a whole n is
 // ceil((n + ceil(x)) / 8).
 static number patience_by_rule(const struct fixpid_guard_model *model,
                                number band, number range)
 {
+    const uint8_t bands = (model->bands == 0u) ? 20u : model->bands;
     const number way =
-        assume_floor(assume_floor(band * 160 * 0x1000000 - 1, model->slope_q24),
-                     range) +
+        (number)__CPROVER_uninterpreted_way(model->slope_q24, (uint16_t)range,
+                                            (uint16_t)band, bands) +
         1;
     const number patience = ceil_by((number)model->dead_q4 + way, 3);
 
     return (patience < 4) ? 4 : patience;
+}
+
+uint32_t counts_in_contract(uint8_t bands, uint16_t band)
+{
+    pre(inside(band, 1, 32767));
+    return assume_product(band, bands, 32767u * 255u);
+}
+
+// By contract: divide, counts_in.
+void prove_way(void)
+{
+    const uint32_t slope_q24 = nondet_uint32();
+    const uint16_t range = nondet_uint16();
+    const uint16_t band = nondet_uint16();
+    const uint8_t bands = nondet_uint8();
+    number way;
+
+    assume(inside(slope_q24, 1, UINT32_MAX));
+    assume(inside(range, 1, UINT16_MAX));
+    assume(inside(band, 1, 32767));
+    assume(inside(bands, 1, UINT8_MAX));
+    way = (number)counts_in_contract(bands, band) * 8 * 0x1000000 - 1;
+    way = assume_floor(assume_floor(way, slope_q24), range);
+    claim(way_for(slope_q24, range, band, bands) == clamp(way, 0, UINT32_MAX));
 }
 
 static bool same_config(const struct fixpid_guard_config *a,
@@ -96,7 +133,7 @@ static bool same_config(const struct fixpid_guard_config *a,
            (a->reverse == b->reverse) && (a->noisy == b->noisy);
 }
 
-// By contract: divide.
+// By contract: way_for.
 void prove_from_model(void)
 {
     const struct fixpid_guard_model model = nondet_guard_model();

@@ -45,6 +45,7 @@ void numbers_guard_model(struct fixpid_guard_model *model)
     if (numbers_one_in(4)) {
         model->band = (uint16_t)numbers_any_size();
     }
+    model->bands = numbers_one_in(2) ? 0 : (uint8_t)numbers_next();
 }
 
 void numbers_guard_config(struct fixpid_guard_config *config)

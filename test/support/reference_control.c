@@ -163,6 +163,7 @@ bool reference_guard_from_model(struct fixpid_guard_config *config,
 {
     const int64_t span = (int64_t)config->output_max - config->output_min;
     const int64_t band = guard_band(model);
+    const int64_t bands = model->bands == 0 ? 20 : model->bands;
     int64_t patience;
 
     if (span <= 0 || model->slope_q24 == 0 || band > 32767) {
@@ -170,7 +171,7 @@ bool reference_guard_from_model(struct fixpid_guard_config *config,
     }
     // In eighths of a step, 2 L is dead_q4, and what is rounded up is whole.
     patience = up(model->dead_q4 +
-                      up(8 * 20 * band * 0x1000000, model->slope_q24 * span),
+                      up(8 * bands * band * 0x1000000, model->slope_q24 * span),
                   8);
     patience = patience < 4 ? 4 : patience;
     if (patience > 32767) {

@@ -892,6 +892,23 @@ void test_from_model_a_band_to_take_counts_in_the_patience(void)
     rule_is(5, 292, false); // 120 + 171.4
 }
 
+void test_from_model_more_bands_are_for_what_cools_slowly(void)
+{
+    take_heater();
+    model.bands = 20;
+    rule_is(8, 395, false);
+    model.bands = 50;
+    rule_is(8, 806, false); // 120 + 685.6
+    model.bands = 255;
+    rule_is(8, 3618, false);
+    model.bands = 1;
+    rule_is(8, 134, false);
+    model.slope_q24 = UINT32_MAX;
+    model.band = 32767;
+    model.bands = 255;
+    rule_is(32767, 248, false); // 120 + 127.99
+}
+
 void test_from_model_all_that_rounds_up_does_so_once(void)
 {
     take_heater();

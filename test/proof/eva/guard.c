@@ -19,7 +19,7 @@ void eva(void)
         .noisy = GOES_ON,
     };
     const struct fixpid_guard_model model = {ANY_UINT32, ANY_UINT32, ANY_UINT16,
-                                             ANY_UINT32, ANY_UINT16};
+                                             ANY_UINT32, ANY_UINT16, ANY_UINT8};
     struct fixpid_guard_config found = config;
     struct fixpid_guard c;
 
