@@ -127,14 +127,14 @@ for (const [name, viewport] of Object.entries({ phone: PHONE, desk: DESK })) {
     const marked = await rows.filter({ hasText: 'take this first' }).locator('th').allTextContents();
     check('one row is to be taken first', marked.join() === 'PI, safe 16', marked.join());
     const found = await text(here, '#found');
-    check('it is over at its end', /^At \d+ s it is over\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
+    check('it is over at its end', /^At [\d.]+ s it is over\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
     await here.focus('#plots');
     await press(here, 'Home');
     check('it begins with the noise', /^At 0 (ms|s) it measures the noise: 0 of 10 cycles, 0 %\.$/.test(await text(here, '#stage')), await text(here, '#stage'));
     await press(here, ...new Array(60).fill('ArrowRight'));
     const amid = await text(here, '#stage');
     const [, at, done, left] = amid.match(/^At (.*) s it swings .*: (\d+) of 10 cycles, \d+ %; at most (.*) s more\.$/) ?? [];
-    const whole = Number(found.match(/after (\d+) s/)[1]);
+    const whole = Number(found.match(/after ([\d.]+) s/)[1]);
     check('amid it says what is left', Number(done) > 4 && Number(done) < 10 && Number(at) + Number(left) >= whole * 0.95 && Number(left) < 0.8 * whole, amid);
     const s = presetState('flow');
     const { BAND, PATIENCE } = experiment(s).results;
