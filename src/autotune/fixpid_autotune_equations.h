@@ -257,7 +257,7 @@ static const uint8_t gain_and_lag[] FIXPID_AUTOTUNE_FLASH = {
 };
 
 // DELAY is C from here on.
-static const uint8_t pi[] FIXPID_AUTOTUNE_FLASH = {
+static const uint8_t pi_gains[] FIXPID_AUTOTUNE_FLASH = {
     DELAY,   DELAY, TIMES, ROBUST,
     DIVISOR, TRUE_SLOPE, TIMES, DELAY,
     KP,      ONE, OVER, DIVISOR,
@@ -277,7 +277,7 @@ static const uint8_t pi_of_lag[] FIXPID_AUTOTUNE_FLASH = {
     END
 };
 
-static const uint8_t pid[] FIXPID_AUTOTUNE_FLASH = {
+static const uint8_t pid_gains[] FIXPID_AUTOTUNE_FLASH = {
     AMIGO_DELAY, DELAY, TIMES, HALF,
     DIVISOR,     TRUE_SLOPE, TIMES, AMIGO_DELAY,
     KP,          C0_45, OVER, DIVISOR,

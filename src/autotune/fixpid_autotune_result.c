@@ -394,13 +394,13 @@ static void apply_rule(FIXPID_DATA struct sheet *sheet, uint8_t rule,
     const bool integrating = is_zero(sheet, FLATNESS);
 
     set(sheet, ROBUST, robustness_q4 + ROBUST_MORE, -5);
-    calculate(sheet, pi);
+    calculate(sheet, pi_gains);
     if (rule == (uint8_t)FIXPID_AUTOTUNE_PI) {
         if (!integrating) {
             calculate(sheet, pi_of_lag);
         }
     } else {
-        calculate(sheet, pid);
+        calculate(sheet, pid_gains);
         calculate(sheet, integrating ? pid_of_integrator : pid_of_lag);
     }
     calculate(sheet, ki_and_kd);

@@ -6,7 +6,7 @@
 #include "../common/fixpid_difference.h"
 
 #define BAND_MAX 32767u
-#define PATIENCE_MIN 4u
+#define RULE_PATIENCE_MIN 4u
 #define PATIENCE_MAX 32767u
 #define NOISE_MIN_Q4 16u // a count
 #define BANDS 20u
@@ -111,7 +111,7 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
     if (patience > PATIENCE_MAX) {
         return 0;
     }
-    return (patience < PATIENCE_MIN) ? PATIENCE_MIN : (uint16_t)patience;
+    return (patience < RULE_PATIENCE_MIN) ? RULE_PATIENCE_MIN : (uint16_t)patience;
 }
 
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
