@@ -111,7 +111,8 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
     if (patience > PATIENCE_MAX) {
         return 0;
     }
-    return (patience < RULE_PATIENCE_MIN) ? RULE_PATIENCE_MIN : (uint16_t)patience;
+    return (patience < RULE_PATIENCE_MIN) ? RULE_PATIENCE_MIN
+                                          : (uint16_t)patience;
 }
 
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
