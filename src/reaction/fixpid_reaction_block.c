@@ -16,6 +16,12 @@ struct rises {
     uint16_t before; // the steepest without the last two
 };
 
+// a - b, or 0 if b is the larger one
+FIXPID_INLINE uint16_t excess(uint16_t a, uint16_t b)
+{
+    return (a > b) ? (uint16_t)(a - b) : 0u;
+}
+
 void fixpid_reaction_begin(FIXPID_DATA struct fixpid_reaction *self)
 {
     const uint16_t band =
@@ -77,7 +83,7 @@ static void measure(FIXPID_DATA const struct fixpid_reaction *self,
     uint8_t left;
 
     for (left = SELF.blocks; left > 2u; left--) {
-        rise = fixpid_reaction_excess(block[2], block[0]);
+        rise = excess(block[2], block[0]);
         if (rise > steepest) {
             steepest = rise;
         }
@@ -129,9 +135,7 @@ static bool goes_too_far(const struct rises *rises, uint8_t blocks,
     uint16_t coming = rises->steepest >> 4;
 
     if (blocks >= BLOCKS_OF_A_GROWTH) {
-        coming = (uint16_t)(coming + (fixpid_reaction_excess(rises->last,
-                                                             rises->before) >>
-                                      4));
+        coming = (uint16_t)(coming + (excess(rises->last, rises->before) >> 4));
     }
     // at most 4096 * 9
     return (uint16_t)(coming * (uint8_t)(blocks + 1u)) >= (origin >> 3);
@@ -168,10 +172,10 @@ static uint8_t judge(FIXPID_DATA const struct fixpid_reaction *self,
     const uint8_t blocks = SELF.blocks;
     const uint16_t origin = fixpid_reaction_origin(self);
     const uint16_t need = fixpid_reaction_needed(self);
-    const bool clear = (fixpid_reaction_excess(newest, origin) >> 1) >= need;
+    const bool clear = (excess(newest, origin) >> 1) >= need;
     struct rises rises;
 
-    if (is_wrong_way(fixpid_reaction_excess(origin, newest), origin, need)) {
+    if (is_wrong_way(excess(origin, newest), origin, need)) {
         return FIXPID_REACTION_WRONG_WAY;
     }
     measure(self, &rises);
@@ -179,8 +183,8 @@ static uint8_t judge(FIXPID_DATA const struct fixpid_reaction *self,
         if (SELF.doubled != 0u) {
             const uint8_t verdict = judge_slopes(
                 &rises, clear, need,
-                fixpid_reaction_excess(
-                    newest, SELF.record[(uint8_t)(blocks - 2u) & MOD_BLOCKS]));
+                excess(newest,
+                       SELF.record[(uint8_t)(blocks - 2u) & MOD_BLOCKS]));
 
             if (verdict != HEATING) {
                 return verdict;

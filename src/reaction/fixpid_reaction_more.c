@@ -28,19 +28,26 @@ uint8_t fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
 {
     uint16_t need;
     uint16_t newest;
+    uint16_t origin;
     uint16_t risen;
 
     FIXPID_ASSERT(VALID_SELF);
     if (SELF.state == LISTENING) {
-        return (uint8_t)(fixpid_reaction_excess(LISTEN_STEPS, SELF.left) >> 2);
+        if (SELF.left > LISTEN_STEPS) {
+            return 0;
+        }
+        return (uint8_t)((LISTEN_STEPS - SELF.left) >> 2);
     }
     if (SELF.state < HEATING) {
         return 100;
     }
     need = fixpid_reaction_needed(self);
     newest = SELF.record[(uint8_t)(SELF.blocks + MOD_BLOCKS) & MOD_BLOCKS];
-    risen = fixpid_reaction_excess(newest, fixpid_reaction_origin(self));
-    risen >>= 1;
+    origin = fixpid_reaction_origin(self);
+    risen = 0;
+    if (newest > origin) {
+        risen = (uint16_t)(newest - origin) >> 1;
+    }
     if (risen >= need) {
         return 98;
     }

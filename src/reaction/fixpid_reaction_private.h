@@ -43,11 +43,6 @@
 #define fixpid_reaction_halve FIXPID_SUFFIXED(reaction, halve)
 #define fixpid_reaction_end_block FIXPID_SUFFIXED(reaction, end_block)
 
-FIXPID_INLINE uint16_t fixpid_reaction_excess(uint16_t a, uint16_t b)
-{
-    return (a > b) ? (uint16_t)(a - b) : 0u;
-}
-
 // How far it may go from the start: 0..16384.
 int16_t fixpid_reaction_reach(FIXPID_DATA const struct fixpid_reaction *self);
 

@@ -46,24 +46,29 @@ static uint32_t ratio(uint32_t a, uint32_t b, uint8_t places)
     return bits;
 }
 
-// From which block on the record rises most in two, the first of equals: 0..5
-static uint8_t steepest(FIXPID_DATA const struct fixpid_reaction *self)
+// From which block on the record rises most in two, the first of equals: 0..5;
+// and by how much.
+static uint8_t steepest(FIXPID_DATA const struct fixpid_reaction *self,
+                        uint16_t *rise)
 {
     uint16_t most = 0;
     uint8_t found = 0;
     uint8_t left;
 
     for (left = BLOCKS - 2u; left != 0u; left--) {
-        if ((uint8_t)(left + 1u) < SELF.blocks) {
-            const uint16_t rise = fixpid_reaction_excess(
-                SELF.record[left + 1u], SELF.record[left - 1u]);
+        const uint16_t low = SELF.record[left - 1u];
+        const uint16_t high = SELF.record[left + 1u];
 
-            if (rise >= most) {
-                most = rise;
-                found = (uint8_t)(left - 1u);
+        if ((uint8_t)(left + 1u) < SELF.blocks) {
+            if (high > low) {
+                if ((uint16_t)(high - low) >= most) {
+                    most = (uint16_t)(high - low);
+                    found = (uint8_t)(left - 1u);
+                }
             }
         }
     }
+    *rise = most;
     return found;
 }
 
@@ -106,9 +111,8 @@ static uint32_t take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
 {
     const uint8_t doubled = SELF.doubled & DOUBLED;
     const uint8_t scale = SELF.scale & SCALE;
-    const uint8_t from = steepest(self);
-    const uint16_t rise =
-        (uint16_t)(SELF.record[from + 2u] - SELF.record[from]);
+    uint16_t rise;
+    const uint8_t from = steepest(self, &rise);
     const uint32_t height = (height_of(self, from, rise) * factor) >> 8;
     uint16_t change =
         (uint16_t)((uint16_t)SELF.output_drive - (uint16_t)SELF.output_rest);
