@@ -469,6 +469,7 @@ static const struct {
     {-32768, 32767, 16383, 0, 400, -400, -32638, 32638, 182},
     {-8192, 8192, 16383, 0, 3071, -3071, -8160, 8160, 1409},
     {-300, 300, 8, 0, 1000, -1000, -3, 3, 3},
+    {-16384, 16384, 16383, 0, 2, -2, -16320, 16320, 2}, // 2^28 are wanted
     // A half is no wider than the way to the nearer end, or 2.
     {0, 100, 75, 0, 90, -20, 0, 45, 13},
     {0, 100, 75, 0, 90, -2, 0, 4, 1},
@@ -782,6 +783,18 @@ void test_step_and_progress_another_load_starts_the_first_relay_again(void)
     }
 }
 
+// Of 41 * 23 and 20 * 43 the difference is 83, and 2 * 41 are allowed.
+void test_step_another_load_is_one_by_a_step_more(void)
+{
+    for (uint16_t high = 22; high <= 23; high++) {
+        begin();
+        cycle(20, 21, 50, -50);
+        usuals(3);
+        cycle(high, (uint16_t)(43u - high), 50, -50);
+        TEST_ASSERT_EQUAL_UINT8(high == 22 ? OVER : 3, progress().phase);
+    }
+}
+
 // ---- How it ends ----
 
 void test_step_timeout_steps_without_a_switch_end_it(void)
@@ -850,6 +863,12 @@ void test_step_48_cycles_are_too_many_and_a_relay_that_is_widened_counts_as_4(
     begin();
     steps(163, 0);
     unlike_cycles(39);
+    is_over(FIXPID_AUTOTUNE_IRREGULAR);
+    begin();
+    unlike_cycles(38);
+    steps(163, 0);
+    is(FIXPID_AUTOTUNE_RUNNING);
+    usual();
     is_over(FIXPID_AUTOTUNE_IRREGULAR);
     begin();
     unlike_cycles(39);
