@@ -4,7 +4,7 @@
 //
 // A number is 0, or mantissa * 2^exponent with a mantissa of 32768..65535. No
 // number is negative, and everything truncates. The exponents of what an
-// experiment comes to stay within +-120.
+// experiment comes to stay within +-120; others would lose their upper bits.
 #ifndef FIXPID_AUTOTUNE_ARITH_H
 #define FIXPID_AUTOTUNE_ARITH_H
 #include <stdbool.h>
@@ -42,11 +42,11 @@ FIXPID_INLINE uint16_t flash_word(const uint16_t *word)
 
 // The exponent of 0, which is below every other: 0 is the smaller one of two
 // numbers.
-#define NOTHING (-1000)
+#define NOTHING (-128)
 
 struct number16 {
     uint16_t mantissa;
-    int16_t exponent;
+    int8_t exponent;
 };
 
 // value * 2^exponent; a value of more than 16 bits loses the lower ones.
@@ -69,7 +69,7 @@ static void make(FIXPID_DATA struct number16 *result, uint32_t value,
         }
     }
     result->mantissa = (uint16_t)mantissa;
-    result->exponent = places;
+    result->exponent = (int8_t)places;
 }
 
 // a = a * b
@@ -93,7 +93,7 @@ static void divide(FIXPID_DATA struct number16 *a,
 }
 
 // a with 15 bits more, at an exponent that is not below its own: below 2^31.
-static uint32_t aligned(FIXPID_DATA const struct number16 *a, int16_t exponent)
+static uint32_t aligned(FIXPID_DATA const struct number16 *a, int8_t exponent)
 {
     const int16_t places = (int16_t)(exponent - a->exponent);
 
@@ -107,7 +107,7 @@ static uint32_t aligned(FIXPID_DATA const struct number16 *a, int16_t exponent)
 static void add(FIXPID_DATA struct number16 *a,
                 FIXPID_DATA const struct number16 *b)
 {
-    int16_t exponent = a->exponent;
+    int8_t exponent = a->exponent;
 
     if (exponent < b->exponent) {
         exponent = b->exponent;
@@ -130,7 +130,7 @@ static bool greater(FIXPID_DATA const struct number16 *a,
 static void subtract(FIXPID_DATA struct number16 *a,
                      FIXPID_DATA const struct number16 *b)
 {
-    const int16_t exponent = a->exponent;
+    const int8_t exponent = a->exponent;
     uint32_t difference = 0;
 
     if (greater(a, b)) {

@@ -73,10 +73,7 @@ enum constant_name {
     C64
 };
 
-static const struct constant {
-    uint16_t mantissa;
-    int8_t exponent;
-} constants[] FIXPID_AUTOTUNE_FLASH = {
+static const struct number16 constants[] FIXPID_AUTOTUNE_FLASH = {
     {32768u, -15}, // 1: exact
     {32768u, -14}, // 2: exact
     {32768u, -13}, // 4: exact

@@ -37,7 +37,7 @@ static void take(FIXPID_DATA const struct sheet *sheet, uint8_t which,
     if ((which & CONSTANT) == 0u) {
         copy(number, &sheet->numbers[which]);
     } else {
-        const struct constant *const constant =
+        const struct number16 *const constant =
             &constants[which & (uint8_t)~CONSTANT];
 
         number->mantissa = flash_word(&constant->mantissa);

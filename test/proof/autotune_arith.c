@@ -9,16 +9,17 @@
 
 struct number16 nondet_number16(void);
 
-#define FAR 400 // more than any sum or difference of exponents
+#define FAR 120     // what an experiment comes to is within it
+#define NONE (-128) // the exponent of 0
 
 static struct number16 result;
 
-// Domain: the mantissa is 32768 to 65535 and the exponent -400 to 400; or the
-// number is 0, and the exponent -1200 to -800.
+// Domain: the mantissa is 32768 to 65535 and the exponent -120 to 120; or the
+// number is 0, and the exponent -128.
 static bool autotune_is_number(struct number16 x)
 {
     return (x.mantissa == 0u)
-               ? inside(x.exponent, -1200, -800)
+               ? (x.exponent == NONE)
                : ((x.mantissa >= 32768u) && inside(x.exponent, -FAR, FAR));
 }
 
@@ -30,14 +31,14 @@ static struct number16 any_number(void)
     return x;
 }
 
-// Whether the result is value * 2^exponent without the lower bits. pre: 0 <=
-// value < 2^32
+// Whether the result is value * 2^exponent without the lower bits, and without
+// the upper ones of an exponent. pre: 0 <= value < 2^32
 static void claim_result(number value, number exponent)
 {
-    const number places = result.exponent - exponent;
+    const number places = (int8_t)(result.exponent - exponent);
 
     if (value == 0) {
-        claim((result.mantissa == 0u) && (result.exponent < -2 * FAR));
+        claim((result.mantissa == 0u) && (result.exponent == NONE));
         return;
     }
     claim((result.mantissa >= 32768u) && inside(places, -15, 16));

@@ -29,7 +29,7 @@ static struct number16 number(uint8_t which, int16_t exponent)
     const uint16_t mantissa = mantissas[which];
 
     return (struct number16){mantissa,
-                             mantissa == 0 ? (int16_t)NOTHING : exponent};
+                             (int8_t)(mantissa == 0 ? NOTHING : exponent)};
 }
 
 // The result is value * 2^exponent, of which it has the upper 16 bits.
@@ -246,7 +246,7 @@ void test_constants_have_these_mantissas_and_exponents(void)
     TEST_ASSERT_EQUAL_UINT(sizeof constants / sizeof constants[0],
                            sizeof rows / sizeof rows[0]);
     for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const struct constant *const constant =
+        const struct number16 *const constant =
             &constants[rows[i].which - CONSTANT];
 
         TEST_ASSERT_EQUAL_UINT(CONSTANT + i, rows[i].which);
