@@ -150,7 +150,7 @@ static const uint8_t quicker[] FIXPID_AUTOTUNE_FLASH = {
 };
 
 // r = k M / (2 K): 0 is an integrator, 1 a pure delay
-static const uint8_t ratio[] FIXPID_AUTOTUNE_FLASH = {
+static const uint8_t ratio_of_means[] FIXPID_AUTOTUNE_FLASH = {
     RATIO, DRIVEN, OVER, ANSWERED, TIMES, MID_RISE, TIMES, HALF,
            LESSER, C63_64THS,
     END

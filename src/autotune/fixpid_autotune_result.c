@@ -279,7 +279,7 @@ static bool measure_gain(FIXPID_DATA struct sheet *sheet,
     set(sheet, DRIVEN, magnitude(driven), 0);
     if (measured > ((int32_t)swing(self) * 16)) { // a 16th of the swing
         set(sheet, ANSWERED, (uint32_t)measured, 0);
-        calculate(sheet, ratio);
+        calculate(sheet, ratio_of_means);
         if (driven <= 0) {
             if (runs_away(sheet, rule)) {
                 return false;

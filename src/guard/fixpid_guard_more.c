@@ -15,16 +15,16 @@
 // As fixpid_autotune has it for a plant without a static gain.
 #define INTEGRATING UINT32_C(0xFFFFFFFF)
 
-#define HIGHEST UINT32_C(0x80000000)
+#define TOP_BIT UINT32_C(0x80000000)
 
 // 64 bits, in two words: SDCC has no such integers for a PIC.
-struct wide {
+struct two_words {
     uint32_t high;
     uint32_t low;
 };
 
 // value = floor(value / divisor). pre: divisor >= 1
-static void divide(struct wide *value, uint32_t divisor)
+static void divide_wide(struct two_words *value, uint32_t divisor)
 {
     uint32_t rest = 0; // below the divisor before and after each turn
     uint8_t turn;
@@ -36,14 +36,14 @@ static void divide(struct wide *value, uint32_t divisor)
         uint32_t more = rest;                  // <= divisor
         const uint32_t lacks = divisor - rest; // >= 1
 
-        if ((value->high & HIGHEST) != 0u) {
+        if ((value->high & TOP_BIT) != 0u) {
             more++;
         }
-        value->high = (value->high & ~HIGHEST) << 1;
-        if ((value->low & HIGHEST) != 0u) {
+        value->high = (value->high & ~TOP_BIT) << 1;
+        if ((value->low & TOP_BIT) != 0u) {
             value->high++;
         }
-        value->low = (value->low & ~HIGHEST) << 1;
+        value->low = (value->low & ~TOP_BIT) << 1;
         if (more >= lacks) {
             rest = more - lacks;
             value->low++;
@@ -89,12 +89,12 @@ static uint32_t way_for(uint32_t slope_q24, uint16_t range, uint16_t band,
 {
     // 8 bands * band / (slope_q24 / 2^24 * range), and 8 bands * band < 2^26
     const uint32_t a = (counts_in(bands, band) << 3) - 1u;
-    struct wide way;
+    struct two_words way;
 
     way.high = a >> 8;
     way.low = ((a & 0xFFu) << 24) | UINT32_C(0xFFFFFF);
-    divide(&way, slope_q24);
-    divide(&way, range);
+    divide_wide(&way, slope_q24);
+    divide_wide(&way, range);
     return (way.high == 0u) ? way.low : UINT32_MAX;
 }
 
@@ -103,7 +103,7 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
 {
     uint32_t patience;
 
-    if (((dead_q4 | way) & HIGHEST) != 0u) {
+    if (((dead_q4 | way) & TOP_BIT) != 0u) {
         return 0;
     }
     // 2 L is dead_q4 eighths of a step, and the sum is below 2^32.
@@ -118,12 +118,13 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
                              const struct fixpid_guard_model *model)
 {
-    const uint8_t bands = (model->bands != 0u) ? model->bands : BANDS;
+    uint8_t bands;
     uint32_t band;
     uint16_t patience;
 
     FIXPID_ASSERT(config != 0);
     FIXPID_ASSERT(model != 0);
+    bands = (model->bands != 0u) ? model->bands : BANDS;
     band = band_for(model);
     if (config->output_min >= config->output_max) {
         return false;

@@ -8,7 +8,7 @@
 #define TIMEOUT_USUAL 1000u
 #define REST_MAX 511
 #define MINUS_1 0xFFFFu
-#define BAND_MAX 1022u // so that what is needed has 16 bits
+#define FIRST_JUMP_MAX 1022u // so that what is needed has 16 bits
 
 // a - b, saturated
 static int16_t apart(int16_t a, int16_t b)
@@ -119,7 +119,7 @@ static void heat(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
         // A sensor without noise: its first jump is its quantum.
         const uint16_t jump = (uint16_t)((x < 0) ? -x : x);
 
-        SELF.band = (jump < BAND_MAX) ? jump : BAND_MAX;
+        SELF.band = (jump < FIRST_JUMP_MAX) ? jump : FIRST_JUMP_MAX;
     }
     counts = (uint16_t)((uint16_t)x + (uint16_t)far); // at most 2^15 scaled
     SELF.sum = (uint32_t)fixpid_add32((int32_t)SELF.sum,
@@ -152,13 +152,13 @@ bool fixpid_reaction_init(FIXPID_DATA struct fixpid_reaction *self,
     }
     SELF.state = LISTENING;
     if (SELF.output_drive == SELF.output_rest) {
-        SELF.state = REFUSED;
+        SELF.state = STATE_REFUSED;
     }
     if (SELF.timeout_steps > TIMEOUT_MAX) {
-        SELF.state = REFUSED;
+        SELF.state = STATE_REFUSED;
     }
     fixpid_reaction_reset(self);
-    return SELF.state != REFUSED;
+    return SELF.state != STATE_REFUSED;
 }
 
 void fixpid_reaction_reset(FIXPID_DATA struct fixpid_reaction *self)
@@ -166,7 +166,7 @@ void fixpid_reaction_reset(FIXPID_DATA struct fixpid_reaction *self)
     uint8_t i;
 
     FIXPID_ASSERT(VALID_SELF);
-    if (SELF.state != REFUSED) {
+    if (SELF.state != STATE_REFUSED) {
         SELF.state = LISTENING;
     }
     SELF.blocks = 0;
@@ -201,7 +201,7 @@ int16_t fixpid_reaction_step(FIXPID_DATA struct fixpid_reaction *self,
     if (SELF.state >= HEATING) {
         return SELF.output_drive;
     }
-    if (SELF.state == REFUSED) {
+    if (SELF.state == STATE_REFUSED) {
         return 0;
     }
     return SELF.output_rest;

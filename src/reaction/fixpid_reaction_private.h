@@ -12,9 +12,9 @@
 #define FIXPID_REACTION_PRIVATE_H
 
 // `state` is a status, of which RUNNING stands for LISTENING, or HEATING.
-#define REFUSED ((uint8_t)FIXPID_REACTION_REFUSED)
+#define STATE_REFUSED ((uint8_t)FIXPID_REACTION_REFUSED)
 #define LISTENING ((uint8_t)FIXPID_REACTION_RUNNING)
-#define DONE ((uint8_t)FIXPID_REACTION_DONE)
+#define STATE_DONE ((uint8_t)FIXPID_REACTION_DONE)
 #define HEATING 9u // and above
 
 #define LISTEN_STEPS 32u

@@ -15,7 +15,7 @@
 
 #define ROBUSTNESS_MIN 8u
 #define ROBUSTNESS_MAX 64u
-#define ROBUST_MORE 18u // 19 / 256 of the robustness and 18: at most 1558 / 256
+#define ROBUSTER_BY 18u // 19 / 256 of the robustness and 18: at most 1558 / 256
 #define ROBUST_FACTOR 19u
 #define ONCE 256u // the factor of a height as it is
 
@@ -104,7 +104,8 @@ static uint32_t height_of(FIXPID_DATA const struct fixpid_reaction *self,
     return (uint32_t)height + hold;
 }
 
-// The process with factor / 256 of the height, and its kp_q8. pre: it is DONE
+// The process with factor / 256 of the height, and its kp_q8. pre: it is
+// STATE_DONE
 static uint32_t take_tangent(FIXPID_DATA const struct fixpid_reaction *self,
                              uint16_t factor,
                              struct fixpid_reaction_process *process)
@@ -131,7 +132,7 @@ bool fixpid_reaction_model(FIXPID_DATA const struct fixpid_reaction *self,
 {
     FIXPID_ASSERT(VALID_SELF);
     FIXPID_ASSERT(process != 0);
-    if (SELF.state != DONE) {
+    if (SELF.state != STATE_DONE) {
         return false;
     }
     (void)take_tangent(self, ONCE, process);
@@ -208,10 +209,10 @@ bool fixpid_reaction_result(FIXPID_DATA const struct fixpid_reaction *self,
     if (robustness_q4 > ROBUSTNESS_MAX) {
         return false;
     }
-    if (SELF.state != DONE) {
+    if (SELF.state != STATE_DONE) {
         return false;
     }
-    factor = (uint16_t)(factor + ROBUST_MORE);
+    factor = (uint16_t)(factor + ROBUSTER_BY);
     factor = (uint16_t)(factor * ROBUST_FACTOR);
     kp = take_tangent(self, factor, &tangent);
     if (kp > FIXPID_PID_KP_MAX) {

@@ -8,8 +8,8 @@
 struct fixpid_guard_config nondet_guard_config(void);
 struct fixpid_guard_model nondet_guard_model(void);
 
-struct wide;
-static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
+struct two_words;
+static bool at_turn(struct two_words *value, uint32_t *rest, uint8_t *turn,
                     uint32_t divisor);
 
 // clang-format would make another macro of it.
@@ -19,9 +19,9 @@ static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
 #include "guard/fixpid_guard_more.c"
 #undef for
 
-struct wide nondet_wide(void);
+struct two_words nondet_wide(void);
 
-static uint64_t bits_of(const struct wide *value)
+static uint64_t bits_of(const struct two_words *value)
 {
     return ((uint64_t)value->high << 32) | value->low;
 }
@@ -38,7 +38,7 @@ static number assume_floor(number a, number b)
     return (number)q;
 }
 
-void divide_contract(struct wide *value, uint32_t divisor)
+void divide_contract(struct two_words *value, uint32_t divisor)
 {
     number q;
 
@@ -103,7 +103,7 @@ uint32_t counts_in_contract(uint8_t bands, uint16_t band)
     return assume_product(band, bands, 32767u * 255u);
 }
 
-// By contract: divide, counts_in.
+// By contract: divide_wide, counts_in.
 void prove_way(void)
 {
     const uint32_t slope_q24 = nondet_uint32();
@@ -176,7 +176,7 @@ static uint64_t lowest(number bits)
 }
 
 // The upper bits, as many as there are turns, are the dividend's.
-static bool is_divided(const struct wide *value, number rest, number turns,
+static bool is_divided(const struct two_words *value, number rest, number turns,
                        number divisor)
 {
     return inside(turns, 1, 64) && (rest < divisor) &&
@@ -185,7 +185,7 @@ static bool is_divided(const struct wide *value, number rest, number turns,
 
 // Domain: a turn of a division by hand: the rest is below the divisor, and the
 // upper bits are those of the dividend.
-static bool guard_may_divide(const struct wide *value, number rest,
+static bool guard_may_divide(const struct two_words *value, number rest,
                              number turns, number divisor)
 {
     return is_divided(value, rest, turns, divisor);
@@ -193,7 +193,7 @@ static bool guard_may_divide(const struct wide *value, number rest,
 
 // Long division: the rest and the next bit of the dividend are the next rest,
 // and the divisor if it goes into them.
-static bool is_next(const struct wide *value, number rest, number turns,
+static bool is_next(const struct two_words *value, number rest, number turns,
                     number divisor)
 {
     const uint64_t quotient = bits_of(value) & lowest(64 - turns);
@@ -203,7 +203,7 @@ static bool is_next(const struct wide *value, number rest, number turns,
            (rest == (began.rest * 2) + began.next - taken);
 }
 
-static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
+static bool at_turn(struct two_words *value, uint32_t *rest, uint8_t *turn,
                     uint32_t divisor)
 {
     claim(is_divided(value, *rest, *turn, divisor) &&
@@ -224,14 +224,14 @@ static bool at_turn(struct wide *value, uint32_t *rest, uint8_t *turn,
 // The last turn leaves the quotient.
 void prove_divide(void)
 {
-    struct wide value = nondet_wide();
+    struct two_words value = nondet_wide();
     const uint32_t divisor = nondet_uint32();
     number rest;
     uint64_t quotient;
 
     assume(inside(divisor, 1, UINT32_MAX));
     dividend = bits_of(&value);
-    divide(&value, divisor);
+    divide_wide(&value, divisor);
     rest = (began.rest * 2) + began.next;
     quotient = (began.quotient * 2u) + ((rest >= (number)divisor) ? 1u : 0u);
     claim(began.turns == 1);
