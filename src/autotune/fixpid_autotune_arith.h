@@ -113,7 +113,7 @@ static void add(FIXPID_DATA struct number16 *a,
         exponent = b->exponent;
     }
     make(a, aligned(a, exponent) + aligned(b, exponent),
-         (int16_t)(exponent - 15));
+         (int16_t)((int16_t)exponent - 15));
 }
 
 // a > b
@@ -136,7 +136,7 @@ static void subtract(FIXPID_DATA struct number16 *a,
     if (greater(a, b)) {
         difference = aligned(a, exponent) - aligned(b, exponent);
     }
-    make(a, difference, (int16_t)(exponent - 15));
+    make(a, difference, (int16_t)((int16_t)exponent - 15));
 }
 
 // number * 2^fraction to the nearest integer, half up; UINT32_MAX if it has
