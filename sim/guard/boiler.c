@@ -12,10 +12,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "draw.h"
+#include "chance.h"
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
-#include "rule.h"
 
 #define SETPOINT 600 // tenths of a degree, as all temperatures here
 #define ROOM 200
@@ -51,7 +50,7 @@ struct boiler {
     struct fixpid_guard guard;
     int32_t heat; // the quick start's, times the steps per second
     double sensor;
-    uint64_t noise_state;
+    struct chance chance;
     uint8_t alarms;
 };
 
@@ -60,7 +59,11 @@ static double noise;
 
 static void start_guard(struct boiler *self)
 {
-    const struct model model = {GAIN, DEAD_STEPS, GAIN / LAG_S / rate, noise};
+    const struct fixpid_guard_model model = {
+        .slope_q24 = (uint32_t)lrint(GAIN / LAG_S / rate * 16777216.0),
+        .dead_q4 = (uint32_t)(DEAD_STEPS * 16.0),
+        .noise_q4 = (uint16_t)lrint(noise * 16.0),
+        .gain_q8 = (uint32_t)(GAIN * 256.0)};
     struct fixpid_guard_config config = {
         .output_max = FULL_POWER,
         .measurement_min = 1,
@@ -69,7 +72,7 @@ static void start_guard(struct boiler *self)
         .reach_max = ROOM + 750, // on a supply 20 % low
     };
 
-    rule_for(&config, &model);
+    (void)fixpid_guard_from_model(&config, &model);
     (void)fixpid_guard_init(&self->guard, &config);
 }
 
@@ -85,7 +88,7 @@ static void start(struct boiler *self)
     start_guard(self);
     self->heat = 0;
     self->sensor = ROOM;
-    self->noise_state = 1;
+    self->chance.state = 1;
     self->alarms = 0;
 }
 
@@ -105,7 +108,7 @@ static double sensed(struct boiler *self, int fault)
 
 static int16_t reading(struct boiler *self, int fault)
 {
-    const double random = noise * draw_noise(&self->noise_state);
+    const double random = noise * chance_noise(&self->chance);
 
     switch (fault) {
     case STUCK_3:

@@ -48,7 +48,7 @@ LOOPS = {
                               -> { random_plants }),
   'double' => Loop.new('as good on five plants as in double precision', -> { double }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
-  'guard' => Loop.new('few false alarms on whole machines, each of eight faults seen on all plants', -> { guard }),
+  'guard' => Loop.new('few false alarms on whole machines, each of eight faults seen on nearly all', -> { guard }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time; in 15 for good: seen',
                        -> { run_faults }),
   'faults_chip' => Loop.new('the same on simulated chips', -> { run_faults_on_chips }),

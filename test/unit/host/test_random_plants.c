@@ -6,25 +6,20 @@
 
 #include "chance.h"
 #include "design.h"
-#include "draw.h"
 #include "families.h"
 #include "families_batch.h"
 #include "judge.h"
 #include "linear.h"
-#include "plant_lags.h"
 #include "unity.h"
 
-TEST_SOURCE_FILE("sim/plant/plant_lags.c")
 TEST_SOURCE_FILE("sim/random_plants/answer.c")
 TEST_SOURCE_FILE("sim/random_plants/chance.c")
-TEST_SOURCE_FILE("sim/random_plants/draw.c")
 TEST_SOURCE_FILE("sim/random_plants/families.c")
 TEST_SOURCE_FILE("sim/random_plants/families_batch.c")
 TEST_SOURCE_FILE("sim/random_plants/judge.c")
 TEST_SOURCE_FILE("sim/random_plants/linear.c")
 TEST_SOURCE_FILE("sim/random_plants/machine.c")
 TEST_SOURCE_FILE("sim/random_plants/machine_kinds.c")
-TEST_INCLUDE_PATH("sim/plant")
 TEST_INCLUDE_PATH("sim/random_plants")
 
 #define HALF_TURN 3.141592653589793
@@ -324,48 +319,4 @@ void test_draw_another_seed_draws_others_and_the_same_the_same(void)
     TEST_ASSERT_TRUE(one.period_steps == same.period_steps);
     TEST_ASSERT_TRUE(one.chance.state != other.chance.state);
     TEST_ASSERT_TRUE(one.period_steps != other.period_steps);
-}
-
-// Others rely on these plants.
-void test_draw_task_the_first_ones_of_seed_1_stay_as_they_are(void)
-{
-    static const struct {
-        enum kind kind;
-        double gain;
-        double dead;
-        double lag;
-        int setpoint;
-    } expected[] = {
-        {KIND_LAG, 3.209626389, 6.16364184337, 13.6044708001, 2683},
-        {KIND_TWO_LAGS, 0.9242773331, 13.6022838879, 6.8447507159, 730},
-        {KIND_LAGS, 13.1759905948, 0, 7.84342342285, 1326},
-        {KIND_INTEGRATOR, 0.0499317970655, 14.1047872577, 0.0, 2047},
-        {KIND_POSITION, 0.222757363085, 3.86614153283, 8.17774581835, 2047}};
-    struct draw draw = {
-        .kind = KIND_MIXED, .load_share = 0.25, .holding = -1.0};
-
-    draw_start(&draw, 1);
-    for (int i = 0; i < 5; i++) {
-        const struct task task = draw_task(&draw, i);
-        TEST_ASSERT_EQUAL(expected[i].kind, task.kind);
-        assert_near(expected[i].gain, task.plant.gain, 1e-9);
-        assert_near(expected[i].dead, task.plant.dead_steps, 1e-6);
-        assert_near(expected[i].lag, task.plant.lag_steps[0], 1e-6);
-        TEST_ASSERT_EQUAL(expected[i].setpoint, task.setpoint);
-    }
-}
-
-// An integrator's ramp begins as much later.
-void test_lags_dead_time_is_the_nearest_number_of_eighths(void)
-{
-    static struct lags_motion ramp;
-    const struct plant_lags plant = {
-        .gain = 1.0, .integrating = true, .dead_steps = 2.4};
-
-    lags_start(&ramp, &plant, 0.0);
-    for (int step = 1; step <= 5; step++) {
-        lags_move(&ramp, 1.0);
-        assert_near(fmax((double)step - 2.375, 0.0), lags_value(&ramp), 1e-12);
-    }
-    assert_near(2.375, lags_dead_steps(&plant), 0.0);
 }

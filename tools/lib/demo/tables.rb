@@ -141,7 +141,7 @@ module Tables
             end)
     end
 
-    # What fixpid_guard sees of 800 plants, and how many get far beyond their setpoint.
+    # What fixpid_guard sees of machines that break, and how many get far beyond their setpoint.
     def guard_sees
       far = GUARD_CLASSES.keys.map { |title| "#{title}: far over, without and with" }
       table('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, GUARD_FAULTS.map do |fault, title|
