@@ -10,11 +10,11 @@ const SAID = {
 
 const OF_RELAY = {
     ...SAID,
-    NO_OSCILLATION: 'No oscillation: the setpoint is out of the output’s reach, or the plant slower than the timeout.',
+    NO_OSCILLATION: 'No oscillation: the setpoint is out of the output’s reach, or the plant slower than the timeout. Begin at the setpoint.',
     SATURATED: 'The measurement reached the end of its range: begin at the setpoint, or take a setpoint further inside or a larger range.',
     IRREGULAR: 'The cycles were not alike, or the output that holds this setpoint is next to an end of its range: wait for a steady load, or take a range of the output about what holds it; a heater: a heat-up.',
     TOO_FAST: 'The period is below 10 steps: sample faster, or measure with less noise.',
-    TOO_SMALL: 'The swing is not far above the noise: more cycles, less noise, or a larger range of the output.',
+    TOO_SMALL: 'The swing is not far above the noise: less noise, or a larger range of the output.',
     TOO_SLOW: 'The cycles took too many steps: sample more slowly.',
 };
 

@@ -25,26 +25,28 @@ AutotuneState = _causes("autotune_state", "autotune", {
     "RUNNING": "Keep stepping.",
     "DONE": "It has measured: ask for a result.",
     "NO_OSCILLATION": "A half cycle took longer than timeout_steps: the setpoint is out of reach of "
-                      "the output range, or the plant is slower than thought.",
-    "SATURATED": "The measurement reached measurement_min or measurement_max: take a narrower "
-                 "output range.",
+                      "the output range, or the plant is slower than thought. Take the load away, and "
+                      "begin at rest.",
+    "SATURATED": "The measurement reached measurement_min or measurement_max: begin at rest at the "
+                 "setpoint, with output_rest what holds it.",
     "IRREGULAR": "The cycles were not alike, or the output that holds the setpoint is next to an "
-                 "end of the range: wait for a steady load, or take another setpoint.",
+                 "end of the range: wait for a steady load, then begin at rest with a range of a "
+                 "tenth to a fifth on each side of what holds the setpoint. A heater: take Reaction.",
     "TOO_FAST": "A period has less than 10 steps: sample faster, or measure with less noise.",
-    "TOO_SMALL": "The swing is not far above the noise: take a larger output range, or measure "
-                 "with less noise.",
+    "TOO_SMALL": "The swing is not far above the noise: try once more, take a larger output range, "
+                 "or measure with less noise.",
     "TOO_SLOW": "The cycles took 32767 steps: sample more slowly."})
 
 AutotuneCause = _causes("autotune_cause", "autotune", {
     "NO_REASON": "There are gains.",
     "NOT_DONE": "The experiment has not measured: its status says why.",
     "NOT_LEGAL": "There is no such rule, or the robustness is outside 8..64.",
-    "SHAPE": "The wave is neither a lag's nor an integrator's: take another swing, a faster "
-             "rate or less load; else set the gains by hand.",
-    "TWO_PROCESSES": "The ways up and down tell of two processes: wait for a steady load. A heater "
-                     "that cools slowly is two processes: set its gains by hand.",
-    "RUNS_AWAY": "More measurement was held with less output: the load has moved, so try once "
-                 "more; or the process is unstable: set its gains by hand.",
+    "SHAPE": "The noise or the hysteresis hides the wave: try once more, or measure with less "
+             "noise. For PID: take PI.",
+    "TWO_PROCESSES": "For PID the ways up and down tell of two processes, such as a heater that cools "
+                     "slowly: take PI, which is for the quicker one.",
+    "RUNS_AWAY": "More measurement was held with less output: try once more with a steady load, from "
+                 "rest. If it comes twice, the process is unstable: set its gains by hand.",
     "GAIN_TOO_LARGE": "kp, ki or kd is above its range: take a finer measurement, or a smaller "
                       "output range.",
     "GAIN_TOO_SMALL": "ki is below its range: take a slower rate, or a coarser measurement."})
