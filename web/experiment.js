@@ -22,7 +22,7 @@ const OF_HEAT_UP = {
     ...SAID,
     MOVING: 'The measurement was not at rest: wait until it stands or falls.',
     NO_MOVEMENT: 'Nothing moved in time: more output, or less noise.',
-    WRONG_WAY: 'The measurement went the other way: change “reverse acting”.',
+    WRONG_WAY: 'The measurement went the other way: change “reverse acting”; if that is right, take the relay.',
     LIMIT: 'What is stored would bring the measurement to the setpoint: begin further away, or take half the output where half of it has half the effect.',
     LEVELS_OFF: 'The measurement came to rest before its slope was clear: take the relay, or a faster rate.',
     TOO_SLOW: 'It took too many steps: sample more slowly.',

@@ -117,7 +117,7 @@ ReactionState = _causes("reaction_state", "reaction", {
     "MOVING": "The reading was not at rest: wait until it stands or falls.",
     "NO_MOVEMENT": "Nothing moved within timeout_steps: is the heater on, and the sensor in place? If both are, "
                    "take a longer timeout_steps.",
-    "WRONG_WAY": "The reading went the other way: change reverse.",
+    "WRONG_WAY": "The reading went the other way: change reverse; if it is right, take Autotune.",
     "LIMIT": "The reading would come to measurement_stop: begin colder, let it go further, or take half of "
              "output_drive where half the output has half the effect.",
     "LEVELS_OFF": "The reading came to rest before its slope was clear: take Autotune, or a faster rate.",
