@@ -332,7 +332,7 @@ FILES = (
     ("gains", 1000, lambda: None, gains_row),
     ("link", 348, Board, link_row),
     ("table", 800, list, table_row),
-    ("autotune_records", 41, lambda: None, autotune_record_row),
+    ("autotune_records", 45, lambda: None, autotune_record_row),
 )
 
 
