@@ -5,6 +5,8 @@
 
 #include "fixpid_reaction_private.h"
 
+#define WRAPPED 256u // a byte counts modulo it
+
 // floor(90 * part / whole) by 90 additions. pre: part < whole
 static uint8_t ninetieths(uint16_t part, uint16_t whole)
 {
@@ -33,10 +35,8 @@ uint8_t fixpid_reaction_progress(FIXPID_DATA const struct fixpid_reaction *self)
 
     FIXPID_ASSERT(VALID_SELF);
     if (SELF.state == LISTENING) {
-        if (SELF.left > LISTEN_STEPS) {
-            return 0;
-        }
-        return (uint8_t)((LISTEN_STEPS - SELF.left) >> 2);
+        // 8 at most, and 63 of any bytes
+        return (uint8_t)(WRAPPED + LISTEN_STEPS - (uint8_t)SELF.left) >> 2;
     }
     if (SELF.state < HEATING) {
         return 100;

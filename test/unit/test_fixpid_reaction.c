@@ -228,25 +228,58 @@ void test_step_511_counts_are_rest_and_512_are_not(void)
     }
 }
 
-// The last 16 readings by 1 or 2 above the first 16, with a band of as much:
-// the sums are 16 or 32 apart, and 5 * band + 16 is 21 or 26.
+// With a band of 2 the sums may be 5 * 2 + 16 = 26 apart.
 void test_step_a_reading_that_rises_at_rest_is_moving_and_one_that_falls_is_not(
     void)
 {
-    for (int16_t rise = -2; rise <= 2; rise++) {
+    for (int16_t last = 0; last <= 1; last++) {
         TEST_ASSERT_TRUE(init());
         reads(16, 0);
-        reads(16, rise);
-        is(rise == 2 ? FIXPID_REACTION_MOVING : FIXPID_REACTION_RUNNING);
-    }
-    // 5 * 1 + 16 = 21 more in the sum, and 22
-    for (unsigned more = 21; more <= 22; more++) {
-        TEST_ASSERT_TRUE(init());
-        reads(10, 0);
-        reads(6, -2);
-        reads(more - 16u, 1);
-        reads(32u - more, 0);
+        reads(13, 2);
+        reads(3, 0);
         is(FIXPID_REACTION_RUNNING);
+        TEST_ASSERT_TRUE(init());
+        reads(16, 0);
+        reads(13, 2);
+        reads(2, 0);
+        reads(1, last);
+        is(last == 1 ? FIXPID_REACTION_MOVING : FIXPID_REACTION_RUNNING);
+        TEST_ASSERT_TRUE(init());
+        reads(16, 0);
+        reads(16, -500);
+        is(FIXPID_REACTION_RUNNING);
+    }
+}
+
+// The largest of 1, 2, 4, 8 and 16 with which the reach is 16384 at most.
+void test_step_the_record_is_as_fine_as_16_bits_hold(void)
+{
+    static const int16_t reach_and_scale[][2] = {
+        {16384, 0}, {8193, 0}, {8192, 1}, {4097, 1}, {4096, 2},
+        {2049, 2},  {2048, 3}, {1025, 3}, {1024, 4}, {1, 4}};
+
+    for (unsigned i = 0; i < COUNT(reach_and_scale); i++) {
+        config.measurement_stop = reach_and_scale[i][0];
+        begin();
+        TEST_ASSERT_EQUAL_UINT8(reach_and_scale[i][1],
+                                reaction_controller.scale);
+    }
+}
+
+void test_step_eight_blocks_become_the_means_of_four_pairs(void)
+{
+    begin();
+    for (int16_t i = 0; i < 8; i++) {
+        reads(1, (int16_t)(i * i));
+    }
+    reads(1, 60);
+    for (int16_t i = 0; i < 4; i++) {
+        const int16_t a = (int16_t)(2 * i);
+
+        TEST_ASSERT_EQUAL_UINT16(16 * 1000 + 8 * (a * a + (a + 1) * (a + 1)),
+                                 reaction_controller.record[i]);
+        TEST_ASSERT_EQUAL_UINT16(16 * (1000 + (i + 4) * (i + 4)),
+                                 reaction_controller.record[i + 4]);
     }
 }
 
@@ -464,7 +497,7 @@ static int64_t mean_at_a_bound(const struct reference_reaction *ahead)
         steepest = rise > steepest ? rise : steepest;
         before = j < n - 1 ? steepest : before;
     }
-    switch (numbers_below(24)) {
+    switch (numbers_below(n < 5 ? 40 : 12)) {
     case 0:
         return older + before + before / 8 + close;
     case 1:
@@ -479,6 +512,8 @@ static int64_t mean_at_a_bound(const struct reference_reaction *ahead)
         return older + 2 * origin / (n + 2) + close;
     case 6:
         return older + need + close;
+    case 7:
+        return older + steepest + close;
     default:
         return 2 * last - older + close * (1 + (int64_t)numbers_below(20));
     }
@@ -511,12 +546,15 @@ void test_step_at_the_bounds_of_each_verdict_is_as_defined(void)
     for (unsigned turn = 0; turn < TEST_MEMORIES / 8u; turn++) {
         const int16_t noise = (int16_t)(numbers_any_size() & 0x1FFu);
 
-        config.measurement_stop = (int16_t)(numbers_any_size() & 0x7FFFu);
+        config.measurement_stop =
+            (int16_t)(numbers_one_in(2) ? 8193u + numbers_below(8192)
+                                        : numbers_any_size() & 0x7FFFu);
         config.timeout_steps = (uint16_t)(1u + numbers_below(40));
         TEST_ASSERT_TRUE(init());
-        reads(8, 0);
-        reads(8, noise);
-        reads(16, (int16_t)(noise / 2));
+        reads(2, 0);
+        reads(6, noise);
+        reads(8, (int16_t)-noise);
+        reads(16, 0);
         heat_at_the_bounds();
         results_are_as_defined();
         seen |= 1u << fixpid_reaction_status(&reaction_controller);
@@ -526,6 +564,25 @@ void test_step_at_the_bounds_of_each_verdict_is_as_defined(void)
             1u << FIXPID_REACTION_WRONG_WAY | 1u << FIXPID_REACTION_LIMIT |
             1u << FIXPID_REACTION_LEVELS_OFF,
         seen);
+}
+
+// Of every slope in 64ths of a count, on a sensor with a band of 3 or without.
+void test_step_ramps_of_each_slope_are_as_defined(void)
+{
+    config.measurement_stop = 16384;
+    for (int32_t slope = 1; slope <= (int32_t)(TEST_MEMORIES / 50u); slope++) {
+        int32_t at = 0;
+
+        TEST_ASSERT_TRUE(init());
+        reads(16, (int16_t)(slope % 2 * 3));
+        reads(16, 0);
+        while (fixpid_reaction_status(&reaction_controller) ==
+               FIXPID_REACTION_RUNNING) {
+            at += slope;
+            reads(1, (int16_t)(at / 64));
+        }
+        results_are_as_defined();
+    }
 }
 
 void test_step_random_experiments_are_as_defined(void)
