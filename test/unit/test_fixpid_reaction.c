@@ -419,42 +419,88 @@ void test_result_other_rules_and_robustness_and_what_is_not_done_have_none(void)
     is(FIXPID_REACTION_RUNNING);
 }
 
-// Its numbers are private: a record of eight blocks whose steepest rise is
-// `rise`, and a height that the band makes.
+// Its numbers are private: a record of eight blocks that rises by `rise` behind
+// block 1 + `place`.
 static void done(uint16_t rise, uint16_t band, uint8_t doubled, uint8_t scale,
-                 int16_t change)
+                 int16_t change, uint8_t place)
 {
     config.output_rest = (int16_t) - (change / 2);
     config.output_drive = (int16_t)(config.output_rest + change);
+    config.reverse = change < 0;
     config.measurement_stop = (int16_t)(16384 >> scale);
     begin();
     reaction_controller.state = FIXPID_REACTION_DONE;
     reaction_controller.blocks = 8;
     reaction_controller.doubled = doubled;
-    reaction_controller.scale = scale;
     reaction_controller.band = band;
     reference.status = FIXPID_REACTION_DONE;
     reference.n = 8;
     reference.b = doubled;
-    reference.scale = 1 << scale;
     reference.band = band;
     for (uint8_t i = 0; i < 8u; i++) {
-        reaction_controller.record[i] = (uint16_t)(16384 + (i < 2u ? 0 : rise));
+        reaction_controller.record[i] =
+            (uint16_t)(16384 + (i < 2u + place ? 0 : rise));
         reference.m[i] = reaction_controller.record[i];
     }
+    TEST_ASSERT_EQUAL_UINT8(scale, reaction_controller.scale & 7u);
 }
 
-void test_result_gains_at_the_ends_of_their_ranges_are_as_defined(void)
+void test_result_gains_of_any_record_are_as_defined(void)
 {
     numbers_seed(4);
     for (unsigned turn = 0; turn < TEST_MEMORIES; turn++) {
-        const uint16_t change = (uint16_t)(numbers_any_size() & 0x7FFFu);
+        const int16_t change = (int16_t)(numbers_any_size() & 0x7FFFu);
+        const uint8_t tilt = (uint8_t)numbers_below(3);
 
         done((uint16_t)(1u + (numbers_any_size() & 0x3FFFu)),
              (uint16_t)numbers_below(1023), (uint8_t)(1u + numbers_below(12)),
              (uint8_t)numbers_below(5),
-             (int16_t)(numbers_one_in(2) ? change + 1 : -1 - change));
+             (int16_t)(numbers_one_in(2) ? change + 1 : -1 - change),
+             (uint8_t)numbers_below(6));
+        for (uint8_t i = 0; i < 8u; i++) {
+            reference.m[i] -= tilt * i;
+            reaction_controller.record[i] = (uint16_t)reference.m[i];
+        }
         results_are_as_defined();
+    }
+}
+
+// Searched for: at the end of each range, and one beyond.
+void test_result_gains_at_the_ends_of_their_ranges_are_as_defined(void)
+{
+    static const struct {
+        uint16_t rise, band;
+        uint8_t doubled, scale;
+        int16_t change;
+        uint8_t robustness_q4;
+        bool pi, pid;
+    } ends[] = {
+        {3, 89, 10, 0, 32767, 57, true, false},   // kp 32767
+        {1, 18, 1, 0, 4352, 29, false, false},    // 32768
+        {1, 0, 1, 4, 16, 29, true, true},         // of PID 32767
+        {235, 30, 2, 1, 23284, 14, true, false},  // 32768
+        {7, 957, 5, 4, 708, 13, true, true},      // kd 32255
+        {227, 864, 10, 1, 5728, 23, true, false}, // 32256
+        {1, 688, 11, 0, 18462, 22, true, false},  // a long delay
+        {1, 689, 11, 0, 18462, 22, false, false}, // C 2^26
+        {1, 288, 8, 3, 26219, 58, true, false},   // kd of 33 bits
+        {106, 664, 6, 1, 24, 62, true, true},     // ki 8
+        {4, 510, 3, 4, 86, 34, false, true},      // 7
+        {1, 158, 3, 2, 11, 54, false, true},      // of PID 8
+        {417, 294, 12, 2, 83, 63, false, false},  // 7
+    };
+
+    for (unsigned i = 0; i < COUNT(ends); i++) {
+        struct fixpid_pid_gains gains;
+
+        done(ends[i].rise, ends[i].band, ends[i].doubled, ends[i].scale,
+             ends[i].change, 0);
+        TEST_ASSERT_EQUAL(ends[i].pi,
+                          gains_are_as_defined(FIXPID_REACTION_PI,
+                                               ends[i].robustness_q4, &gains));
+        TEST_ASSERT_EQUAL(ends[i].pid,
+                          gains_are_as_defined(FIXPID_REACTION_PID,
+                                               ends[i].robustness_q4, &gains));
     }
 }
 
@@ -465,7 +511,7 @@ void test_result_of_flipped_bits_is_within_its_ranges(void)
     struct fixpid_pid_gains gains = {0, 0, 0, 0};
 
     for (int16_t change = 31; change >= 1; change = (int16_t)(change - 30)) {
-        done(0, 0, 15, 0, change);
+        done(0, 0, 15, 0, change, 0);
         reaction_controller.stop = 0; // the start
         memset(reaction_controller.record, 0,
                sizeof reaction_controller.record);
