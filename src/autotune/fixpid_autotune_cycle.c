@@ -59,7 +59,9 @@ static void next_relay(FIXPID_DATA struct fixpid_autotune *self)
     SELF.averaged = FRESH;
     if (SELF.state == PHASE_FIND) {
         SELF.state = PHASE_CENTRE;
-    } else if (fits(self, centre, half)) {
+        return;
+    }
+    if (fits(self, centre, half)) {
         SELF.state = PHASE_FIRST;
         fixpid_autotune_clear(&SELF.sums[0]);
     }

@@ -203,8 +203,10 @@ static void fit_edge(FIXPID_DATA struct fixpid_autotune *self,
         edge = (uint16_t)((uint16_t)(four_bands + two_bands) -
                           (uint16_t)overshoot);
         edge >>= 1; // above a band
-    } else if (edge < band) {
-        edge = band;
+    } else {
+        if (edge < band) {
+            edge = band;
+        }
     }
     SELF.edge = edge;
 }
