@@ -149,9 +149,9 @@ void prove_mirror(void)
     of_direct.setpoint = mirrored(of_reverse.setpoint);
     of_direct.derivative_input = mirrored((int16_t)of_reverse.derivative_input);
     c = nondet_pid();
-    c.options &= (uint8_t) ~(MIRRORED | SCALED);
+    c.options &= (uint8_t) ~(UPSIDE_DOWN | SCALED);
     error = special_errors(&c, &of_direct);
-    c.options |= MIRRORED;
+    c.options |= UPSIDE_DOWN;
     claim(special_errors(&c, &of_reverse) == error);
     claim(of_reverse.error == of_direct.error);
     claim(of_reverse.derivative_input == of_direct.derivative_input);

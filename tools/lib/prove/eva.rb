@@ -22,6 +22,7 @@ class Eva
   ROUGH = {
     'autotune' => ['-eva-precision', '2', '-eva-slevel-function', 'calculate:1000,solve:1000,apply:0,make:0', *APART],
     'link' => ['-eva-precision', '2', '-eva-slevel-function', 'accept_config:1000,fixpid_pid_init:1000', *APART],
+    'reaction' => ['-eva-precision', '2', *APART],
     'table' => %w[-eva-slevel 400 -eva-auto-loop-unroll 260]
   }.freeze
   CPP = "-Iinclude -Isrc -I#{DRIVERS} -U__GNUC__ -U__has_builtin".freeze
