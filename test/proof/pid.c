@@ -37,10 +37,10 @@ static struct signals any_signals(void)
 #define FINE 0x80u                                  // ki has 24 fractional bits
 #define COARSE HAS(FIXPID_PID_HAS_COARSE_KI, 0x10u) // ki has 8
 #define FILTERED HAS(FIXPID_PID_HAS_FILTER, 0x07u)
-#define MIRRORED HAS(FIXPID_PID_HAS_REVERSE, 0x40u)
+#define UPSIDE_DOWN HAS(FIXPID_PID_HAS_REVERSE, 0x40u)
 #define BY_ERROR HAS(FIXPID_PID_HAS_DERIVATIVE_ON_ERROR, 0x20u)
 #define SCALED HAS(FIXPID_PID_HAS_WEIGHT, 0x08u)
-#define OF_STEP (MIRRORED | BY_ERROR | SCALED)
+#define OF_STEP (UPSIDE_DOWN | BY_ERROR | SCALED)
 #define HOLDING                                                                \
     HAS(FIXPID_PID_HAS_MANUAL, FIXPID_PID_MANUAL | FIXPID_PID_SEEDED)
 #define UNSEEN ((PROOF_WORD == 16) ? 0 : 0x7FFF7FFF) // no `previous` yet
@@ -188,7 +188,8 @@ static bool same(const struct fixpid_pid *a, const struct fixpid_pid *b)
 // sat16 of the difference, turned round in reverse.
 static number error_of(const struct fixpid_pid *x, number goal, number y)
 {
-    return ((x->options & MIRRORED) != 0u) ? sat16(y - goal) : sat16(goal - y);
+    return ((x->options & UPSIDE_DOWN) != 0u) ? sat16(y - goal)
+                                              : sat16(goal - y);
 }
 
 static number goal_of(const struct fixpid_pid *x, number r)
@@ -205,7 +206,7 @@ static number input_of(const struct fixpid_pid *x, number r, number y)
     if ((x->options & BY_ERROR) != 0u) {
         return -1 - error_of(x, r, y);
     }
-    return ((x->options & MIRRORED) != 0u) ? (-1 - y) : y;
+    return ((x->options & UPSIDE_DOWN) != 0u) ? (-1 - y) : y;
 }
 
 static number derivative_of(const struct fixpid_pid *x, number input)
@@ -546,8 +547,8 @@ static void assume_rises(uint16_t gain, number x, number higher)
 static bool pid_is_in_order(const struct fixpid_pid *x, number setpoint,
                             number other)
 {
-    return ((x->options & MIRRORED) != 0u) ? (setpoint >= other)
-                                           : (setpoint <= other);
+    return ((x->options & UPSIDE_DOWN) != 0u) ? (setpoint >= other)
+                                              : (setpoint <= other);
 }
 
 // Domain: the second step has no lower error, and no higher input of its
@@ -711,7 +712,7 @@ static bool legal_config(const struct fixpid_pid_config *config)
             return false;
         }
     }
-    if ((config->reverse && (MIRRORED == 0u)) ||
+    if ((config->reverse && (UPSIDE_DOWN == 0u)) ||
         (config->derivative_on_error && (BY_ERROR == 0u)) ||
         ((b != 0u) && (b != 256u) && (SCALED == 0u))) {
         return false;
@@ -789,7 +790,7 @@ void prove_init(void)
               range_low(config.integral_min, config.integral_max));
         claim(c.integral_max ==
               range_high(config.integral_min, config.integral_max));
-        claim(((c.options & MIRRORED) != 0u) == config.reverse);
+        claim(((c.options & UPSIDE_DOWN) != 0u) == config.reverse);
         claim(((c.options & BY_ERROR) != 0u) == config.derivative_on_error);
         // b = 1 needs no product, and 0 is said by the bool.
         claim(((c.options & SCALED) != 0u) ==
@@ -1023,7 +1024,8 @@ static number seen_by(const struct fixpid_pid *x)
     if ((x->status & FIXPID_PID_FIRST) != 0u) {
         return 0;
     }
-    return ((x->options & MIRRORED) != 0u) ? (-1 - x->previous) : x->previous;
+    return ((x->options & UPSIDE_DOWN) != 0u) ? (-1 - x->previous)
+                                              : x->previous;
 }
 
 // The derivative's input in the step, and where it falls from.
@@ -1050,9 +1052,9 @@ void prove_step_error(void)
     e = error_of(&was, error, 0);
     input = input_of(&given.object, given.setpoint, given.measurement);
     claim(error_of(&given.object, given.setpoint, given.measurement) == e);
-    claim((given.object.options & (MIRRORED | SCALED)) == 0u);
-    claim((given.object.options | MIRRORED | SCALED) ==
-          (was.options | MIRRORED | SCALED));
+    claim((given.object.options & (UPSIDE_DOWN | SCALED)) == 0u);
+    claim((given.object.options | UPSIDE_DOWN | SCALED) ==
+          (was.options | UPSIDE_DOWN | SCALED));
     claim(sound_previous(&given.object));
     if ((was.options & BY_ERROR) != 0u) {
         claim(fall_of(&given.object, input) == fall_of(&was, -1 - e));
@@ -1063,7 +1065,7 @@ void prove_step_error(void)
         claim(((was.status & FIXPID_PID_FIRST) != 0u) ||
               (fall_of(&given.object, input) == error_of(&was, 0, rise)));
         was.previous =
-            (int16_t)(((was.options & MIRRORED) != 0u) ? (-1 - sees) : sees);
+            (int16_t)(((was.options & UPSIDE_DOWN) != 0u) ? (-1 - sees) : sees);
     }
     was.status &= (uint8_t)~FIXPID_PID_FIRST;
     claim(same(&c, &was));
