@@ -213,33 +213,22 @@ static void place_setpoint(struct machine *self)
     self->smooth = false;
 }
 
-static bool is_on_scale(const struct machine *self)
-{
-    return self->setpoint >= 0.04 * self->sensor_max &&
-           self->setpoint <= 0.96 * self->sensor_max;
-}
-
 void machine_draw(struct machine *self, enum machine_kind kind,
                   unsigned long seed, long number)
 {
     static const double noises[] = {0.0, 0.3, 0.5, 1.0, 2.0, 3.0};
+    struct chance *const chance = &self->chance;
 
-    do {
-        struct chance chance = {(uint64_t)seed * 1000003u +
-                                (uint64_t)kind * 1037389u +
-                                (uint64_t)number * 104729u};
-
-        (void)chance_bits(&chance);
-        *self = (struct machine){.kind = kind, .parts = 8, .span = 1.0};
-        self->output_max = chance_happens(&chance, 0.5) ? 255 : 1000;
-        self->sensor_max = chance_happens(&chance, 0.5) ? 1023 : 4095;
-        self->noise = noises[chance_index(&chance, 6)];
-        self->holding = chance_between(&chance, 0.15, 0.8);
-        self->chance = chance;
-        machine_kind_draw(self);
-        place_setpoint(self);
-        number += 100000;
-    } while (!is_on_scale(self));
+    *self = (struct machine){.kind = kind, .parts = 8, .span = 1.0};
+    chance->state = (uint64_t)seed * 1000003u + (uint64_t)kind * 1037389u +
+                    (uint64_t)number * 104729u;
+    (void)chance_bits(chance);
+    self->output_max = chance_happens(chance, 0.5) ? 255 : 1000;
+    self->sensor_max = chance_happens(chance, 0.5) ? 1023 : 4095;
+    self->noise = noises[chance_index(chance, 6)];
+    self->holding = chance_between(chance, 0.15, 0.8);
+    machine_kind_draw(self);
+    place_setpoint(self);
 }
 
 void machine_start(struct machine *self, bool at_rest, uint64_t seed)

@@ -149,6 +149,7 @@ void test_settle_a_heater_loses_what_it_gets(void)
                machine.radiation * (pow(degrees + 273.15, 4.0) -
                                     pow(machine.room + 273.15, 4.0));
         assert_near(1.0, machine.power * machine.holding / lost, 1e-3);
+        assert_near(degrees, machine.rest[2], 1e-3);
     }
 }
 
