@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the oven's and the thermostat's guard knows of their plant,
-// sim/plant/plant_oven.h: by the rule of fixpid_guard.h, in 1/16 of a degree.
+// sim/plant/plant_oven.h, in 1/16 of a degree: what fixpid_guard_from_model
+// makes of it, as constants, which take no code to compute.
 #ifndef OVEN_GUARD_H
 #define OVEN_GUARD_H
 #include "fixpid_guard.h"

@@ -6,6 +6,7 @@
 TEST_SOURCE_FILE("src/an937/fixpid_an937.c")
 TEST_SOURCE_FILE("src/an937/fixpid_an937_more.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
+TEST_SOURCE_FILE("src/guard/fixpid_guard_more.c")
 TEST_INCLUDE_PATH("port/pic/pic18f4520")
 TEST_INCLUDE_PATH("examples/oven")
 
@@ -204,4 +205,21 @@ void test_flipped_bits_in_the_settings_last_until_the_next_slow_tick(void)
     TEST_ASSERT_EQUAL_UINT16(ACCUMULATED_ERROR_LIMIT,
                              oven.accumulated_error_limit);
     TEST_ASSERT_EQUAL_UINT8(1, oven.derivative_period_ticks);
+}
+
+// The plant in steps of a millisecond: full power of 1023 counts raises 6400
+// counts in the end and 1.067 in a step, 1350 steps late.
+void test_oven_guard_is_the_rules(void)
+{
+    static const struct fixpid_guard_model model = {.slope_q24 = 17499,
+                                                    .dead_q4 = 1350 * 16,
+                                                    .noise_q4 = 13,
+                                                    .gain_q8 = 1602};
+    struct fixpid_guard_config config = OVEN_GUARD(GUARD_PATIENCE_MS);
+
+    TEST_ASSERT_TRUE(fixpid_guard_from_model(&config, &model));
+    TEST_ASSERT_EQUAL_UINT16(config.band, GUARD_BAND);
+    TEST_ASSERT_EQUAL_UINT16(2944, config.patience);
+    TEST_ASSERT_UINT16_WITHIN(60, config.patience, GUARD_PATIENCE_MS);
+    TEST_ASSERT_FALSE(config.noisy);
 }

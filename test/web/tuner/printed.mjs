@@ -121,7 +121,7 @@ for (const id of ['oven', 'axis']) {
     const config = guardOf(results, { outputMin: s.OUTPUT_MIN, outputMax: s.OUTPUT_MAX, reverse: id === 'axis', top: 4095, rest: 0, setpoint: null });
     const model = [results.SLOPE, results.DEAD, results.NOISE, results.GAIN].map((number) => `${number}u`);
     const text = `${guardText(config)}\nstatic struct fixpid_guard guard;\nstatic struct fixpid_guard_config found;\n` +
-        `static const struct fixpid_guard_model model = {${model}, 0};`;
+        `static const struct fixpid_guard_model model = {${model}, 0, 0};`;
     checkNone(`the library takes a guard of ${id}, and would choose it`, faultsOf('guard', text, () => ['fixpid_guard_init(&guard, &guard_config)',
         '(found = guard_config, found.band = 0, fixpid_guard_from_model(&found, &model))', 'found.band == guard_config.band',
         'found.patience == guard_config.patience', 'found.noisy == guard_config.noisy'], 'guard'));
