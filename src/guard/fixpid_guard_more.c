@@ -13,9 +13,9 @@
 #define NOISY_PATIENCE_MIN 16u
 
 // As fixpid_autotune has it for a plant without a static gain.
-#define INTEGRATING UINT32_C(0xFFFFFFFF)
+#define INTEGRATING ((uint32_t)0xFFFFFFFFu)
 
-#define TOP_BIT UINT32_C(0x80000000)
+#define TOP_BIT ((uint32_t)0x80000000u)
 
 // 64 bits, in two words: SDCC has no such integers for a PIC.
 struct two_words {
@@ -56,12 +56,15 @@ static void divide_wide(struct two_words *value, uint32_t divisor)
 // ceil(2 K)
 static uint32_t two_gains(uint32_t gain_q8)
 {
-    const uint32_t whole = gain_q8 >> 7;
+    uint32_t gains = gain_q8 >> 7;
 
     if (gain_q8 == INTEGRATING) {
         return 0;
     }
-    return ((gain_q8 & 0x7Fu) != 0u) ? (whole + 1u) : whole;
+    if ((gain_q8 & 0x7Fu) != 0u) {
+        gains++;
+    }
+    return gains;
 }
 
 static uint32_t band_for(const struct fixpid_guard_model *model)
