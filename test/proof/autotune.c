@@ -10,9 +10,9 @@ struct fixpid_autotune_record nondet_record(void);
 
 #include "autotune/fixpid_autotune.c"
 #include "autotune/fixpid_autotune_cycle.c"
-#include "autotune/fixpid_autotune_relay.c"
 #include "autotune/fixpid_autotune_more.c"
 #include "autotune/fixpid_autotune_record.c"
+#include "autotune/fixpid_autotune_relay.c"
 
 static void claim_started(bool legal)
 {

@@ -3,9 +3,9 @@
 
 #include "autotune/fixpid_autotune.c"
 #include "autotune/fixpid_autotune_cycle.c"
-#include "autotune/fixpid_autotune_relay.c"
 #include "autotune/fixpid_autotune_more.c"
 #include "autotune/fixpid_autotune_record.c"
+#include "autotune/fixpid_autotune_relay.c"
 #include "autotune/fixpid_autotune_result.c"
 
 static void ask(struct fixpid_autotune *c)
