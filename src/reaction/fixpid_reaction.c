@@ -177,8 +177,8 @@ void fixpid_reaction_reset(FIXPID_DATA struct fixpid_reaction *self)
     SELF.base = 0;
     SELF.band = 0;
     SELF.sum = 0;
-    for (i = 0; i < BLOCKS; i++) {
-        SELF.record[i] = 0;
+    for (i = BLOCKS; i != 0u; i--) {
+        SELF.record[i - 1u] = 0;
     }
 }
 

@@ -139,17 +139,17 @@ static void is_over(uint8_t status)
     is(status);
     TEST_ASSERT_EQUAL_INT16(config.output_rest, read(start));
     TEST_ASSERT_EQUAL_INT16(config.output_rest, read(INT16_MIN));
+    TEST_ASSERT_EQUAL_INT16(config.output_rest, read(INT16_MAX));
     is(status);
     results_are_as_defined();
 }
 
 // The reading rises by `slope` a step, `delay` steps after the output.
-static void ramp(unsigned delay, int16_t slope)
+static void rise(unsigned delay, int16_t slope)
 {
     int16_t counts = 0;
 
-    begin();
-    reads(delay, 0);
+    reads(LISTENING + delay, 0);
     while (fixpid_reaction_status(&reaction_controller) ==
            FIXPID_REACTION_RUNNING) {
         counts = (int16_t)(counts + slope);
@@ -314,6 +314,20 @@ void test_step_a_reading_at_the_stop_ends_it(void)
     is(FIXPID_REACTION_LIMIT);
 }
 
+void test_step_without_noise_the_first_jump_is_the_band_to_1022(void)
+{
+    config.measurement_stop = 1024;
+    for (int16_t jump = -1023; jump <= 1023; jump++) {
+        const int16_t counts = (int16_t)(jump < 0 ? -jump : jump);
+
+        begin();
+        reads(1, 0);
+        reads(1, jump);
+        TEST_ASSERT_EQUAL_UINT16(counts < 1022 ? counts : 1022,
+                                 reaction_controller.band);
+    }
+}
+
 void test_step_without_a_movement_it_ends_after_timeout_steps(void)
 {
     config.timeout_steps = 7;
@@ -364,6 +378,12 @@ void test_step_32768_steps_of_the_heat_up_are_too_slow(void)
     is_over(FIXPID_REACTION_TOO_SLOW);
 }
 
+static void ramp(unsigned delay, int16_t slope)
+{
+    TEST_ASSERT_TRUE(init());
+    rise(delay, slope);
+}
+
 // 4 counts a step of 100 of the output, 10 steps late: a slope of 0.04 and,
 // with a quantum of 4 counts and one and a half steps, a delay of 12.5 steps
 // and a half of the four counts, which is half a step.
@@ -378,6 +398,21 @@ void test_model_a_ramp_has_its_slope_and_its_delay(void)
                               process.slope_q24);
     TEST_ASSERT_UINT32_WITHIN(8, 12 * 16, process.dead_q4);
     TEST_ASSERT_EQUAL_UINT16(16, process.noise_q4);
+}
+
+void test_reset_starts_the_same_experiment_again(void)
+{
+    struct fixpid_pid_gains first;
+    struct fixpid_pid_gains again;
+
+    ramp(10, 4);
+    TEST_ASSERT_TRUE(gains_are_as_defined(0, 16, &first));
+    reset();
+    is(FIXPID_REACTION_RUNNING);
+    TEST_ASSERT_EQUAL_UINT8(0, fixpid_reaction_progress(&reaction_controller));
+    rise(10, 4);
+    TEST_ASSERT_TRUE(gains_are_as_defined(0, 16, &again));
+    TEST_ASSERT_EQUAL_UINT32(first.ki_q24, again.ki_q24);
 }
 
 // The same way down, however output and reading lead there.
