@@ -131,11 +131,11 @@ module Modules
       calls: [{ kinds: %i[avr arm], flags: %w[-DCALLS_BY_KIND],
                 program: %w[test/support/numbers_control.c test/support/numbers_reaction.c test/chips/modules/steps_reaction.c],
                 functions: { 'reaction_ordinary_step' => 'ordinary step', 'reaction_block_step' => 'end of a block' } },
-              { kinds: %i[avr arm], functions: { 'fixpid_reaction_result' => 'result' } },
+              { kinds: %i[avr arm], functions: { 'fixpid_reaction_result' => 'result' }, unbounded: %w[fixpid_reaction_result] },
               { kinds: %i[pic], pic: %w[pointer object], rows: 16,
                 functions: { 'fixpid_reaction_step' => 'any step', 'fixpid_reaction_result' => 'result' } }].map do |call|
         { object: 'reaction', calls: 10_000, **call,
-          turns: { 'fixpid_reaction_scaled' => 8, 'fixpid_reaction_begin' => 5, 'fixpid_reaction_halve' => 5,
+          turns: { **%w[scaled origin needed step].to_h { |name| ["fixpid_reaction_#{name}", 8] }, 'fixpid_reaction_begin' => 5, 'fixpid_reaction_halve' => 5,
                    'fixpid_reaction_end_block' => [16, 7], 'measure' => 7, 'steepest' => 7, 'take_tangent' => [8, 16], 'height_of' => [8, 16],
                    'ratio' => 56, 'fixpid_reaction_result' => 8, 'take_gains' => 8 } }
       end
