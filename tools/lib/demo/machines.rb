@@ -15,6 +15,7 @@ def some_machines
   safe = study_rows('autotune', STUDY_SEEDS[0], 4, 'kinds').of('PI safe')
   Report.exactly('machines, PI safe: unstable', safe.unstable, 0)
   Report.at_least('machines with gains', safe.possible.gains_percent, 80.0, '%')
+  Report.at_most('machines, PI safe: Ms of 95 %', safe.ms(0.95), 1.9)
   check_heaters(heater_rows(HEATER_SEED, 10), 60, 76)
   check_boilers
 end
@@ -54,6 +55,7 @@ def check_heaters(rows, once, last)
   Report.at_least('heaters with gains at once', at_once(safe).gains, once)
   Report.at_least('heaters with gains, or with less output', at_last(safe).gains, last)
   Report.at_most('heaters, PI safe: Ms above 2.2', safe.thin, 1)
+  Report.at_most('heaters, PI safe: Ms of 95 %', safe.ms(0.95), 1.75)
   Report.exactly('heaters: unstable', rows.unstable, 0)
 end
 
