@@ -40,7 +40,7 @@ module Docs
     def update(mode, root, loops)
       return true if %w[run renew].include?(mode)
 
-      parts = mode == 'long' ? long_parts(loops) : parts_of(loops)
+      parts = Extent.long? ? long_parts(loops) : parts_of(loops)
       stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       NamedFigures.keep(Tables.study_figures, root) if mode == 'long' && loops.include?('random_plants')

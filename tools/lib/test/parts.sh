@@ -265,6 +265,7 @@ part_long() {
     count 'the search for the worst step' '^ok ' '^FAILED ' ruby test/tools/cost/search.rb
     count 'tools/cost' '^ok ' '^FAILED ' tools/cost --check
     count 'tools/demo' ' ok$' ' FAILED$' tools/demo --verbose --whole --check-docs chip faults faults_chip faults_places guard
+    count 'tools/demo --long' ' ok$' ' FAILED$' tools/demo --verbose --long --check-docs random_plants
 }
 
 # The runner, and what it runs in a few minutes.
