@@ -103,6 +103,7 @@ static void heat(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
     const int16_t far = fixpid_reaction_reach(self);
     int16_t x = apart(reading, SELF.start);
     uint16_t counts;
+    int32_t sum;
 
     // Not in the step that judges, which is long enough.
     if (SELF.blocks >= BLOCKS) {
@@ -122,8 +123,9 @@ static void heat(FIXPID_DATA struct fixpid_reaction *self, int16_t reading)
         SELF.band = (jump < FIRST_JUMP_MAX) ? jump : FIRST_JUMP_MAX;
     }
     counts = (uint16_t)((uint16_t)x + (uint16_t)far); // at most 2^15 scaled
-    SELF.sum = (uint32_t)fixpid_add32((int32_t)SELF.sum,
-                                      fixpid_reaction_scaled(self, counts));
+    counts = fixpid_reaction_scaled(self, counts);
+    sum = fixpid_add32((int32_t)SELF.sum, (int32_t)counts);
+    SELF.sum = (uint32_t)sum;
     SELF.left = (uint16_t)(SELF.left + MINUS_1);
     if (SELF.left == 0u) {
         fixpid_reaction_end_block(self);
