@@ -303,7 +303,7 @@ bool reference_reaction_result(const struct reference_reaction *self,
     height = height * (robustness_q4 + 18) * 19 / 256;
     kp = ratio(change(self), height, scale_bits(self) + 10);
     c = ratio(height, d, self->b + 3);
-    if (kp > 32767 || c > (1 << 26) - 1) {
+    if (kp > 32767 || c > (INT64_C(1) << 26) - 1) {
         return false;
     }
     if (rule == FIXPID_REACTION_PI) {
