@@ -304,6 +304,10 @@ void test_step_a_reading_at_the_stop_ends_it(void)
     reads(1, 1000);
     is_over(FIXPID_REACTION_LIMIT);
     // of more than 16384 counts, 16384
+    config.measurement_stop = 16385;
+    begin();
+    reads(1, 16384);
+    is_over(FIXPID_REACTION_LIMIT);
     config.measurement_stop = 32767;
     start = -32768;
     begin();
@@ -413,6 +417,7 @@ void test_reset_starts_the_same_experiment_again(void)
     rise(10, 4);
     TEST_ASSERT_TRUE(gains_are_as_defined(0, 16, &again));
     TEST_ASSERT_EQUAL_UINT32(first.ki_q24, again.ki_q24);
+    TEST_ASSERT_EQUAL_UINT8(4, reaction_controller.scale);
 }
 
 // The same way down, however output and reading lead there.

@@ -117,6 +117,7 @@ def runs_by_name(file)
   when 'fixpid_autotune_private' then autotune_runs(Dir['src/autotune/*.c'].sort)
   when 'fixpid_autotune_equations' then autotune_runs(%w[src/autotune/fixpid_autotune_result.c])
   when 'fixpid_autotune_constants' then [run_of('test_fixpid_autotune_arith'), *autotune_runs(%w[src/autotune/fixpid_autotune_result.c])]
+  when 'fixpid_reaction_private' then [Run.new('test_fixpid_reaction', Dir['src/reaction/*.c'].sort)]
   when 'fixpid_table_text' then runs_of('src/table/fixpid_table.c')
   when 'fixpid_difference'
     %w[guard table].map { |noun| Run.new("test_fixpid_#{noun}", ["src/#{noun}/fixpid_#{noun}.c"]) }
