@@ -7,12 +7,14 @@
 #include "fixpid_autotune.h"
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
+#include "fixpid_reaction.h"
 #include "numbers.h"
 #include "numbers_control.h"
 #include "numbers_pid.h"
 #include "reference.h"
 #include "reference_control.h"
 #include "reference_pid.h"
+#include "reference_reaction.h"
 #include "unity.h"
 
 TEST_SOURCE_FILE("test/support/numbers_guard.c")
@@ -32,6 +34,8 @@ TEST_SOURCE_FILE("src/autotune/fixpid_autotune_more.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_relay.c")
 TEST_SOURCE_FILE("src/autotune/fixpid_autotune_record.c")
 TEST_SOURCE_FILE("src/guard/fixpid_guard.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction.c")
+TEST_SOURCE_FILE("src/reaction/fixpid_reaction_block.c")
 
 #define COUNT 5
 
@@ -214,5 +218,27 @@ void test_guard_several_instances_keep_their_own_state(void)
                                  now[i].measurement, now[i].output),
             fixpid_guard_step(&guards[i], now[i].setpoint, now[i].measurement,
                               now[i].output));
+    }
+}
+
+void test_reaction_several_instances_keep_their_own_state(void)
+{
+    struct fixpid_reaction reactions[COUNT];
+    struct reference_reaction references[COUNT];
+
+    for (int i = 0; i < COUNT; i++) {
+        const struct fixpid_reaction_config config = {
+            .output_drive = (int16_t)(100 * (i + 1)), .measurement_stop = 9999};
+
+        TEST_ASSERT_TRUE(fixpid_reaction_init(&reactions[i], &config));
+        TEST_ASSERT_TRUE(reference_reaction_init(&references[i], &config));
+    }
+    for (int at = 0; at < 100; at++) {
+        for (int i = 0; i < COUNT; i++) {
+            const int16_t y = (int16_t)(at < 40 ? 0 : (at - 40) * (i + 5));
+
+            TEST_ASSERT_EQUAL_INT16(reference_reaction_step(&references[i], y),
+                                    fixpid_reaction_step(&reactions[i], y));
+        }
     }
 }
