@@ -99,7 +99,7 @@ static void claim_same(const struct fixpid_autotune *a,
     claim(a->noise == b->noise);
     claim(a->edge == b->edge);
     claim((a->centre == b->centre) && (a->half == b->half));
-    claim(a->first_on == b->first_on);
+    claim((a->first_on == b->first_on) && (a->first_steps == b->first_steps));
     claim(same_config(&a->config, &b->config));
     claim(equal_sums(&a->sums[0], &b->sums[0]));
     claim(equal_sums(&a->sums[1], &b->sums[1]));
@@ -111,20 +111,6 @@ static void claim_same(const struct fixpid_autotune *a,
 static number asked_by_noise(const struct fixpid_autotune *x)
 {
     return 1 + floor_by(x->noise + floor_by(x->noise, 1) + 16, 5);
-}
-
-static number swing_wanted(const struct fixpid_autotune *x)
-{
-    return (x->config.swing == 0u) ? (24 * asked_by_noise(x)) : x->config.swing;
-}
-
-// 3/16 of the wanted swing, and what the noise asks for at least.
-static number hysteresis_of(const struct fixpid_autotune *x)
-{
-    const number wanted = swing_wanted(x);
-
-    return greater(asked_by_noise(x),
-                   floor_by(wanted, 3) + floor_by(wanted, 4));
 }
 
 // How far below its centre the relay of a phase goes, and how far above.
@@ -164,6 +150,33 @@ static number output_of(const struct fixpid_autotune *x)
     }
     return (x->side == HIGH_SIDE) ? high_output(x, x->state)
                                   : low_output(x, x->state);
+}
+
+// The longest relay is three halves.
+static number third_of(number relay)
+{
+    return greater(floor_by(relay * 85, 8), 2);
+}
+
+// At rest near the setpoint a small relay about that output, otherwise the
+// whole range.
+static void start_as_defined(struct fixpid_autotune *x, number deviation)
+{
+    const struct fixpid_autotune_kept *const k = &x->config;
+
+    x->side = (deviation <= 0) ? HIGH_SIDE : LOW_SIDE;
+    x->elapsed = 0;
+    x->lowest = x->highest;
+    x->edge = unsigned16(asked_by_noise(x));
+    x->centre = k->output_rest;
+    x->state = IN_FIND;
+    if ((size_of(deviation) < 24 * asked_by_noise(x)) &&
+        inside(k->output_rest, (number)k->output_min + 1,
+               (number)k->output_max - 1)) {
+        x->state = IN_CENTRE;
+        x->half = unsigned16(
+            third_of(floor_by((number)k->output_max - k->output_min, 3)));
+    }
 }
 
 static void output_as_defined(struct fixpid_autotune *x)
@@ -250,11 +263,7 @@ static void noise_as_defined(struct fixpid_autotune *x, number deviation)
         x->noise = unsigned16(x->noise + lesser(bend, 1023));
     }
     if (x->elapsed == 34) {
-        x->state = IN_FIND;
-        x->side = (deviation <= 0) ? HIGH_SIDE : LOW_SIDE;
-        x->elapsed = 0;
-        x->lowest = x->highest;
-        x->edge = unsigned16(hysteresis_of(x));
+        start_as_defined(x, deviation);
         output_as_defined(x);
     }
     end(&noise_part, x);
@@ -277,7 +286,10 @@ static void sum_as_defined(struct fixpid_autotune *x, number deviation)
     sums->steps = unsigned16((number)sums->steps + 1);
     sums->on_steps = unsigned16((number)sums->on_steps + (high ? 1 : 0));
     if (x->elapsed == 1u) {
-        sums->rise = signed16(sums->rise + (high ? -turn : turn));
+        // The sums of relays that look for the setpoint are only counted.
+        claim((x->state <= IN_CENTRE) ||
+              inside(sums->rise + (high ? -turn : turn), -32768, 32767));
+        sums->rise = (int16_t)(sums->rise + (high ? -turn : turn));
     }
     if (sums->steps == 32767u) {
         over_as_defined(x, FIXPID_AUTOTUNE_TOO_SLOW);
@@ -317,20 +329,31 @@ static unsigned verdict_of(const struct fixpid_autotune *x)
     if (x->last_period < 10u) {
         return FIXPID_AUTOTUNE_TOO_FAST;
     }
-    return ((number)x->highest - x->lowest < 5 * asked_by_noise(x))
+    return ((number)x->highest - x->lowest < 4 * asked_by_noise(x))
                ? FIXPID_AUTOTUNE_TOO_SMALL
                : FIXPID_AUTOTUNE_DONE;
 }
 
+// |on others - others_on steps| <= allowed others, whichever numbers these are.
+bool __CPROVER_uninterpreted_same_share(uint16_t on, uint16_t steps,
+                                        uint16_t others_on, uint16_t others,
+                                        uint16_t allowed);
+
+static bool same_share(number on, number steps, number others_on, number others,
+                       number allowed)
+{
+    return __CPROVER_uninterpreted_same_share(
+        unsigned16(on), unsigned16(steps), unsigned16(others_on),
+        unsigned16(others), unsigned16(allowed));
+}
+
 static bool alike; // what the open part said
 
-// The cycle is like the one before it, or in the third phase, as long at high
-// as those of the first.
+// The cycle is like the one before it, or in the third phase, for the same part
+// at high as all of them.
 static bool is_alike(const struct fixpid_autotune *x, number before)
 {
     const number period = x->last_period;
-    const number others = (number)x->config.cycles + x->averaged;
-    const number on = period - x->elapsed;
 
     alike_part.due = true;
     alike_part.deviation = before;
@@ -342,19 +365,18 @@ static bool is_alike(const struct fixpid_autotune *x, number before)
     if (x->state != IN_THIRD) {
         return size_of(period - before) <= floor_by(period, 3) + 1;
     }
-    // A solver is slow at products of other widths than the code's.
-    return size_of((number)((uint32_t)(others + 1) * (uint16_t)on) -
-                   x->sums[0].on_steps) <=
-           (uint32_t)others * (uint16_t)(floor_by(period, 5) + 1);
+    return same_share(period - x->elapsed, period, x->sums[0].on_steps,
+                      x->sums[0].steps, floor_by(period, 5) + 1);
 }
 
 static void relay_complete(struct fixpid_autotune *x)
 {
     if (x->state == IN_THIRD) {
-        const number on_apart =
-            size_of((number)x->sums[0].on_steps - (2 * (number)x->first_on));
+        const number last = (number)x->sums[0].steps - x->first_steps;
+        const number on = (number)x->sums[0].on_steps - x->first_on;
 
-        if (on_apart <= floor_by(x->sums[0].steps, 7) + 2) {
+        if (same_share(on, last, x->first_on, x->first_steps,
+                       floor_by(last, 6) + 2)) {
             over_as_defined(x, verdict_of(x));
         } else {
             again_as_defined(x);
@@ -363,20 +385,48 @@ static void relay_complete(struct fixpid_autotune *x)
     }
     if (x->state == IN_FIRST) {
         x->first_on = x->sums[0].on_steps;
+        x->first_steps = x->sums[0].steps;
         clear_as_defined(&x->sums[1]);
     }
     x->averaged = FRESH_RELAY;
     x->state++;
 }
 
-// What recentre makes of the last cycle: its proof says which relay it is.
+// What the last cycle makes: its proof says which relay it is.
 static void some_relay(struct fixpid_autotune *x)
 {
+    const number low = low_output(x, x->state);
+    const number high = high_output(x, x->state);
+
     (void)begin(&centre_part, x, 0);
-    x->centre = (int16_t)clamp(nondet_int16(), x->config.output_min,
-                               x->config.output_max);
+    x->centre = (int16_t)clamp(nondet_int16(), low, high);
     x->half = (uint16_t)clamp(nondet_uint16(), 2, 21759);
+    x->edge = (uint16_t)clamp(nondet_uint16(), 1, 30208);
     end(&centre_part, x);
+}
+
+// Much like the one that it was made from, or there were too many.
+static bool fits_as_defined(const struct fixpid_autotune *x, number centre,
+                            number half)
+{
+    return (x->seen >= 20u) ||
+           ((size_of(x->centre - centre) <= half) && (x->half <= 2 * half) &&
+            (half <= 2 * (number)x->half));
+}
+
+static void centre_as_defined(struct fixpid_autotune *x)
+{
+    const number centre = x->centre;
+    const number half = x->half;
+
+    some_relay(x);
+    x->averaged = FRESH_RELAY;
+    if (x->state == IN_FIND) {
+        x->state = IN_CENTRE;
+    } else if (fits_as_defined(x, centre, half)) {
+        x->state = IN_FIRST;
+        clear_as_defined(&x->sums[0]);
+    }
 }
 
 static void cycle_as_defined(struct fixpid_autotune *x)
@@ -391,12 +441,7 @@ static void cycle_as_defined(struct fixpid_autotune *x)
     } else if (x->averaged == FRESH_RELAY) {
         x->averaged = 0;
     } else if (x->state <= IN_CENTRE) {
-        some_relay(x);
-        if (x->state == IN_CENTRE) {
-            clear_as_defined(&x->sums[0]);
-        }
-        x->state++;
-        x->averaged = FRESH_RELAY;
+        centre_as_defined(x);
     } else if (!is_alike(x, before)) {
         again_as_defined(x);
     } else {
@@ -438,17 +483,39 @@ static void turn_as_defined(struct fixpid_autotune *x, number deviation)
     end(&turn_part, x);
 }
 
+// The setpoint is beyond the side that does not reach it. With that side at the
+// end of the range it is waited for.
 static void lost_as_defined(struct fixpid_autotune *x)
 {
+    const number level = x->output;
+    const bool high = x->side == HIGH_SIDE;
+
     (void)begin(&lost_part, x, 0);
-    clear_as_defined(&x->sums[0]);
-    x->state = IN_FIND;
-    x->averaged = FRESH_RELAY;
-    x->period = 0;
-    x->elapsed = 1;
-    x->seen = (uint8_t)(x->seen + 8);
-    output_as_defined(x);
+    if (level != (high ? x->config.output_max : x->config.output_min)) {
+        x->seen = (uint8_t)(x->seen + 4);
+        if (x->seen >= 48u) {
+            over_as_defined(x, FIXPID_AUTOTUNE_IRREGULAR);
+        } else {
+            clear_as_defined(&x->sums[0]);
+            x->state = IN_CENTRE;
+            x->averaged = FRESH_RELAY;
+            x->period = 0;
+            x->elapsed = 1;
+            x->half = (uint16_t)((x->half < 10000u) ? (2 * x->half) : x->half);
+            x->centre =
+                high ? signed16(lesser(level + x->half, x->config.output_max))
+                     : signed16(greater(level - x->half, x->config.output_min));
+            output_as_defined(x);
+        }
+    }
     end(&lost_part, x);
+}
+
+// As long as a cycle was; the first one may have been half of one.
+static number longest_cycle_of(const struct fixpid_autotune *x)
+{
+    return (x->seen < 2u) ? floor_by(x->config.timeout_steps, 4)
+                          : x->last_period;
 }
 
 static void relay_as_defined(struct fixpid_autotune *x, number deviation)
@@ -467,7 +534,8 @@ static void relay_as_defined(struct fixpid_autotune *x, number deviation)
     if (x->state >= IN_NOISE) {
         turn_as_defined(x, deviation);
     }
-    if ((x->state >= IN_CENTRE) && (floor_by(x->elapsed, 2) > x->last_period)) {
+    if ((x->state >= IN_CENTRE) &&
+        (floor_by(x->elapsed, 2) > longest_cycle_of(x))) {
         lost_as_defined(x);
     }
     end(&relay_part, x);
@@ -521,19 +589,35 @@ static bool fresh(const struct fixpid_autotune *x)
     return x->averaged == FRESH_RELAY;
 }
 
-// The turns in the sums of this phase.
+// The turns in the sums of this phase, of which those of a relay that looks for
+// the setpoint have any number.
 static number turns_now(const struct fixpid_autotune *x)
 {
-    const number cycles = x->config.cycles;
-    const number before = (x->state == IN_THIRD)    ? cycles
-                          : (x->state == IN_CENTRE) ? 1
-                                                    : 0;
+    const number before = (x->state == IN_THIRD) ? x->config.cycles : 0;
 
+    if (x->state <= IN_CENTRE) {
+        return 17;
+    }
     if (fresh(x)) {
         return 2 * before;
     }
     return (2 * (before + x->averaged)) + ((x->side == LOW_SIDE) ? 1 : 0) +
            ((x->elapsed > 1u) ? 1 : 0);
+}
+
+// From the second phase on, the sums of the first begin with those that are
+// noted.
+static bool sound_first(const struct fixpid_autotune *x)
+{
+    return (x->state <= IN_FIRST) || ((x->first_on <= x->sums[0].on_steps) &&
+                                      (x->first_steps <= x->sums[0].steps));
+}
+
+// A cycle that counts is in the sums of its phase.
+static bool counted_cycle(const struct fixpid_autotune *x)
+{
+    return fresh(x) || (x->state <= IN_CENTRE) ||
+           (x->period <= x->sums[(x->state == IN_SECOND) ? 1 : 0].steps);
 }
 
 // Its cycles, of which the last began with a switch to high. In the first half
@@ -543,11 +627,11 @@ static bool sound_cycle(const struct fixpid_autotune *x)
     const bool low = x->side == LOW_SIDE;
     const number before = low ? 32766 : 0; // of this cycle, before this half
 
-    return inside(x->seen, 0, (x->state == IN_FIND) ? 55 : 47) &&
+    return inside(x->seen, 0, 47) &&
            (fresh(x) ||
             (x->averaged < ((x->state > IN_CENTRE) ? x->config.cycles : 1))) &&
            (x->period <= before + greater((number)x->elapsed - 1, 0)) &&
-           (fresh(x) || (x->elapsed > 0u)) &&
+           (fresh(x) || (x->elapsed > 0u)) && counted_cycle(x) &&
            (fresh(x) || !low ||
             (((number)x->highest > x->edge) && (x->period >= x->elapsed)));
 }
@@ -560,7 +644,7 @@ static bool sound_while_relay(const struct fixpid_autotune *x)
 
     return autotune_has_relay(x) && sound_cycle(x) &&
            (x->lowest <= x->highest) && (x->noise <= 32736u) &&
-           inside(x->edge, 1, 6912) && (x->first_on < 32767u) &&
+           inside(x->edge, 1, 30208) && sound_first(x) &&
            sound_sums(&x->sums[0], second ? all_turns : turns_now(x)) &&
            sound_sums(&x->sums[1], second ? turns_now(x) : all_turns);
 }
@@ -574,13 +658,14 @@ static bool autotune_may_switch(const struct fixpid_autotune *x,
     return is_deviation(deviation) && legal_config(&x->config) &&
            inside(x->state, IN_FIND, IN_THIRD) && (x->side <= HIGH_SIDE) &&
            (x->elapsed < x->config.timeout_steps) &&
-           (x->highest != INT16_MIN) && (x->lowest != INT16_MIN) &&
-           sound_while_relay(x);
+           (x->output == output_of(x)) && (x->highest != INT16_MIN) &&
+           (x->lowest != INT16_MIN) && sound_while_relay(x);
 }
 
 // Domain: the end of a cycle: the configuration is legal, the phase and the
-// side are a relay's, noise, extremes and sums are what they can be, and unless
-// the relay is fresh its cycle has switched on both sides.
+// side are a relay's, the output is still the low one, noise, extremes and sums
+// are what they can be, and unless the relay is fresh its cycle has switched on
+// both sides.
 static bool autotune_may_end(const struct fixpid_autotune *x, number deviation)
 {
     const number cycles = x->config.cycles;
@@ -588,16 +673,18 @@ static bool autotune_may_end(const struct fixpid_autotune *x, number deviation)
 
     return is_deviation(deviation) && legal_config(&x->config) &&
            inside(x->state, IN_FIND, IN_THIRD) && autotune_has_relay(x) &&
-           (x->noise <= 32736u) && inside(x->edge, 1, 6912) &&
-           (x->side <= HIGH_SIDE) && inside(x->seen, 0, 55) &&
-           is_deviation(x->highest) && is_deviation(x->lowest) &&
-           (x->lowest <= x->highest) &&
+           (x->output == low_output(x, x->state)) && (x->noise <= 32736u) &&
+           inside(x->edge, 1, 30208) && (x->side <= HIGH_SIDE) &&
+           inside(x->seen, 0, 47) && is_deviation(x->highest) &&
+           is_deviation(x->lowest) && (x->lowest <= x->highest) &&
            (fresh(x) ||
             ((x->averaged < (finding ? 1 : cycles)) &&
              (x->period >= x->elapsed) && ((number)x->highest > x->edge) &&
              (x->lowest < -(number)x->edge))) &&
            (x->sums[0].on_steps <= x->sums[0].steps) &&
-           (x->sums[1].on_steps <= x->sums[1].steps) && (x->first_on < 32767u);
+           (x->sums[1].on_steps <= x->sums[1].steps) && sound_first(x) &&
+           (x->sums[0].steps < 32767u) && (x->sums[1].steps < 32767u) &&
+           counted_cycle(x) && (x->period <= 65534u);
 }
 
 // What init and reset establish from any bytes, and a step keeps.
@@ -637,21 +724,22 @@ static bool autotune_is_running(const struct fixpid_autotune *x)
 
 // What the parts rely on. Those before them show it where they are called.
 
-// Domain: a step of the noise: outputs and swing are legal, and noise and
-// readings are what so many steps can make.
+// Domain: a step of the noise: the outputs are legal, and noise and readings
+// are what so many steps can make.
 static bool autotune_may_listen(const struct fixpid_autotune *x,
                                 number deviation)
 {
     return is_deviation(deviation) && (x->state == IN_NOISE) &&
            (x->config.output_min < x->config.output_max) &&
-           ((x->config.swing == 0u) || inside(x->config.swing, 8, 16383)) &&
+           inside(x->config.output_rest, x->config.output_min,
+                  x->config.output_max) &&
            (x->elapsed < 34u) && (x->highest != INT16_MIN) &&
            (x->lowest != INT16_MIN) &&
            (x->noise <= 1023 * greater((number)x->elapsed - 2, 0));
 }
 
-// Domain: the phase and the side are a relay's, and sums are of at most 15 or
-// 16 turns.
+// Domain: the phase and the side are a relay's, and the sums of a relay that
+// measures are of at most 15 or 16 turns.
 static bool autotune_may_sum(const struct fixpid_autotune *x, number deviation)
 {
     const struct fixpid_autotune_sums *const sums =
@@ -659,10 +747,12 @@ static bool autotune_may_sum(const struct fixpid_autotune *x, number deviation)
 
     return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
            (x->side <= HIGH_SIDE) &&
-           sound_sums(sums, (x->elapsed == 1u) ? 15 : 16);
+           sound_sums(sums, (x->state <= IN_CENTRE) ? 17
+                            : (x->elapsed == 1u)    ? 15
+                                                    : 16);
 }
 
-// Domain: the phase and the side are a relay's, the hysteresis is 1 to 6912,
+// Domain: the phase and the side are a relay's, the hysteresis is 1 to 30208,
 // and where a cycle ends the domain of its end holds.
 static bool autotune_may_turn(const struct fixpid_autotune *x, number deviation)
 {
@@ -670,28 +760,36 @@ static bool autotune_may_turn(const struct fixpid_autotune *x, number deviation)
 
     return is_deviation(deviation) && inside(x->state, IN_FIND, IN_THIRD) &&
            (x->side <= HIGH_SIDE) && (x->elapsed < 32767u) &&
-           inside(x->edge, 1, 6912) && autotune_has_relay(x) &&
+           inside(x->edge, 1, 30208) && autotune_has_relay(x) &&
            (!ends || autotune_may_end(x, deviation));
 }
 
-// Domain: a relay that looks for its centre: the configuration is legal, and
-// the cycle has switched on both sides.
+// Domain: a relay that looks for its centre: the configuration is legal, the
+// output is still the low one, and the cycle has switched on both sides.
 static bool autotune_may_recentre(const struct fixpid_autotune *x)
 {
     return legal_config(&x->config) && inside(x->state, IN_FIND, IN_CENTRE) &&
-           autotune_has_relay(x) && (x->noise <= 32736u) &&
-           inside(x->edge, 1, 6912) && is_deviation(x->highest) &&
-           is_deviation(x->lowest) && ((number)x->highest > x->edge) &&
-           (x->lowest < -(number)x->edge);
+           (x->output == low_output(x, x->state)) && autotune_has_relay(x) &&
+           (x->noise <= 32736u) && inside(x->edge, 1, 30208) &&
+           is_deviation(x->highest) && is_deviation(x->lowest) &&
+           ((number)x->highest > x->edge) && (x->lowest < -(number)x->edge);
 }
 
-// Domain: two cycles of a relay with fewer cycles than asked for, of which the
-// last half is within its period.
+// Domain: the noise is what 32 steps can make.
+static bool autotune_has_noise(const struct fixpid_autotune *x)
+{
+    return x->noise <= 32736u;
+}
+
+// Domain: two cycles of a relay, of which the last half is within its period,
+// and cycles in the sums, at high for a part of them.
 static bool autotune_may_compare(const struct fixpid_autotune *x)
 {
     return inside(x->state, IN_FIRST, IN_THIRD) &&
-           inside(x->config.cycles, 1, 4) && (x->averaged < x->config.cycles) &&
-           (x->last_period >= x->elapsed);
+           (x->last_period >= x->elapsed) && (x->last_period <= 65534u) &&
+           ((x->state != IN_THIRD) ||
+            ((x->last_period <= 32767u) && (x->sums[0].steps <= 32767u) &&
+             (x->sums[0].on_steps <= x->sums[0].steps)));
 }
 
 // Domain: a turn of eight of a division by hand: the rest is below the whole.
@@ -704,6 +802,17 @@ static bool autotune_may_share(number rest, number bits, number whole)
 static bool autotune_is_part(number part, number whole)
 {
     return part < whole;
+}
+
+// Domain: a relay that has not switched, from the centre on, with an output
+// within the range.
+static bool autotune_may_lose(const struct fixpid_autotune *x)
+{
+    return inside(x->state, IN_CENTRE, IN_THIRD) && (x->side <= HIGH_SIDE) &&
+           inside(x->seen, 0, 47) && autotune_has_relay(x) &&
+           inside(x->config.output_rest, x->config.output_min,
+                  x->config.output_max) &&
+           inside(x->output, x->config.output_min, x->config.output_max);
 }
 
 // Domain: it was refused, or 1 to 4 cycles are asked for, the phase or the end

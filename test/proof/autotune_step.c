@@ -28,7 +28,7 @@ void prove_noise(void)
     noise_as_defined(&defined, deviation);
     measure_noise(&c, deviation);
     claim_same(&c, &defined);
-    claim((c.state == IN_NOISE) || inside(c.edge, 1, 6912));
+    claim((c.state == IN_NOISE) || inside(c.edge, 1, 1536));
 }
 
 void prove_sum(void)
@@ -78,12 +78,13 @@ void turn_relay_contract(struct fixpid_autotune *self, int16_t deviation)
     take_part(&turn_part, self, deviation);
 }
 
-void fixpid_autotune_find_again_contract(struct fixpid_autotune *self)
+void fixpid_autotune_lose_cycle_contract(struct fixpid_autotune *self)
 {
+    pre(lost_part.open || autotune_may_lose(self));
     take_part(&lost_part, self, 0);
 }
 
-// By contract: add_deviation, turn_relay, fixpid_autotune_find_again.
+// By contract: add_deviation, turn_relay, fixpid_autotune_lose_cycle.
 void prove_relay(void)
 {
     const int16_t deviation = nondet_int16();
@@ -149,16 +150,14 @@ void prove_kept(void)
     claim(autotune_is_sound(&c));
 }
 
-// The halves of cycles that are left. Losing the swing costs half a cycle once,
-// as what it was in of a half is lost, too.
+// The halves of cycles that are left. A relay that is lost costs four cycles.
 static number halves_left(const struct fixpid_autotune *x)
 {
-    return (2 * greater(48 - x->seen, 1)) -
-           (((x->state != IN_NOISE) && (x->side == LOW_SIDE)) ? 1 : 0) +
-           ((x->seen < 48u) ? 1 : 0);
+    return (2 * (48 - (number)x->seen)) -
+           (((x->state != IN_NOISE) && (x->side == LOW_SIDE)) ? 1 : 0);
 }
 
-// It ends within 34 + 97 timeout_steps steps: after the noise there are 97
+// It ends within 34 + 97 timeout_steps steps: after the noise there are 96
 // halves at most, and each step of a half is one of timeout_steps. By contract:
 // measure_noise, step_relay.
 void prove_ends(void)
@@ -175,7 +174,7 @@ void prove_ends(void)
     defined = c;
     step_as_defined(&defined, setpoint, measurement);
     (void)fixpid_autotune_step(&c, setpoint, measurement);
-    claim(inside(halves_left(&was), 1, 97));
+    claim(inside(halves_left(&was), 1, 96));
     if ((c.state >= IN_NOISE) && (halves_left(&c) == halves_left(&was)) &&
         (c.state == was.state)) {
         claim(c.elapsed == (number)was.elapsed + 1);

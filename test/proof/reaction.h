@@ -297,18 +297,22 @@ static bool sound_listening(const struct curve *at)
            (size_of(at->base) <= farthest_times(greater(done - 16, 0)));
 }
 
-// A record, whose blocks are means of counts below 2 * 16384.
-static bool sound_record(const struct curve *at)
+static bool sound_blocks(const struct curve *at)
 {
-    bool sound = inside(at->places, 0, 4) && inside(at->doubled, 0, 12) &&
-                 ((reach_of(at) << at->places) <= 16384) &&
-                 inside(at->band, 0, 1022) &&
-                 (size_of(at->base) <= farthest_times(16));
+    bool sound =
+        inside(at->band, 0, 1022) && (size_of(at->base) <= farthest_times(16));
 
     for (unsigned i = 0; i < 8u; i++) {
         sound = sound && ((i >= at->blocks) || (at->m[i] <= 32767));
     }
     return sound;
+}
+
+// A record, whose blocks are means of counts up to 32767.
+static bool sound_record(const struct curve *at)
+{
+    return inside(at->places, 0, 4) && inside(at->doubled, 0, 12) &&
+           ((reach_of(at) << at->places) <= 16384) && sound_blocks(at);
 }
 
 // What may come into a block: counts up to 32767 of so many steps.
@@ -349,6 +353,16 @@ static bool reaction_is_sound(const struct fixpid_reaction *x)
     }
     return (at.state != FIXPID_REACTION_DONE) ||
            (sound_record(&at) && inside(at.blocks, 6, 8) && (at.doubled > 0));
+}
+
+// Domain: the record of a heat-up: its blocks are at most 32767, the noise's
+// band is at most 1022, and the mean at rest is within 511.
+static bool reaction_has_record(const struct fixpid_reaction *x)
+{
+    const struct curve at = curve_of(x);
+
+    return (at.state == FIXPID_REACTION_DONE) && inside(at.blocks, 0, 8) &&
+           sound_blocks(&at);
 }
 
 // Domain: a sound experiment that listens.

@@ -32,8 +32,8 @@ static number ratio_of(number a, number b, number places)
                                          (uint8_t)places);
 }
 
-// Where the record rises most in two blocks, and by how much: one that is done
-// rises somewhere.
+// Where the record has risen most in two blocks, the first of equals, and by
+// how much.
 struct steepest {
     number place, rise;
 };
@@ -53,18 +53,21 @@ static struct steepest steepest_of(const struct curve *at)
     return found;
 }
 
-// Of any bytes it is a place of the record.
+// Of any bytes, too, it is a place of the record.
 void prove_steepest(void)
 {
+    uint16_t rise = nondet_uint16();
     struct curve at;
     struct steepest wanted;
+    number from;
 
     c = nondet_reaction();
     at = curve_of(&c);
-    claim(inside(steepest(&c), 2, 7));
+    from = steepest(&c, &rise);
+    claim(inside(from, 0, 5));
     if (c.state != LISTENS) {
         wanted = steepest_of(&at);
-        claim(steepest(&c) == wanted.place);
+        claim((from == wanted.place - 2) && (rise == wanted.rise));
     }
 }
 
@@ -72,55 +75,70 @@ void prove_steepest(void)
 // by, with half the band and one and a half steps of slope; in quarters. The
 // tangent goes through the middle of three blocks, whose sum is twice the
 // lowest and the middle one and the rise.
-static number height_by_rule(const struct curve *at, number place, number rise)
+static number height_by_rule(const struct curve *at, number place, number rise,
+                             number origin)
 {
     const number *const m = &at->m[place];
-    const number origin = reach_of(at) << at->places;
-    number height = 2 * ((rise * (place - 1)) + (2 * origin) - m[-2] - m[-1]);
-    number base = at->base;
+    // A solver is slow at products of other widths than the code's.
+    number height = (int32_t)rise * (int32_t)(uint8_t)(place - 1);
 
-    for (number i = 0; i < 4; i++) {
-        base = (i < at->places) ? (2 * base) : base;
-    }
-    height += floor_by(base, 2);
+    height = 2 * (height + (2 * origin) - m[-2] - m[-1]);
+    height += floor_by(at->base * ((number)1 << at->places), 2);
     return greater(height, 0) + (at->band << (at->places + 1)) +
            floor_by(3 * rise, (unsigned)at->doubled);
 }
 
-// By contract: fixpid_reaction_scaled.
+static uint16_t origin_is;
+
+uint16_t fixpid_reaction_origin_contract(const struct fixpid_reaction *self)
+{
+    (void)self;
+    return origin_is;
+}
+
+// Of each length of a block and each scale. By contract:
+// fixpid_reaction_scaled, fixpid_reaction_origin.
 void prove_height(void)
 {
-    for (unsigned place = 2; place < 8u; place++) {
+    for (unsigned form = 0; form < 60u; form++) {
+        const uint8_t place = nondet_uint8();
         struct curve at;
         number rise;
         number wanted;
 
+        assume(inside(place, 2, 7));
         c = nondet_reaction();
-        assume(reaction_is_done(&c));
+        c.scale = (uint8_t)(form % 5u);
+        c.doubled = (uint8_t)((form / 5u) + 1u);
+        assume(reaction_has_record(&c));
+        origin_is = (uint16_t)clamp(nondet_uint16(), 0, 16384);
         at = curve_of(&c);
         rise = at.m[place] - at.m[place - 2u];
         if ((place < at.blocks) && (rise >= 0)) {
-            wanted = height_by_rule(&at, place, rise);
-            claim(height_of(&c, (uint8_t)place, (uint16_t)rise) == wanted);
+            wanted = height_by_rule(&at, place, rise, origin_is);
+            claim(height_of(&c, (uint8_t)(place - 2u), (uint16_t)rise) ==
+                  wanted);
             claim(wanted < (number)1 << 20);
         }
     }
 }
 
-uint8_t steepest_contract(const struct fixpid_reaction *self)
+uint8_t steepest_contract(const struct fixpid_reaction *self, uint16_t *rise)
 {
     const struct curve at = curve_of(self);
+    const struct steepest found = steepest_of(&at);
 
-    return (uint8_t)steepest_of(&at).place;
+    *rise = (uint16_t)found.rise;
+    return (uint8_t)(found.place - 2);
 }
 
 static number height_is;
 
-uint32_t height_of_contract(const struct fixpid_reaction *self, uint8_t place,
+uint32_t height_of_contract(const struct fixpid_reaction *self, uint8_t from,
                             uint16_t rise)
 {
-    pre(inside(place, 2, 7) &&
-        (rise == (uint16_t)(self->record[place] - self->record[place - 2u])));
+    pre(inside(from, 0, 5) &&
+        (rise == self->record[from + 2u] - self->record[from]));
     return (uint32_t)height_is;
 }
 
