@@ -5,8 +5,9 @@
 //
 // A row for each machine that has a guard, of semicolon-separated values: for
 // each fault, the steps until the alarm of a guard with a tuner's model, or -1,
-// and how far the machine got beyond its setpoint, in percent of the sensor's
-// range, if nobody acts and if the alarm cuts the supply.
+// how far the machine got beyond its setpoint, in percent of the sensor's
+// range, if nobody acts and if the alarm cuts the supply, and the steps until
+// Marlin and Klipper switch off, or -1.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -171,11 +172,21 @@ static double coasts(const struct broken *self, double over)
     return over;
 }
 
+// The first step at which it is true, or -1.
+static void notice(long *first, bool now, long step)
+{
+    if (*first < 0 && now) {
+        *first = step;
+    }
+}
+
 static void print_fault(struct broken *self, int guard, double horizon)
 {
     double without = 0.0;
     double with = 0.0;
     long alarm = -1;
+    long marlin = -1;
+    long klipper = -1;
 
     for (long i = 0; i < (long)horizon; i++) {
         without = further(self, without);
@@ -183,14 +194,17 @@ static void print_fault(struct broken *self, int guard, double horizon)
             alarm = i;
             with = coasts(self, without);
         }
+        notice(&marlin, (self->loop.peer_alarms & PEER_MARLIN) != 0u, i);
+        notice(&klipper, (self->loop.peer_alarms & PEER_KLIPPER) != 0u, i);
     }
-    printf(";%ld;%.1f;%.1f", alarm, without, (alarm < 0) ? without : with);
+    printf(";%ld;%.1f;%.1f;%ld;%ld", alarm, without,
+           (alarm < 0) ? without : with, marlin, klipper);
 }
 
 // Of a tuner, or the one without a model; -1: none.
 static int guard_of(const struct loop *self)
 {
-    for (int i = 0; i < GUARDS; i++) {
+    for (int i = 0; i <= BY_RULE; i++) {
         if (self->alarms[i] >= 0) {
             return i;
         }
@@ -204,6 +218,7 @@ static void forget_alarms(struct loop *self)
         fixpid_guard_acknowledge(&self->guards[i]);
         self->alarms[i] = (self->alarms[i] < 0) ? -1 : 0;
     }
+    self->peer_alarms = 0;
 }
 
 static void print_faults(struct broken *whole, int guard, double slow)
@@ -246,7 +261,7 @@ static void run(const struct subject *subject, long number)
         (void)further(&whole, 0.0);
     }
     forget_alarms(&whole.loop);
-    printf("%ld;%s", number, subject->name);
+    printf("%ld;%s;%d", number, subject->name, whole.loop.heater);
     print_faults(&whole, guard, slow);
     printf(";%.1f;%.3f\n", dead + slow / 1.3, dead / slow * 1.3);
 }
@@ -259,10 +274,11 @@ int main(int argc, char *argv[])
         fprintf(stderr, "usage: broken SEED EACH\n");
         return 2;
     }
-    printf("plant;kind");
+    printf("plant;kind;heater");
     for (int fault = 0; fault < FAULTS; fault++) {
-        printf(";%s;%s_without;%s_with", names[fault], names[fault],
-               names[fault]);
+        const char *const name = names[fault];
+        printf(";%s;%s_without;%s_with;%s_marlin;%s_klipper", name, name, name,
+               name, name);
     }
     printf(";scale;dead\n");
     for (int kind = 0; kind < MACHINES; kind++) {

@@ -6,7 +6,8 @@
 // beside so many machines of each kind, of which only every day's things
 // happen: setpoints, ramps, loads, off and on, with SHARE of the patience. A
 // row for each machine, of semicolon-separated values: the alarms that each
-// guard raised, or -1 where there is no such guard.
+// guard raised, or -1 where there is no such guard; and whether Marlin and
+// Klipper would switch off, or -1 where it is no heater.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,24 +28,26 @@ static bool is_off(const struct day *self)
 }
 
 // One that cools would bring a machine that is off below the room.
+static void take_load(struct day *self, double load)
+{
+    self->loop.machine.load = is_off(self) ? fmax(load, 0.0) : load;
+}
+
 static void begin_load(struct day *self)
 {
     const double part = self->loop.machine.integrating
                             ? 1.0
                             : fmin(1.0, self->loop.machine.holding / 0.2);
 
-    if (!is_off(self)) {
-        self->loop.machine.load =
-            part * chance_between(&self->loop.chance, -0.08, 0.08);
-    }
+    take_load(self, part * chance_between(&self->loop.chance, -0.08, 0.08));
 }
 
 // Beyond all readings, so that the output goes to its end.
 static void switch_off(struct day *self)
 {
-    self->loop.machine.load = 0.0;
     self->loop.setpoint =
         self->loop.machine.reverse ? self->loop.machine.sensor_max : 0.0;
+    take_load(self, self->loop.machine.load);
 }
 
 static void begin(struct day *self)
@@ -98,9 +101,13 @@ static void run(const struct subject *subject, long number, long steps,
         machine_drive(&loop->machine,
                       loop_step(loop, (int16_t)machine_read(&loop->machine)));
     }
-    printf("%ld;%s;%d;%d;%d\n", number, subject->name,
-           loop->alarms[BY_AUTOTUNE], loop->alarms[BY_REACTION],
-           loop->alarms[BY_RULE]);
+    printf("%ld;%s", number, subject->name);
+    for (int i = 0; i < GUARDS; i++) {
+        printf(";%d", loop->alarms[i]);
+    }
+    printf(";%d;%d\n",
+           loop->heater ? (int)(loop->peer_alarms & PEER_MARLIN) : -1,
+           loop->heater ? (int)(loop->peer_alarms & PEER_KLIPPER) : -1);
 }
 
 int main(int count, char *arguments[])
@@ -112,7 +119,8 @@ int main(int count, char *arguments[])
         return 2;
     }
     const unsigned long seed = strtoul(arguments[1], NULL, 10);
-    printf("plant;kind;autotune;reaction;rule\n");
+    printf("plant;kind;autotune;reaction;rule;twenty;reach_0;"
+           "reach_rest;marlin;klipper\n");
     for (int kind = 0; kind < MACHINES; kind++) {
         for (long i = 0; kind != MACHINE_UNSTABLE && i < atol(arguments[2]);
              i++) {

@@ -58,6 +58,23 @@ static struct fixpid_guard_config config_for(const struct loop *self)
     };
 }
 
+// More than 20 bands if less than 5 % of the output hold the lowest setpoint.
+static uint8_t bands_for(const struct loop *self)
+{
+    const struct machine *const machine = &self->machine;
+    double cold;
+    double share;
+
+    if (machine->integrating || machine->output_min < 0) {
+        return 0;
+    }
+    cold = reading_at(self, 0.0);
+    share = machine->holding * (self->low - cold) /
+            (self->subject->setpoint - cold);
+    return (share > 0.0 && share < 0.05) ? (uint8_t)fmin(1.0 / share, 255.0)
+                                         : 0;
+}
+
 // The jitter of the reading at rest, peak to peak.
 static int jitter(const struct loop *self)
 {
@@ -128,11 +145,26 @@ static void start_guard(struct loop *self, enum guards which, bool found,
     self->alarms[which] = good ? 0 : -1;
 }
 
+// With it, and if there was none yet also with 20 bands.
+static void start_by_model(struct loop *self, enum guards which, bool found,
+                           struct fixpid_guard_model *model)
+{
+    struct fixpid_guard_config config = config_for(self);
+    struct fixpid_guard_config plain = config;
+
+    if (self->alarms[BANDS_20] < 0) {
+        const bool good = found && fixpid_guard_from_model(&plain, model);
+        start_guard(self, BANDS_20, good, &plain);
+    }
+    model->bands = bands_for(self);
+    found = found && fixpid_guard_from_model(&config, model);
+    start_guard(self, which, found, &config);
+}
+
 static void start_by_autotune(struct loop *self)
 {
     static struct experiment experiment;
     struct fixpid_autotune_process process = {0};
-    struct fixpid_guard_config config = config_for(self);
     struct fixpid_guard_model model;
     bool found;
 
@@ -143,8 +175,7 @@ static void start_by_autotune(struct loop *self)
                                         .dead_q4 = process.dead_q4,
                                         .noise_q4 = process.noise_q4,
                                         .gain_q8 = process.gain_q8};
-    found = found && fixpid_guard_from_model(&config, &model);
-    start_guard(self, BY_AUTOTUNE, found, &config);
+    start_by_model(self, BY_AUTOTUNE, found, &model);
 }
 
 static void start_by_reaction(struct loop *self)
@@ -152,7 +183,6 @@ static void start_by_reaction(struct loop *self)
     static struct heat_up heat_up;
     struct subject cold = *self->subject;
     struct fixpid_reaction_process process = {0};
-    struct fixpid_guard_config config = config_for(self);
     struct fixpid_guard_model model;
     bool found;
 
@@ -165,8 +195,7 @@ static void start_by_reaction(struct loop *self)
     model = (struct fixpid_guard_model){.slope_q24 = process.slope_q24,
                                         .dead_q4 = process.dead_q4,
                                         .noise_q4 = process.noise_q4};
-    found = found && fixpid_guard_from_model(&config, &model);
-    start_guard(self, BY_REACTION, found, &config);
+    start_by_model(self, BY_REACTION, found, &model);
 }
 
 static void start_by_rule(struct loop *self)
@@ -175,6 +204,34 @@ static void start_by_rule(struct loop *self)
     const bool found = without_model(self, &config);
 
     start_guard(self, BY_RULE, found, &config);
+}
+
+static void start_with_reach(struct loop *self)
+{
+    const enum guards model =
+        (self->alarms[BY_AUTOTUNE] >= 0) ? BY_AUTOTUNE : BY_REACTION;
+    const double top = self->machine.sensor_max;
+    const bool found = self->alarms[model] >= 0;
+    struct fixpid_guard_config config = self->configs[model];
+    double rest = 0.02 * top;
+    double full = 0.98 * top;
+
+    if (!self->machine.integrating) {
+        rest = reading_at(self, 0.0);
+        full = reading_at(self, 0.8);
+    }
+    config.reach_min = config.reach_max = 0;
+    start_guard(self, REACH_0, found, &config);
+    config.reach_min = (int16_t)(fmin(rest, full) + 0.03 * top);
+    config.reach_max = (int16_t)fmin(fmax(rest, full), top - 2.0);
+    start_guard(self, REACH_REST, found, &config);
+}
+
+static bool is_heater(const struct machine *machine)
+{
+    return machine->kind == MACHINE_FURNACE ||
+           machine->kind == MACHINE_QUARTER || machine->kind == MACHINE_OVEN ||
+           machine->kind == MACHINE_KETTLE || machine->kind == MACHINE_HOT_END;
 }
 
 // With gains of a tuner, or of the best PI.
@@ -203,11 +260,16 @@ bool loop_start(struct loop *self, const struct subject *subject, bool at_rest,
                           .machine = *subject->machine,
                           .chance = subject->chance,
                           .patience_share = patience_share,
+                          .alarms = {[BANDS_20] = -1},
                           .setpoint = subject->setpoint};
     find_setpoints(self);
     start_by_autotune(self);
     start_by_reaction(self);
     start_by_rule(self);
+    start_with_reach(self);
+    self->heater = is_heater(&self->machine);
+    peers_start(&self->peers, self->machine.kind == MACHINE_HOT_END,
+                self->machine.step_s);
     machine_start(&self->machine, at_rest, 71);
     if (!start_pid(self)) {
         return false;
@@ -217,6 +279,28 @@ bool loop_start(struct loop *self, const struct subject *subject, bool at_rest,
         fixpid_pid_seed(&self->pid, (int16_t)holding);
     }
     return true;
+}
+
+static double degrees(const struct loop *self, double counts)
+{
+    const struct machine *const machine = &self->machine;
+
+    return machine->zero + counts / machine->sensor_max * machine->span;
+}
+
+// They take the ends of the scale for a broken sensor, and 0 degrees for off.
+static unsigned ask_peers(struct loop *self, int16_t reading)
+{
+    const bool off = self->setpoint < self->low || self->setpoint > self->high;
+
+    if (!self->heater) {
+        return 0;
+    }
+    if (reading <= 0 || reading >= self->machine.sensor_max) {
+        return PEER_MARLIN | PEER_KLIPPER;
+    }
+    return peers_step(&self->peers, off ? 0.0 : degrees(self, self->setpoint),
+                      degrees(self, reading));
 }
 
 int16_t loop_step(struct loop *self, int16_t reading)
@@ -231,5 +315,6 @@ int16_t loop_step(struct loop *self, int16_t reading)
                 FIXPID_GUARD_ALARMS;
         }
     }
+    self->peer_alarms |= ask_peers(self, reading);
     return output;
 }

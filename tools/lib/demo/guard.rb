@@ -15,7 +15,11 @@ GUARD_KINDS = MACHINE_KINDS - 1      # all but the unstable one
 
 # What a guard is set by, and percent of the machines on which it may raise an alarm.
 GUARD_RULES = { 'autotune' => ['a model of `fixpid_autotune`', 6.4], 'reaction' => ['a model of `fixpid_reaction`', 6.4],
-                'rule' => ['no model', 6.0] }.freeze
+                'rule' => ['no model', 6.0], 'twenty' => ['a model, with 20 bands for all', nil],
+                'reach_0' => ['a model, `reach_min` and `reach_max` 0', nil],
+                'reach_rest' => ['a model, `reach_min` 3 % of the scale above the reading at rest', nil] }.freeze
+# Others' rules, for heaters only.
+GUARD_PEERS = { 'marlin' => 'Marlin', 'klipper' => 'Klipper' }.freeze
 GUARD_FLAGS = { 'NOT_RISING' => 0x01, 'NOT_FALLING' => 0x02, 'FROZEN' => 0x04, 'OSCILLATING' => 0x08,
                 'SENSOR_LOW' => 0x10, 'SENSOR_HIGH' => 0x20 }.freeze
 
@@ -78,11 +82,15 @@ def check_whole
   GUARD_RULES.each do |rule, (title, most)|
     there = with_guard(rows, rule)
     alarms = alarmed(there, rule)
-    Report.at_most("whole machines, #{title}: with an alarm", 100.0 * alarms / there.size, Extent.whole? ? most : 12.0, '%')
+    Report.at_most("whole machines, #{title}: with an alarm", 100.0 * alarms / there.size, Extent.whole? ? most : 12.0, '%') if most
     next unless Extent.whole?
 
     Report.number("healthy #{rule}", { 'plants' => there.size, 'alarms' => alarms, 'hasty' => alarmed(with_guard(hasty, rule), rule),
                                        'flags' => GUARD_FLAGS.transform_values { |bit| there.count { |row| row[rule].to_i & bit != 0 } } })
+  end
+  GUARD_PEERS.each_key do |peer|
+    there = with_guard(rows, peer)
+    Report.number("healthy #{peer}", { 'plants' => there.size, 'alarms' => alarmed(there, peer) })
   end
 end
 
@@ -107,7 +115,17 @@ def check_broken
     end
     times = seen.map { |row| row[fault].to_i / row['scale'].to_f }.sort
     Report.number(fault, { 'seen' => seen.size, 'times' => [0.5, 0.95].map { |part| times[((times.size - 1) * part).floor] },
-                           'far' => GUARD_CLASSES.values.map { |of| far_over(rows.select(&of), fault) } })
+                           'far' => GUARD_CLASSES.values.map { |of| far_over(rows.select(&of), fault) },
+                           'heaters' => seen_on_heaters(rows, fault) })
+  end
+end
+
+# Of the heaters, what the guard and others see, in percent, and the median time until then.
+def seen_on_heaters(rows, fault)
+  heaters = rows.select { |row| row['heater'] == '1' }
+  [fault, *GUARD_PEERS.keys.map { |peer| "#{fault}_#{peer}" }].map do |column|
+    times = heaters.reject { |row| row[column].to_i.negative? }.map { |row| row[column].to_i / row['scale'].to_f }.sort
+    [100.0 * times.size / heaters.size, times[(times.size - 1) / 2]]
   end
 end
 

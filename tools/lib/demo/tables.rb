@@ -144,10 +144,11 @@ module Tables
     # What fixpid_guard sees of machines that break, and how many get far beyond their setpoint.
     def guard_sees
       far = GUARD_CLASSES.keys.map { |title| "#{title}: far over, without and with" }
-      table('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, GUARD_FAULTS.map do |fault, title|
+      table('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, 'heaters: guard', *GUARD_PEERS.values, GUARD_FAULTS.map do |fault, title|
         row = Report.numbers['guard'][fault]
         [title, row['seen'], row['times'].map { |time| format('%.1f', time) }.join(', '),
-         *row['far'].map { |without, with| without.zero? ? 'none' : "#{without}, #{with}" }]
+         *row['far'].map { |without, with| without.zero? ? 'none' : "#{without}, #{with}" },
+         *row['heaters'].map { |seen, time| seen.zero? ? 'never' : format('%.0f %%, %.2f', seen, time) }]
       end)
     end
 
@@ -157,6 +158,9 @@ module Tables
             GUARD_RULES.map do |rule, (title, _)|
               row = Report.numbers['guard']["healthy #{rule}"]
               [title, row['plants'], row['alarms'], *row['flags'].values, row['hasty']]
+            end + GUARD_PEERS.map do |peer, title|
+              row = Report.numbers['guard']["healthy #{peer}"]
+              ["#{title}'s rule", row['plants'], row['alarms'], *['-'] * (GUARD_FLAGS.size + 1)]
             end)
     end
 
