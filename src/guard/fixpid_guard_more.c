@@ -118,17 +118,12 @@ static uint16_t patience_for(uint32_t dead_q4, uint32_t way)
                                           : (uint16_t)patience;
 }
 
-bool fixpid_guard_from_model(struct fixpid_guard_config *config,
-                             const struct fixpid_guard_model *model)
+static bool write_rule(struct fixpid_guard_config *config,
+                       const struct fixpid_guard_model *model, uint32_t band)
 {
-    uint8_t bands;
-    uint32_t band;
+    const uint8_t bands = (model->bands != 0u) ? model->bands : BANDS;
     uint16_t patience;
 
-    FIXPID_ASSERT(config != 0);
-    FIXPID_ASSERT(model != 0);
-    bands = (model->bands != 0u) ? model->bands : BANDS;
-    band = band_for(model);
     if (config->output_min >= config->output_max) {
         return false;
     }
@@ -153,4 +148,12 @@ bool fixpid_guard_from_model(struct fixpid_guard_config *config,
         config->noisy = patience >= NOISY_PATIENCE_MIN;
     }
     return true;
+}
+
+bool fixpid_guard_from_model(struct fixpid_guard_config *config,
+                             const struct fixpid_guard_model *model)
+{
+    FIXPID_ASSERT(config != 0);
+    FIXPID_ASSERT(model != 0);
+    return write_rule(config, model, band_for(model));
 }
