@@ -38,7 +38,7 @@ static number assume_floor(number a, number b)
     return (number)q;
 }
 
-void divide_contract(struct two_words *value, uint32_t divisor)
+void divide_wide_contract(struct two_words *value, uint32_t divisor)
 {
     number q;
 
