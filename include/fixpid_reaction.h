@@ -15,7 +15,7 @@
 // slope, carried back to the moment of the change, misses the reading's start
 // by some counts: with the slope, these tell the delay. The static gain and
 // the lag are not needed, so it ends long before the reading is still. On
-// heaters that takes about a minute, and at most 40961 steps.
+// heaters that takes about a minute, and at most 32800 steps.
 //
 // Call fixpid_reaction_step where the controller's step would be called, at the
 // same rate, until the status is no longer FIXPID_REACTION_RUNNING; then the
