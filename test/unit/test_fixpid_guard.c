@@ -990,7 +990,7 @@ void test_from_model_the_least_above_a_whole_number_rounds_up(void)
     rule_is(1, 672, false);
 }
 
-// 160 * 2^24 / 65535 = 40960.6 eighths
+// 160 bands * 2^24 / 65535 are between 40960 and 40961 eighths
 void test_from_model_the_smallest_slope(void)
 {
     take_heater();
