@@ -165,7 +165,8 @@ static void add_deviation(FIXPID_DATA struct fixpid_autotune *self,
         if (SELF.side == AT_HIGH) {
             turn = (int16_t)-turn;
         }
-        sums->rise = (int16_t)fixpid_add32(sums->rise, turn); // 32752 at most
+        // 32752 at most in a relay that measures; before, nobody needs it
+        sums->rise = (int16_t)fixpid_add32(sums->rise, turn);
     }
     if (sums->steps == STEPS_MAX) {
         fixpid_autotune_finish(self, FIXPID_AUTOTUNE_TOO_SLOW);
