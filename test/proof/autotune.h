@@ -483,6 +483,8 @@ static void turn_as_defined(struct fixpid_autotune *x, number deviation)
     end(&turn_part, x);
 }
 
+static bool autotune_may_lose(const struct fixpid_autotune *x);
+
 // The setpoint is beyond the side that does not reach it. With that side at the
 // end of the range it is waited for.
 static void lost_as_defined(struct fixpid_autotune *x)
@@ -491,6 +493,7 @@ static void lost_as_defined(struct fixpid_autotune *x)
     const bool high = x->side == HIGH_SIDE;
 
     (void)begin(&lost_part, x, 0);
+    claim(turn_part.open || autotune_may_lose(x));
     if (level != (high ? x->config.output_max : x->config.output_min)) {
         x->seen = (uint8_t)(x->seen + 4);
         if (x->seen >= 48u) {
@@ -627,7 +630,7 @@ static bool sound_cycle(const struct fixpid_autotune *x)
     const bool low = x->side == LOW_SIDE;
     const number before = low ? 32766 : 0; // of this cycle, before this half
 
-    return inside(x->seen, 0, 47) &&
+    return inside(x->seen, 0, 47) && (x->last_period <= 65534u) &&
            (fresh(x) ||
             (x->averaged < ((x->state > IN_CENTRE) ? x->config.cycles : 1))) &&
            (x->period <= before + greater((number)x->elapsed - 1, 0)) &&
@@ -684,7 +687,8 @@ static bool autotune_may_end(const struct fixpid_autotune *x, number deviation)
            (x->sums[0].on_steps <= x->sums[0].steps) &&
            (x->sums[1].on_steps <= x->sums[1].steps) && sound_first(x) &&
            (x->sums[0].steps < 32767u) && (x->sums[1].steps < 32767u) &&
-           counted_cycle(x) && (x->period <= 65534u);
+           counted_cycle(x) && (x->period <= 65534u) &&
+           (x->last_period <= 65534u);
 }
 
 // What init and reset establish from any bytes, and a step keeps.
@@ -709,7 +713,7 @@ static bool autotune_is_sound(const struct fixpid_autotune *x)
     }
     if (x->state == IN_NOISE) {
         return (x->elapsed < 34u) && (x->seen == 0u) && (x->period == 0u) &&
-               (x->first_on == 0u) && fresh(x) &&
+               (x->last_period == 0u) && (x->first_on == 0u) && fresh(x) &&
                (x->noise <= 1023 * greater((number)x->elapsed - 2, 0)) &&
                sound_sums(&x->sums[0], 0) && sound_sums(&x->sums[1], 0);
     }
@@ -786,9 +790,9 @@ static bool autotune_has_noise(const struct fixpid_autotune *x)
 static bool autotune_may_compare(const struct fixpid_autotune *x)
 {
     return inside(x->state, IN_FIRST, IN_THIRD) &&
-           (x->last_period >= x->elapsed) && (x->last_period <= 65534u) &&
+           (x->last_period >= x->elapsed) && (x->last_period <= 32767u) &&
            ((x->state != IN_THIRD) ||
-            ((x->last_period <= 32767u) && (x->sums[0].steps <= 32767u) &&
+            ((x->sums[0].steps <= 32767u) &&
              (x->sums[0].on_steps <= x->sums[0].steps)));
 }
 

@@ -308,6 +308,7 @@ void prove_alike(void)
 {
     const uint16_t before = nondet_uint16();
 
+    assume(before <= 65534u);
     c = nondet_autotune();
     assume(autotune_may_compare(&c));
     claim(regular(&c, before) == is_alike(&c, before));
@@ -317,7 +318,7 @@ bool regular_contract(const struct fixpid_autotune *self, uint16_t before)
 {
     struct fixpid_autotune same = *self;
 
-    pre(autotune_may_compare(self));
+    pre(autotune_may_compare(self) && (before <= 65534u));
     alike_part.after = same;
     take_part(&alike_part, &same, before);
     return alike;

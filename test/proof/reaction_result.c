@@ -100,7 +100,7 @@ uint16_t fixpid_reaction_origin_contract(const struct fixpid_reaction *self)
 // fixpid_reaction_scaled, fixpid_reaction_origin.
 void prove_height(void)
 {
-    for (unsigned form = 0; form < 60u; form++) {
+    for (unsigned form = 0; form < 12u; form++) {
         const uint8_t place = nondet_uint8();
         struct curve at;
         number rise;
@@ -109,7 +109,7 @@ void prove_height(void)
         assume(inside(place, 2, 7));
         c = nondet_reaction();
         c.scale = (uint8_t)(form % 5u);
-        c.doubled = (uint8_t)((form / 5u) + 1u);
+        c.doubled = (uint8_t)(form + 1u);
         assume(reaction_has_record(&c));
         origin_is = (uint16_t)clamp(nondet_uint16(), 0, 16384);
         at = curve_of(&c);

@@ -20,7 +20,8 @@ module Assurance
   # What is proved of a module of whose header a part is only tested or tried.
   PARTLY = {
     'autotune' => 'in part: init, progress and a record, as its header says; a step as the definition says, by contracts of its parts, ' \
-                  'the relay that comes next only for shares of one bit, and not that it ends; not its result, but its numbers',
+                  'the relay that comes next only for shares of one bit, and parts of cycles only of lengths that are powers of two; not its result, but its numbers',
+    'reaction' => 'as its header says, the tangent whatever its quotients are and its products only with powers of two',
     'gains' => 'as its header says, but for a product of 64 bits in which neither number is a power of two, which is tested',
     'tpo' => 'as its header says, what a window asks for only where its length is a power of two'
   }.freeze
