@@ -19,12 +19,12 @@ CalledModule = Struct.new(:id, :functions, :object, :calls, :program, :flags, :k
     part || id
   end
 
-  # Of the library, without the check, the record, the state, the step by the error and tracked
+  # Of the library, without the check, the record, the rule of a guard, the state, the step by the error and tracked
   # steps of a link, which only a program that calls them links.
   def files
     return Modules.sources(id, Host.root).grep(takes) if takes
 
-    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_pid_(?:error|state)\.c\z|_link_tracked\.c\z/)
+    Modules.sources(id, Host.root).grep_v(part ? /_check\.c\z/ : /_check\.c\z|_autotune_record\.c\z|_guard_more\.c\z|_pid_(?:error|state)\.c\z|_link_tracked\.c\z/)
   end
 
   # Of the modules that it uses, what a program needs of them; they do not count.
