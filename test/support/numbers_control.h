@@ -38,9 +38,6 @@ struct numbers_guard {
 // Short patiences and narrow bands, so that many alarms are seen.
 void numbers_guard_config(struct fixpid_guard_config *config);
 
-// What a tuner finds of a plant: models that have a guard, and others.
-void numbers_guard_model(struct fixpid_guard_model *model);
-
 // The next step of that configuration: what it was, or near it, or at an end.
 void numbers_guard_move(struct numbers_guard *now,
                         const struct fixpid_guard_config *config);

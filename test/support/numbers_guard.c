@@ -32,22 +32,6 @@ static void some_range(int16_t *low, int16_t *high)
     }
 }
 
-void numbers_guard_model(struct fixpid_guard_model *model)
-{
-    model->slope_q24 = numbers_any_size();
-    model->dead_q4 = numbers_any_size();
-    model->noise_q4 = (uint16_t)numbers_any_size();
-    model->gain_q8 = numbers_any_size();
-    model->band = 0;
-    if (numbers_one_in(8)) {
-        model->gain_q8 = UINT32_MAX;
-    }
-    if (numbers_one_in(4)) {
-        model->band = (uint16_t)numbers_any_size();
-    }
-    model->bands = numbers_one_in(2) ? 0 : (uint8_t)numbers_next();
-}
-
 void numbers_guard_config(struct fixpid_guard_config *config)
 {
     some_range(&config->measurement_min, &config->measurement_max);
