@@ -1,391 +1,202 @@
 // SPDX-License-Identifier: MIT
-// A step of fixpid_reaction, part by part and as the whole that the parts make:
-// it is what reaction.h says in whole numbers, keeps what an experiment can be,
-// and ends.
-#include "reaction.h"
+// fixpid_reaction: it starts, a step of any bytes is defined and puts out what
+// it may, a started experiment stays one and ends, and what it tells is within
+// its range. That each part is its equation is for the tests (unproved.txt).
+#include "prove.h"
+
+#include "fixpid_pid.h"
+#include "fixpid_reaction.h"
 
 #include "reaction/fixpid_reaction.c"
 #include "reaction/fixpid_reaction_block.c"
+#include "reaction/fixpid_reaction_result.c"
+
+static bool ninetieths_turn(uint16_t *sum, uint8_t *wholes, uint8_t *turn);
+
+// clang-format would make another macro of it.
+// clang-format off
+#define for(head) for (head) if (ninetieths_turn(&sum, &wholes, &turn))
+// clang-format on
 #include "reaction/fixpid_reaction_more.c"
+#undef for
 
+struct fixpid_reaction c; // of any bytes, where a proof begins
+struct fixpid_reaction nondet_reaction(void);
 struct fixpid_reaction_config nondet_reaction_config(void);
-struct rises nondet_rises(void);
+struct fixpid_reaction_process nondet_process(void);
+struct fixpid_pid_gains nondet_pid_gains(void);
 
-// A part of a step that is proved by itself: the code must hand to it what the
-// definition does, and gets what the definition gets, which is anything.
-struct part {
-    bool due;
-    number reading;
-    struct curve before;
-    struct fixpid_reaction after;
-};
+// `state` of an experiment that runs; others are a status, of one that is over.
+enum { LISTENS = 1, HEATS = 9 };
 
-static struct part begin_part, block_part, listen_part, heat_part;
-
-// Any experiment with the configuration of c.
-static struct fixpid_reaction another(void)
+static bool listens(const struct fixpid_reaction *x)
 {
-    struct fixpid_reaction x = nondet_reaction();
-
-    x.output_rest = c.output_rest;
-    x.output_drive = c.output_drive;
-    x.stop = c.stop;
-    x.timeout_steps = c.timeout_steps;
-    x.scale = (uint8_t)((x.scale & 0x7Fu) | (c.scale & 0x80u));
-    return x;
+    return x->state == LISTENS;
 }
 
-static void hand_to(struct part *part, struct curve *at, number reading)
+static bool heats(const struct fixpid_reaction *x)
 {
-    part->due = true;
-    part->reading = reading;
-    part->before = *at;
-    part->after = another();
-    *at = curve_of(&part->after);
+    return x->state >= HEATS;
 }
 
-static void take(struct part *part, struct fixpid_reaction *self,
-                 number reading)
+static number size_of(number x)
 {
-    const struct curve at = curve_of(self);
-
-    claim(part->due && (part->reading == reading));
-    claim(same_curve(&at, &part->before));
-    *self = part->after;
-    part->due = false;
+    return (x < 0) ? -x : x;
 }
 
-// Whether the code has made of it what the definition has.
-static void claim_curve(const struct curve *wanted,
-                        const struct fixpid_reaction *was)
+static number greater(number a, number b)
 {
-    const struct curve found = curve_of(&c);
-
-    claim(same_curve(wanted, &found));
-    claim(same_config(was, &c));
+    return (a > b) ? a : b;
 }
 
-// Of any bytes.
-void prove_scaled(void)
+// The pattern as a signed number.
+static number pattern(uint16_t bits)
 {
-    for (unsigned scale = 0; scale < 128u; scale++) {
-        const uint16_t counts = nondet_uint16();
-        const number scaled = ((number)counts << (scale & 7u)) & 0xFFFF;
+    return (bits < 0x8000u) ? bits : (number)bits - 65536;
+}
 
-        c = nondet_reaction();
-        c.scale = (uint8_t)scale;
-        claim(fixpid_reaction_scaled(&c, counts) == scaled);
-        c.scale = (uint8_t)(scale + 128u);
-        claim(fixpid_reaction_scaled(&c, counts) == scaled);
+static bool same_config(const struct fixpid_reaction *a,
+                        const struct fixpid_reaction *b)
+{
+    return (a->output_rest == b->output_rest) &&
+           (a->output_drive == b->output_drive) && (a->stop == b->stop) &&
+           (a->timeout_steps == b->timeout_steps) &&
+           ((a->scale & 0x80u) == (b->scale & 0x80u));
+}
+
+// ---- What an experiment can be ----
+
+static bool legal_reaction(const struct fixpid_reaction *x)
+{
+    return (x->output_rest != x->output_drive) &&
+           inside(x->timeout_steps, 1, 32767);
+}
+
+// The stop and the start are mirrored alike.
+static number reach_of(const struct fixpid_reaction *x)
+{
+    return clamp((number)x->stop - x->start, 0, 16384);
+}
+
+static number places_of(const struct fixpid_reaction *x)
+{
+    return x->scale & 7u;
+}
+
+// So many deviations of up to 511.
+static number farthest_times(number steps)
+{
+    return (steps << 9) - steps;
+}
+
+static bool sound_listening(const struct fixpid_reaction *x)
+{
+    const number done = 32 - (number)x->left;
+
+    return inside(x->left, 1, 32) && (places_of(x) == 0) && (x->blocks == 0u) &&
+           (x->doubled == 0u) && (x->sum == 0u) && (x->band == 0u) &&
+           (x->record[7] == 0u) && inside(pattern(x->record[0]), -511, 0) &&
+           inside(x->record[1], 0, 511) &&
+           (size_of(pattern(x->record[2])) <=
+            farthest_times(clamp(done, 0, 16))) &&
+           (size_of(x->base) <= farthest_times(greater(done - 16, 0)));
+}
+
+// A record, whose blocks are means of counts up to 32767.
+static bool sound_record(const struct fixpid_reaction *x)
+{
+    bool sound = inside(places_of(x), 0, 4) && inside(x->doubled, 0, 12) &&
+                 ((reach_of(x) << places_of(x)) <= 16384) &&
+                 inside(x->band, 0, 1022) &&
+                 (size_of(x->base) <= farthest_times(16));
+
+    for (unsigned i = 0; i < 8u; i++) {
+        sound = sound && ((i >= x->blocks) || (x->record[i] <= 32767u));
     }
+    return sound;
 }
 
-uint16_t fixpid_reaction_scaled_contract(const struct fixpid_reaction *self,
-                                         uint16_t counts)
+static bool sound_heating(const struct fixpid_reaction *x)
 {
-    return (uint16_t)((uint32_t)counts << (self->scale & 7u));
+    const number length = (number)1 << (x->doubled & 15u);
+    const number done = length - x->left;
+
+    return sound_record(x) && (reach_of(x) > 0) && inside(x->blocks, 0, 8) &&
+           ((x->blocks > 0u) || (x->record[7] == 0u)) &&
+           ((x->doubled == 0u) || (x->blocks >= 4u)) &&
+           ((x->blocks < 8u) || ((x->doubled < 12u) && (x->left == length))) &&
+           inside(x->left, 1, length) && (x->sum <= (done << 15) - done);
 }
 
-// Where the listening ends the output changes, unless the reading coasts.
-void prove_begin(void)
+// What init makes of any bytes, and a step keeps.
+// Domain: it was refused, or the configuration is legal and it is over, or so
+// many readings can have made its record.
+static bool reaction_is_sound(const struct fixpid_reaction *x)
 {
-    struct fixpid_reaction was;
-    struct curve wanted;
-
-    c = nondet_reaction();
-    assume(reaction_may_begin(&c));
-    was = c;
-    wanted = curve_of(&c);
-    rule_begin(&wanted);
-    fixpid_reaction_begin(&c);
-    claim_curve(&wanted, &was);
-}
-
-void fixpid_reaction_begin_contract(struct fixpid_reaction *self)
-{
-    pre(reaction_may_begin(self));
-    take(&begin_part, self, 0);
-}
-
-// By contract: fixpid_reaction_begin.
-void prove_listen(void)
-{
-    const int16_t measurement = nondet_int16();
-    struct fixpid_reaction was;
-    struct curve wanted;
-
-    c = nondet_reaction();
-    assume(reaction_is_listening(&c));
-    was = c;
-    wanted = curve_of(&c);
-    if (rule_listen(&wanted, measurement)) {
-        hand_to(&begin_part, &wanted, 0);
+    if (x->state == FIXPID_REACTION_REFUSED) {
+        return true;
     }
-    listen(&c, (int16_t)mirrored(&c, measurement));
-    claim_curve(&wanted, &was);
-    claim(!begin_part.due);
-}
-
-void prove_halve(void)
-{
-    struct fixpid_reaction was;
-    struct curve wanted;
-
-    c = nondet_reaction();
-    assume(reaction_is_heating(&c));
-    was = c;
-    wanted = curve_of(&c);
-    rule_halve(&wanted);
-    fixpid_reaction_halve(&c);
-    claim_curve(&wanted, &was);
-}
-
-// Of any bytes in up to eight blocks.
-void prove_slopes(void)
-{
-    for (unsigned blocks = 0; blocks <= 8u; blocks++) {
-        struct curve at;
-        struct slopes slopes;
-        struct rises rises = nondet_rises();
-
-        c = nondet_reaction();
-        c.state = HEATS;
-        c.blocks = (uint8_t)blocks;
-        at = curve_of(&c);
-        slopes = slopes_of(&at);
-        measure(&c, &rises);
-        claim(rises.last == slopes.last);
-        claim(rises.steepest == slopes.steepest);
-        claim(rises.before == slopes.before);
+    if (listens(x)) {
+        return legal_reaction(x) && sound_listening(x);
     }
-}
-
-static struct rises measured;
-
-void measure_contract(const struct fixpid_reaction *self, struct rises *rises)
-{
-    pre(self->blocks <= 8u);
-    *rises = measured;
-}
-
-// By contract: fixpid_reaction_scaled, measure.
-void prove_judge(void)
-{
-    struct curve at;
-    struct slopes slopes;
-
-    c = nondet_reaction();
-    assume(reaction_may_judge(&c));
-    at = curve_of(&c);
-    slopes.last = clamp(nondet_uint16(), 0, 32767);
-    slopes.steepest = clamp(nondet_uint16(), 0, 32767);
-    slopes.before = clamp(nondet_uint16(), 0, 32767);
-    measured.last = (uint16_t)slopes.last;
-    measured.steepest = (uint16_t)slopes.steepest;
-    measured.before = (uint16_t)slopes.before;
-    claim(judge(&c, (uint16_t)at.m[at.blocks - 1]) == rule_judge(&at, &slopes));
-}
-
-static struct {
-    bool due;
-    uint8_t verdict;
-    struct curve curve;
-} judgement;
-
-uint8_t judge_contract(const struct fixpid_reaction *self, uint16_t newest)
-{
-    const struct curve at = curve_of(self);
-
-    pre(reaction_may_judge(self) && (newest == at.m[at.blocks - 1]));
-    claim(judgement.due && same_curve(&at, &judgement.curve));
-    judgement.due = false;
-    return judgement.verdict;
-}
-
-// By contract: judge.
-void prove_block(void)
-{
-    struct fixpid_reaction was;
-    struct curve wanted;
-
-    c = nondet_reaction();
-    assume(reaction_may_end_block(&c));
-    was = c;
-    wanted = curve_of(&c);
-    rule_block(&wanted);
-    judgement.due = true;
-    judgement.curve = wanted;
-    judgement.verdict = (uint8_t)clamp(nondet_uint8(), 2, HEATS);
-    fixpid_reaction_end_block(&c);
-    wanted.state = judgement.verdict;
-    claim_curve(&wanted, &was);
-    claim(!judgement.due);
-}
-
-void fixpid_reaction_end_block_contract(struct fixpid_reaction *self)
-{
-    pre(reaction_may_end_block(self));
-    take(&block_part, self, 0);
-}
-
-// By contract: fixpid_reaction_scaled, fixpid_reaction_end_block.
-void prove_heat(void)
-{
-    const int16_t measurement = nondet_int16();
-    struct fixpid_reaction was;
-    struct curve wanted;
-
-    c = nondet_reaction();
-    assume(reaction_is_heating(&c));
-    was = c;
-    wanted = curve_of(&c);
-    if (wanted.blocks == 8) {
-        rule_halve(&wanted);
+    if (heats(x)) {
+        return legal_reaction(x) && sound_heating(x);
     }
-    if (rule_heat(&wanted, measurement)) {
-        hand_to(&block_part, &wanted, 0);
-    }
-    heat(&c, (int16_t)mirrored(&c, measurement));
-    claim_curve(&wanted, &was);
-    claim(!block_part.due);
+    return legal_reaction(x) &&
+           ((x->state != FIXPID_REACTION_DONE) ||
+            (sound_record(x) && inside(x->blocks, 6, 8) && (x->doubled > 0u)));
 }
 
-void listen_contract(struct fixpid_reaction *self, int16_t reading)
-{
-    pre(reaction_is_listening(self));
-    take(&listen_part, self, mirrored(self, reading));
-}
-
-void heat_contract(struct fixpid_reaction *self, int16_t reading)
-{
-    pre(reaction_is_heating(self));
-    take(&heat_part, self, mirrored(self, reading));
-}
-
-// The output and the status are those of the state that comes next. By
-// contract: listen, heat.
-void prove_step(void)
-{
-    const int16_t measurement = nondet_int16();
-    struct fixpid_reaction was;
-    struct curve wanted;
-    number out;
-
-    c = nondet_reaction();
-    assume(reaction_is_sound(&c));
-    was = c;
-    wanted = curve_of(&c);
-    if (wanted.state == LISTENS) {
-        hand_to(&listen_part, &wanted, measurement);
-    } else if (wanted.state == HEATS) {
-        hand_to(&heat_part, &wanted, measurement);
-    }
-    out = fixpid_reaction_step(&c, measurement);
-    claim_curve(&wanted, &was);
-    claim(!listen_part.due && !heat_part.due);
-    if (wanted.state == HEATS) {
-        claim(out == c.output_drive);
-        claim(fixpid_reaction_status(&c) == FIXPID_REACTION_RUNNING);
-    } else {
-        claim(out ==
-              ((wanted.state == FIXPID_REACTION_REFUSED) ? 0 : c.output_rest));
-        claim(fixpid_reaction_status(&c) == wanted.state);
-    }
-}
-
-// As `block` and `judge` have it: one that ends as DONE has six blocks at
-// least, of two steps or more, and the last block of all is one.
-void fixpid_reaction_end_block_soundly(struct fixpid_reaction *self)
-{
-    struct curve at = curve_of(self);
-    const unsigned verdict = nondet_uint8();
-
-    pre(reaction_may_end_block(self));
-    self->record[at.blocks & 7] = (uint16_t)clamp(nondet_uint16(), 0, 32767);
-    self->blocks = (uint8_t)(at.blocks + 1);
-    self->left = (uint16_t)(1u << at.doubled);
-    self->sum = 0;
-    self->state = FIXPID_REACTION_LIMIT;
-    if ((verdict >= HEATS) && ((at.blocks < 7) || (at.doubled < 12))) {
-        self->state = HEATS;
-    } else if ((at.blocks >= 5) && (at.doubled > 0)) {
-        self->state = FIXPID_REACTION_DONE;
-    }
-}
-
-// Steps since the heat-up began.
-static number age_of(const struct curve *at)
-{
-    return (at->blocks << at->doubled) + ((number)1 << at->doubled) - at->left;
-}
-
-// An experiment stays one, and ends: it listens for 32 steps, and heats for
-// 32768 at most. By contract: fixpid_reaction_scaled, fixpid_reaction_end_block
-// (fixpid_reaction_end_block_soundly).
-void prove_kept(void)
-{
-    struct curve was;
-    struct curve is;
-
-    c = nondet_reaction();
-    assume(reaction_is_sound(&c));
-    was = curve_of(&c);
-    (void)fixpid_reaction_step(&c, nondet_int16());
-    is = curve_of(&c);
-    claim(reaction_is_sound(&c));
-    if (is.state == LISTENS) {
-        claim((was.state == LISTENS) && (is.left == was.left - 1));
-    } else if (is.state == HEATS) {
-        claim(age_of(&is) == ((was.state == HEATS) ? (age_of(&was) + 1) : 0));
-        claim(age_of(&is) < 32768);
-    } else {
-        claim((was.state == LISTENS) || (was.state == HEATS) ||
-              (is.state == was.state));
-    }
-}
+// ---- It starts ----
 
 static void claim_started(bool legal)
 {
-    const struct curve at = curve_of(&c);
-    number all =
-        at.blocks | at.doubled | at.places | at.base | at.band | at.sum;
+    uint32_t all = c.blocks | c.doubled | (c.scale & 0x7Fu) | c.band | c.sum;
 
     for (unsigned i = 0; i < 8u; i++) {
-        all |= at.m[i];
+        all |= c.record[i];
     }
-    claim((all == 0) && (at.left == 32) && (c.start == 0));
-    claim(at.state == (legal ? LISTENS : FIXPID_REACTION_REFUSED));
-    claim(fixpid_reaction_status(&c) == at.state);
+    claim((all == 0u) && (c.left == 32u) && (c.start == 0) && (c.base == 0));
+    claim(c.state == (legal ? LISTENS : FIXPID_REACTION_REFUSED));
+    claim(fixpid_reaction_status(&c) == c.state);
     claim(reaction_is_sound(&c));
 }
 
-// Of any bytes; and reset makes the same.
+// Of any bytes; and reset makes the same of any of its configuration.
 void prove_init(void)
 {
     struct fixpid_reaction_config config = nondet_reaction_config();
+    struct fixpid_reaction was;
     bool legal;
+    bool down;
 
     config.reverse = any_bool;
     legal = (config.output_rest != config.output_drive) &&
             (config.timeout_steps <= 32767u);
+    down = (config.output_drive < config.output_rest) != config.reverse;
     c = nondet_reaction();
     claim(fixpid_reaction_init(&c, &config) == legal);
     claim_started(legal);
-    if (nondet_bool()) {
-        c = another();
-        c.state = legal ? nondet_uint8() | 1u : FIXPID_REACTION_REFUSED;
-        fixpid_reaction_reset(&c);
-        claim_started(legal);
-    }
     claim((c.output_rest == config.output_rest) &&
           (c.output_drive == config.output_drive));
     claim(c.timeout_steps ==
           ((config.timeout_steps == 0u) ? 1000u : config.timeout_steps));
-    claim(!legal ||
-          (leads_down(&c) ==
-           ((config.output_drive < config.output_rest) != config.reverse)));
-    claim(mirrored(&c, c.stop) == config.measurement_stop);
+    claim(!legal || ((c.scale == (down ? 0x80u : 0u)) &&
+                     (c.stop == (down ? (-1 - config.measurement_stop)
+                                      : config.measurement_stop))));
+    was = c;
+    c = nondet_reaction();
+    c.state = legal ? (c.state | 1u) : FIXPID_REACTION_REFUSED;
+    c.output_rest = was.output_rest;
+    c.output_drive = was.output_drive;
+    c.timeout_steps = was.timeout_steps;
+    was = c;
+    fixpid_reaction_reset(&c);
+    claim_started(legal);
+    claim(same_config(&c, &was));
 }
+
+// ---- A step ----
 
 // The blocks that can still come. Eight are four of twice the length, and there
 // are no more than eight of 2^12 steps; `doubled` begins anew behind 255.
@@ -401,64 +212,15 @@ static number blocks_to_go(const struct fixpid_reaction *x)
 // Those of the block, or of the listening; 0 is 65536.
 static number steps_to_go(const struct fixpid_reaction *x)
 {
-    const bool halves = (x->state >= HEATS) && (x->blocks >= 8u);
+    const bool halves = heats(x) && (x->blocks >= 8u);
     const number left = halves ? (2 * (number)x->left) : x->left;
 
     return ((left - 1) & 0xFFFF) + 1;
 }
 
-// floor(90 part / whole), which reaction_turns.c has.
-uint8_t __CPROVER_uninterpreted_ninetieths(uint16_t part, uint16_t whole);
-
-static uint8_t assume_ninetieths(uint16_t part, uint16_t whole)
-{
-    const uint8_t n = __CPROVER_uninterpreted_ninetieths(part, whole);
-
-    assume((n <= 90u) && ((part != 0u) || (n == 0u)));
-    return n;
-}
-
-uint8_t ninetieths_contract(uint16_t part, uint16_t whole)
-{
-    pre(part < whole);
-    return assume_ninetieths(part, whole);
-}
-
-// To 8 while it listens, to 98 at a clear movement. By contract:
-// fixpid_reaction_scaled, ninetieths.
-void prove_progress(void)
-{
-    struct curve at;
-    number need;
-    number risen = 0;
-    number done;
-
-    c = nondet_reaction();
-    assume(reaction_is_sound(&c));
-    at = curve_of(&c);
-    done = fixpid_reaction_progress(&c);
-    if (at.state == LISTENS) {
-        claim(done == floor_by(32 - at.left, 2));
-    } else if (at.state == HEATS) {
-        need = needed_by(&at);
-        if (at.blocks > 0) {
-            risen = at.m[at.blocks - 1] - (reach_of(&at) << at.places);
-        }
-        risen = floor_by(greater(risen, 0), 1);
-        claim(done ==
-              ((risen >= need)
-                   ? 98
-                   : (8 + assume_ninetieths((uint16_t)risen, (uint16_t)need))));
-        claim(inside(done, 8, 98));
-    } else {
-        claim(done == 100);
-    }
-}
-
-// Of any bytes: nothing undefined, the output is one of the configuration or 0,
-// one that is over stays so, and each ends: the next step is one of fewer that
-// are left of the block, or of a block of fewer that are left. By contract:
-// fixpid_reaction_scaled.
+// Of any bytes: nothing undefined, the output and the status are those of the
+// state, one that is over stays so, and each ends: the next step is one of
+// fewer that are left of the block, or of a block of fewer that are left.
 void prove_total(void)
 {
     struct fixpid_reaction was;
@@ -467,18 +229,145 @@ void prove_total(void)
     c = nondet_reaction();
     was = c;
     out = fixpid_reaction_step(&c, nondet_int16());
-    claim((out == 0) || (out == was.output_rest) || (out == was.output_drive));
-    claim((c.output_rest == was.output_rest) &&
-          (c.output_drive == was.output_drive) && (c.stop == was.stop) &&
-          (c.timeout_steps == was.timeout_steps));
-    if ((was.state != LISTENS) && (was.state < HEATS)) {
+    claim(same_config(&c, &was));
+    if (heats(&c)) {
+        claim(out == was.output_drive);
+        claim(fixpid_reaction_status(&c) == FIXPID_REACTION_RUNNING);
+    } else {
+        claim(out ==
+              ((c.state == FIXPID_REACTION_REFUSED) ? 0 : was.output_rest));
+        claim(fixpid_reaction_status(&c) == c.state);
+    }
+    if (!listens(&was) && !heats(&was)) {
         claim(c.state == was.state);
-    } else if (c.state == LISTENS) {
-        claim((was.state == LISTENS) && (steps_to_go(&c) < steps_to_go(&was)));
-    } else if ((was.state >= HEATS) && (c.state >= HEATS)) {
+    } else if (listens(&c)) {
+        claim(listens(&was) && (steps_to_go(&c) < steps_to_go(&was)));
+    } else if (heats(&was) && heats(&c)) {
         claim((blocks_to_go(&c) < blocks_to_go(&was)) ||
               ((blocks_to_go(&c) == blocks_to_go(&was)) &&
                (steps_to_go(&c) < steps_to_go(&was))));
         claim(inside(blocks_to_go(&was), 1, 56));
+    }
+}
+
+// Steps since the heat-up began.
+static number age_of(const struct fixpid_reaction *x)
+{
+    return ((number)x->blocks << x->doubled) + ((number)1 << x->doubled) -
+           x->left;
+}
+
+// An experiment stays one, and ends: it listens for 32 steps, and heats for
+// 32768 at most.
+void prove_kept(void)
+{
+    struct fixpid_reaction was;
+
+    c = nondet_reaction();
+    assume(reaction_is_sound(&c));
+    was = c;
+    (void)fixpid_reaction_step(&c, nondet_int16());
+    claim(reaction_is_sound(&c));
+    if (listens(&c)) {
+        claim(listens(&was) && (c.left == was.left - 1));
+    } else if (heats(&c)) {
+        claim(age_of(&c) == (heats(&was) ? (age_of(&was) + 1) : 0));
+        claim(age_of(&c) < 32768);
+    } else {
+        claim(listens(&was) || heats(&was) || (c.state == was.state));
+    }
+}
+
+// ---- What it tells ----
+
+// Domain: a turn of 90 additions: no more wholes were taken out than turns are
+// done.
+static bool reaction_may_add(number wholes, number turns)
+{
+    return inside(turns, 1, 90) && (wholes + turns <= 90);
+}
+
+static bool ninetieths_turn(uint16_t *sum, uint8_t *wholes, uint8_t *turn)
+{
+    claim(reaction_may_add(*wholes, *turn));
+    any_turn();
+    *sum = nondet_uint16();
+    *wholes = nondet_uint8();
+    *turn = nondet_uint8();
+    assume(reaction_may_add(*wholes, *turn));
+    return true;
+}
+
+// Of any bytes; to 8 while it listens and from there to 98 while it heats, if
+// it is an experiment.
+void prove_progress(void)
+{
+    number done;
+
+    c = nondet_reaction();
+    done = fixpid_reaction_progress(&c);
+    claim(inside(done, 0, 100));
+    if (listens(&c)) {
+        claim((done <= 8) || !reaction_is_sound(&c));
+    } else if (heats(&c)) {
+        claim(inside(done, 8, 98));
+    } else {
+        claim(done == 100);
+    }
+}
+
+static bool same_process(const struct fixpid_reaction_process *a,
+                         const struct fixpid_reaction_process *b)
+{
+    return (a->slope_q24 == b->slope_q24) && (a->dead_q4 == b->dead_q4) &&
+           (a->noise_q4 == b->noise_q4);
+}
+
+// Of any bytes, there is one of what is done, and otherwise nothing is written.
+void prove_model(void)
+{
+    const struct fixpid_reaction_process before = nondet_process();
+    struct fixpid_reaction_process process = before;
+    struct fixpid_reaction was;
+
+    c = nondet_reaction();
+    was = c;
+    if (fixpid_reaction_model(&c, &process)) {
+        claim(was.state == FIXPID_REACTION_DONE);
+        claim(process.noise_q4 == ((4u * was.band) & 0xFFFFu));
+    } else {
+        claim(was.state != FIXPID_REACTION_DONE);
+        claim(same_process(&process, &before));
+    }
+}
+
+static bool same_gains(const struct fixpid_pid_gains *a,
+                       const struct fixpid_pid_gains *b)
+{
+    return (a->kp_q8 == b->kp_q8) && (a->ki_q24 == b->ki_q24) &&
+           (a->kd_q8 == b->kd_q8) &&
+           (a->derivative_filter == b->derivative_filter);
+}
+
+// Of any bytes: gains are within their ranges, of one that is done and for a
+// rule and a robustness that exist, and otherwise nothing is written.
+void prove_result(void)
+{
+    const struct fixpid_pid_gains before = nondet_pid_gains();
+    const uint8_t rule = nondet_uint8();
+    const uint8_t robustness = nondet_uint8();
+    struct fixpid_pid_gains gains = before;
+
+    c = nondet_reaction();
+    if (fixpid_reaction_result(&c, rule, robustness, &gains)) {
+        claim(c.state == FIXPID_REACTION_DONE);
+        claim((rule <= 1u) && inside(robustness, 8, 64));
+        claim((gains.kp_q8 <= 32767u) && (gains.kd_q8 <= 32255u));
+        claim(inside(gains.ki_q24, 8, 0x7FFF0000));
+        claim(gains.derivative_filter <= 7u);
+        claim((rule == 1u) ||
+              ((gains.kd_q8 == 0u) && (gains.derivative_filter == 0u)));
+    } else {
+        claim(same_gains(&gains, &before));
     }
 }

@@ -21,7 +21,8 @@ module Assurance
   PARTLY = {
     'autotune' => 'in part: init, progress and a record, as its header says; a step as the definition says, by contracts of its parts, ' \
                   'the relay that comes next only for shares of one bit, and parts of cycles only of lengths that are powers of two; not its result, but its numbers',
-    'reaction' => 'as its header says, the tangent whatever its quotients are and its products only with powers of two',
+    'reaction' => 'in part: init as its header says; of any bytes, a step is defined, puts out what it may and leads to the end, and what it tells is ' \
+                  'within its range; an experiment stays one; not what its parts compute',
     'gains' => 'as its header says, but for a product of 64 bits in which neither number is a power of two, which is tested',
     'tpo' => 'as its header says, what a window asks for only where its length is a power of two'
   }.freeze
