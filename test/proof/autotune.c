@@ -2,7 +2,8 @@
 // fixpid_autotune: its step is total, its output within its range, what is
 // final stays so, and a record is the experiment. What a step does is proved in
 // autotune_step.c and autotune_cycle.c, but for the quotients of a new centre
-// (unproved.txt); the result is for its recorded rows.
+// and which cycles are alike (unproved.txt); the result is for its recorded
+// rows.
 #include "autotune.h"
 
 struct fixpid_autotune_stage nondet_stage(void);

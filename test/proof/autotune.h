@@ -347,26 +347,16 @@ static bool same_share(number on, number steps, number others_on, number others,
         unsigned16(others), unsigned16(allowed));
 }
 
-static bool alike; // what the open part said
+static bool alike; // what was said last
 
-// The cycle is like the one before it, or in the third phase, for the same part
-// at high as all of them.
+// Whether the cycle is like the others: any answer.
 static bool is_alike(const struct fixpid_autotune *x, number before)
 {
-    const number period = x->last_period;
-
     alike_part.due = true;
     alike_part.deviation = before;
     alike_part.before = *x;
-    if (alike_part.open) {
-        alike = nondet_bool();
-        return alike;
-    }
-    if (x->state != IN_THIRD) {
-        return size_of(period - before) <= floor_by(period, 3) + 1;
-    }
-    return same_share(period - x->elapsed, period, x->sums[0].on_steps,
-                      x->sums[0].steps, floor_by(period, 5) + 1);
+    alike = nondet_bool();
+    return alike;
 }
 
 static void relay_complete(struct fixpid_autotune *x)
@@ -777,35 +767,6 @@ static bool autotune_may_recentre(const struct fixpid_autotune *x)
            (x->noise <= 32736u) && inside(x->edge, 1, 30208) &&
            is_deviation(x->highest) && is_deviation(x->lowest) &&
            ((number)x->highest > x->edge) && (x->lowest < -(number)x->edge);
-}
-
-// Domain: the noise is what 32 steps can make.
-static bool autotune_has_noise(const struct fixpid_autotune *x)
-{
-    return x->noise <= 32736u;
-}
-
-// Domain: two cycles of a relay, of which the last half is within its period,
-// and cycles in the sums, at high for a part of them.
-static bool autotune_may_compare(const struct fixpid_autotune *x)
-{
-    return inside(x->state, IN_FIRST, IN_THIRD) &&
-           (x->last_period >= x->elapsed) && (x->last_period <= 32767u) &&
-           ((x->state != IN_THIRD) ||
-            ((x->sums[0].steps <= 32767u) &&
-             (x->sums[0].on_steps <= x->sums[0].steps)));
-}
-
-// Domain: a turn of eight of a division by hand: the rest is below the whole.
-static bool autotune_may_share(number rest, number bits, number whole)
-{
-    return inside(bits, 0, 7) && (rest < whole);
-}
-
-// Domain: the part is below the whole.
-static bool autotune_is_part(number part, number whole)
-{
-    return part < whole;
 }
 
 // Domain: a relay that has not switched, from the centre on, with an output

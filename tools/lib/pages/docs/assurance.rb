@@ -20,7 +20,7 @@ module Assurance
   # What is proved of a module of whose header a part is only tested or tried.
   PARTLY = {
     'autotune' => 'in part: init, progress and a record, as its header says; a step as the definition says, by contracts of its parts, ' \
-                  'the relay that comes next only for shares of one bit, and parts of cycles only of lengths that are powers of two; not its result, but its numbers',
+                  'of the relay that comes next only its range, and not which cycles are alike; not its result, but sums and differences of its numbers',
     'reaction' => 'in part: init as its header says; of any bytes, a step is defined, puts out what it may and leads to the end, and what it tells is ' \
                   'within its range; an experiment stays one; not what its parts compute',
     'gains' => 'as its header says, but for a product of 64 bits in which neither number is a power of two, which is tested',
