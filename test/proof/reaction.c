@@ -349,8 +349,18 @@ static bool same_gains(const struct fixpid_pid_gains *a,
            (a->derivative_filter == b->derivative_filter);
 }
 
+// Any quotient: that it is defined is proved of the model.
+uint32_t ratio_contract(uint32_t a, uint32_t b, uint8_t places)
+{
+    (void)a;
+    (void)b;
+    pre(places <= 30u);
+    return nondet_uint32();
+}
+
 // Of any bytes: gains are within their ranges, of one that is done and for a
-// rule and a robustness that exist, and otherwise nothing is written.
+// rule and a robustness that exist, and otherwise nothing is written. By
+// contract: ratio.
 void prove_result(void)
 {
     const struct fixpid_pid_gains before = nondet_pid_gains();

@@ -13,7 +13,7 @@ THEOREMS = 'theorems'.freeze # of these each module has a harness of its own
 SLOW = %w[modes noise step_exact integrate ends candidate_rises receive limit_rises turn set_limits track valid cycle at relay slew_reaches composed disorder integral_inside set_integral_limits differentiate derivative_rises held_rises bumpless tpo_exact level lost kept whole].freeze # they take many seconds
 # Beside these, what tools/prove --quick leaves out.
 LONG = ['an937 step', 'an964_8bit step', 'autotune make', 'autotune minus', 'autotune plus', 'autotune step',
-        'autotune sum', 'autotune unpack', 'guard step', 'pid errors_rise', 'pid limit', 'pid restore', 'pid special_errors', 'reaction model', 'reaction result',
+        'autotune sum', 'autotune unpack', 'guard step', 'pid errors_rise', 'pid limit', 'pid restore', 'pid special_errors', 'reaction model',
         'record unpack', 'theorems monotone', 'tpo owed'].freeze
 
 # Of what CBMC is asked: how its harness is compiled.
