@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The start from rest. It is apart from the other tests of fixpid_pid, because
-// an ATmega2560 has RAM for the names of so many only.
+// The recorded rows, and the start from rest. They are apart from the other
+// tests of fixpid_pid, because an ATmega2560 has RAM for the names of so many
+// only.
 #include "fixpid_pid.h"
 #include "pid_both.h"
 #include "reference_pid.h"
 #include "unity.h"
+#include "vectors.h"
+#include "vectors_pid.h"
 
 TEST_SOURCE_FILE("src/pid/fixpid_pid.c")
 TEST_SOURCE_FILE("src/pid/fixpid_pid_check.c")
@@ -24,6 +27,134 @@ void setUp(void)
 
 void tearDown(void)
 {
+}
+
+static void make_event(const int32_t row[])
+{
+    switch (row[PID_EVENT]) {
+    case PID_NOTHING:
+        break;
+    case PID_INIT:
+        TEST_ASSERT_TRUE(init());
+        break;
+    case PID_RESET:
+        reset();
+        break;
+    case PID_SET_GAINS:
+        TEST_ASSERT_TRUE(set_gains());
+        break;
+    case PID_SET_LIMITS:
+        TEST_ASSERT_TRUE(set_limits(config.output_min, config.output_max));
+        break;
+    case PID_SET_INTEGRAL_LIMITS:
+        TEST_ASSERT_TRUE(
+            set_integral_limits(config.integral_min, config.integral_max));
+        break;
+    case PID_SET_FEEDFORWARD:
+        set_feedforward((int16_t)row[PID_VALUE]);
+        break;
+    case PID_SET_MANUAL:
+        set_manual((int16_t)row[PID_VALUE]);
+        break;
+    case PID_SET_AUTO:
+        set_auto();
+        break;
+    case PID_SEED:
+        seed((int16_t)row[PID_VALUE]);
+        break;
+    default:
+        TEST_FAIL_MESSAGE("unknown event");
+    }
+}
+
+void test_step_recorded_rows_match_the_definition(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    VECTORS_OPEN(pid_definition);
+    while (vectors_next(row)) {
+        vectors_pid_config(&config, row);
+        vectors_pid_set_options(
+            &config, vectors_pid_options(row[PID_OPTIONS], row[PID_WEIGHT]));
+        make_event(row);
+        TEST_ASSERT_EQUAL_INT16(
+            row[PID_OUTPUT],
+            step((int16_t)row[PID_SETPOINT], (int16_t)row[PID_MEASUREMENT]));
+        TEST_ASSERT_EQUAL_INT32(row[PID_P],
+                                fixpid_pid_proportional(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[PID_I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[PID_D],
+                                fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(row[PID_STATUS], flags() & VECTORS_PID_FLAGS);
+        rows++;
+    }
+    TEST_ASSERT_EQUAL_UINT(2000, rows);
+}
+
+static void after_the_step(const int32_t row[])
+{
+    const int16_t value = (int16_t)row[TRACK_VALUE3];
+
+    switch (row[TRACK_EVENT2]) {
+    case PID_NOTHING:
+        break;
+    case PID_RESET:
+        reset();
+        break;
+    case PID_SET_MANUAL:
+        set_manual(value);
+        break;
+    case PID_SET_AUTO:
+        set_auto();
+        break;
+    case PID_SEED:
+        seed(value);
+        break;
+    default:
+        TEST_FAIL_MESSAGE("unknown event");
+    }
+    if (row[TRACK_TRACKED] != 0) {
+        track((int16_t)row[TRACK_APPLIED], (uint8_t)row[TRACK_SHIFT]);
+    }
+}
+
+// Compares the rows of a file with track.csv's columns; returns their number.
+static unsigned rows_with_two_events(void)
+{
+    int32_t row[VECTORS_COLUMNS_MAX];
+    unsigned rows = 0;
+
+    while (vectors_next(row)) {
+        vectors_pid_config(&config, row);
+        TEST_ASSERT_EQUAL(row[TRACK_ACCEPTED] != 0, before_the_step(row));
+        TEST_ASSERT_EQUAL_INT16(row[TRACK_OUTPUT],
+                                step((int16_t)row[TRACK_SETPOINT],
+                                     (int16_t)row[TRACK_MEASUREMENT]));
+        after_the_step(row);
+        TEST_ASSERT_EQUAL_INT16(row[TRACK_LAST_OUTPUT],
+                                fixpid_pid_output(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_P],
+                                fixpid_pid_proportional(&pid_controller));
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_I], integral());
+        TEST_ASSERT_EQUAL_INT32(row[TRACK_D],
+                                fixpid_pid_derivative(&pid_controller));
+        TEST_ASSERT_EQUAL_HEX8(row[TRACK_STATUS], flags());
+        rows++;
+    }
+    return rows;
+}
+
+void test_track_recorded_rows_match_the_definition(void)
+{
+    VECTORS_OPEN(track);
+    TEST_ASSERT_EQUAL_UINT(1000, rows_with_two_events());
+}
+
+void test_step_recorded_rows_of_the_start_match_the_definition(void)
+{
+    VECTORS_OPEN(rest);
+    TEST_ASSERT_EQUAL_UINT(600, rows_with_two_events());
 }
 
 // The output would be the feed-forward, or what its range has nearest to that.
