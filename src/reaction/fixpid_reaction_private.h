@@ -38,7 +38,6 @@
 #define fixpid_reaction_scaled FIXPID_SUFFIXED(reaction, scaled)
 #define fixpid_reaction_origin FIXPID_SUFFIXED(reaction, origin)
 #define fixpid_reaction_needed FIXPID_SUFFIXED(reaction, needed)
-#define fixpid_reaction_risen FIXPID_SUFFIXED(reaction, risen)
 #define fixpid_reaction_begin FIXPID_SUFFIXED(reaction, begin)
 #define fixpid_reaction_halve FIXPID_SUFFIXED(reaction, halve)
 #define fixpid_reaction_end_block FIXPID_SUFFIXED(reaction, end_block)
