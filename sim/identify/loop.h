@@ -54,7 +54,7 @@ struct loop_margins {
     double lower_gain; // the same below 1
     double crossover;  // where phase_degrees is
     double turnover;   // where `gain` is
-    double off_ms;     // the largest ms with the plant's gain up to LOOP_OFF off
+    double off_ms;     // the largest with a gain that is up to LOOP_OFF off
     bool off_stable;
     int dead_steps; // whole steps of dead time, which the curve has
 
