@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // sim/tuner/libm/math.h beside the system's functions, over the arguments that
-// plants have.
+// plants and loops have.
 #include "../../../sim/tuner/libm/math.h"
 #undef fabs
 #undef floor
@@ -11,6 +11,9 @@
 #undef cos
 #undef exp
 #undef tanh
+#undef sqrt
+#undef log
+#undef atan2
 #undef memcpy
 #include <math.h>
 #include <stdio.h>
@@ -47,6 +50,27 @@ static double their_lower(double x)
     return fmin(floor(x), ceil(x)) + fmax(x, -x);
 }
 
+static double our_log(double x)
+{
+    return math_log(exp2(x));
+}
+
+static double their_log(double x)
+{
+    return log(exp2(x));
+}
+
+// In all four quadrants, and at their ends.
+static double our_angle(double x)
+{
+    return math_angle(sin(x), cos(x));
+}
+
+static double their_angle(double x)
+{
+    return atan2(sin(x), cos(x));
+}
+
 int main(void)
 {
     int good = compared("sin", math_sine, sin, -20.0, 20.0);
@@ -56,5 +80,8 @@ int main(void)
     good &=
         compared("floor, ceil, fmin, fmax", our_lower, their_lower, -9.5, 9.5);
     good &= compared("fabs", math_fabs, fabs, -9.5, 9.5);
+    good &= compared("sqrt", math_sqrt, sqrt, 0.0, 1e6);
+    good &= compared("log", our_log, their_log, -900.0, 900.0);
+    good &= compared("atan2", our_angle, their_angle, -3.5, 3.5);
     return good ? 0 : 1;
 }
