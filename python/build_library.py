@@ -61,9 +61,24 @@ def declarations():
     return "".join(f"#define {name} ...\n" for name in sorted(numbers)) + declared
 
 
+def loops(declared):
+    """{a declaration: its body}: for each step, and for a table, a function of whole arrays."""
+    found = {}
+    for result, name, noun, arguments in re.findall(
+            r"(\w+) (fixpid_(\w+?)_(?:step|at))\((?:const)? *struct fixpid_\3 \*self,([^*;)]*)\);", declared):
+        names = [one.split()[-1] for one in arguments.split(",")]
+        columns = "".join(f"const {one.strip().replace(' ', ' *')}, " for one in arguments.split(","))
+        found[f"void each_{name}(struct fixpid_{noun} *self, size_t count, {columns}{result} *results)"] = (
+            f"{{\n    for (size_t at = 0; at < count; at++) {{\n        results[at] = {name}"
+            f"(self, {', '.join(f'{one}[at]' for one in names)});\n    }}\n}}\n")
+    return found
+
+
 ffi = FFI()
-ffi.cdef(declarations())
+DECLARED = declarations()
+LOOPS = loops(DECLARED)
+ffi.cdef(DECLARED + "".join(f"{one};\n" for one in LOOPS))
 # The twin of a live link is in the library itself: it is a controller.
 SOURCES = beside(SOURCE, "*", "*.c") + [os.path.join(LINK, name) for name in ("link_frames.c", "link_twin.c")]
-ffi.set_source("fixpid._library", TEXT, sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
+ffi.set_source("fixpid._library", TEXT + "".join(f"static {one}\n{body}" for one, body in LOOPS.items()), sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
                include_dirs=[INCLUDE, TUNER, LINK], extra_compile_args=["-std=c99"])

@@ -87,22 +87,39 @@ def refusal(noun, struct, config, field):
     return f"{field} = {values[field]} is refused: {why or said[field]}"
 
 
-def counts(numbers):
-    """What of a whole array goes into the library: whole numbers only."""
-    array = numpy.asarray(numbers)
-    if array.dtype.kind not in "iub":
-        raise TypeError(f"integers are wanted, not {array.dtype}: round to counts first")
-    return array
+def _column(name, values, kind):
+    """A whole number, or an array or list of them, of this type of C."""
+    if numpy is None:
+        return [whole(name, one, kind) for one in values] if hasattr(values, "__iter__") else whole(name, values, kind)
+    array = numpy.asarray(values)
+    if array.size and array.dtype.kind not in "iub":
+        raise TypeError(f"{name} is refused: integers are wanted, not {array.dtype}: round to counts first")
+    low, high = WHOLE[kind]
+    for one in array[(array < low) | (array > high)][:1]:
+        whole(name, one, kind)
+    return array.astype(kind[:-len("_t")])
 
 
-def each(function, arguments, kind):
-    """A function for each element of arrays, which are broadcast; of lists, without numpy."""
+def each(function, own, arguments):
+    """What a function of C gives for each element of its arguments: an array, as numpy broadcasts
+    them, or a list without numpy. It is called once, by the loop that build_library.py made of it."""
+    loop = getattr(lib, f"each_{function}")
+    *kinds, result = [kind.item.cname for kind in ffi.typeof(loop).args[2:]]
+    names = [name for name, _ in _headers.FUNCTIONS[function][1]]
+    if len(arguments) != len(names):
+        raise TypeError(f"{', '.join(names)} are wanted, not {len(arguments)} arguments")
+    columns = list(map(_column, names, arguments, kinds))
     if numpy is not None:
-        arrays = numpy.broadcast_arrays(*arguments)
-        flat = numpy.fromiter(map(function, *(array.ravel().tolist() for array in arrays)), kind, arrays[0].size)
-        return flat.reshape(arrays[0].shape)
-    lists = [list(one) if hasattr(one, "__iter__") else one for one in arguments]
-    sizes = {len(one) for one in lists if isinstance(one, list)}
+        columns = numpy.broadcast_arrays(*columns)
+        found = numpy.empty(columns[0].shape, "bool" if result == "_Bool" else result[:-len("_t")])
+        loop(own, found.size, *(ffi.from_buffer(f"{kind}[]", numpy.ascontiguousarray(one)) for kind, one in zip(kinds, columns)),
+             ffi.from_buffer(f"{result}[]", found))
+        return found
+    sizes = {len(one) for one in columns if isinstance(one, list)}
     if len(sizes) != 1:
         raise ValueError(f"sequences of one length are wanted, not of {sorted(sizes)}")
-    return list(map(function, *(one if isinstance(one, list) else [one] * min(sizes) for one in lists)))
+    size = min(sizes)
+    found = ffi.new(f"{result}[]", size)
+    loop(own, size, *(ffi.new(f"{kind}[]", one if isinstance(one, list) else [one] * size)
+                      for kind, one in zip(kinds, columns)), found)
+    return ffi.unpack(found, size)

@@ -5,7 +5,7 @@ import operator
 import textwrap
 
 from . import _nouns
-from ._core import accept as _accept, counts as _counts, ffi, fields_of as _fields, lib, new as _new, numpy
+from ._core import accept as _accept, each, ffi, fields_of as _fields, lib, new as _new
 
 
 def _causes(name, noun, advice):
@@ -166,10 +166,9 @@ class Table:
         return Table, (self.points,), {"error": self.error}
 
     def at(self, x):
-        """The curve at x; of an array, an array."""
-        if numpy is not None and isinstance(x, numpy.ndarray):
-            flat = numpy.fromiter(map(self.at, _counts(x).ravel().tolist()), "int16", x.size)
-            return flat.reshape(x.shape)
+        """The curve at x; of an array or a list, an array."""
+        if hasattr(x, "__iter__"):
+            return each("fixpid_table_at", self._table, (x,))
         return lib.fixpid_table_at(self._table, operator.index(x))
 
     def c(self, name):

@@ -5,7 +5,7 @@ import inspect
 import operator
 
 from . import _headers
-from ._core import __version__, accept, counts, each, fields_of, new, numpy, problem, refusal, whole
+from ._core import __version__, accept, each, fields_of, new, problem, refusal, whole
 from ._library import ffi, lib
 
 globals().update({name[len("FIXPID_"):]: getattr(lib, name) for name in dir(lib)
@@ -100,9 +100,7 @@ class Noun:
 
     def steps(self, *arguments):
         """A step for each element of arrays, which numpy broadcasts: an array of results."""
-        result = ffi.typeof(getattr(lib, f"fixpid_{self._noun}_step")).result.cname
-        kind = bool if result == "_Bool" else result[:-len("_t")]
-        return each(self.step, arguments if numpy is None else tuple(map(counts, arguments)), kind)
+        return each(f"fixpid_{self._noun}_step", self.c, arguments)
 
     def __repr__(self):
         numbers, config = self._said

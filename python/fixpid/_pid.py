@@ -3,10 +3,12 @@
 import math
 
 from . import _nouns
-from ._core import accept, each, ffi, lib, new, numpy
+from ._core import accept, each, ffi, lib, new
 from ._nouns import PID_FILTER_MAX, PID_KD_MAX, PID_KI_MAX, PID_KP_MAX, PID_MANUAL
-from ._units import Actuator, Sensor, number, pair
+from ._units import Actuator, Sensor, nearest, number, numbers, pair
 
+REAL = ("kp", "ki", "kd", "rate (steps per second)", "output_limits", "setpoint", "sensor", "actuator", "filter",
+        "setpoint_weight", "integral_limits")
 CONFIG = ("gains", "output_min", "output_max", "integral_min", "integral_max", "setpoint_weight_q8")
 
 
@@ -48,14 +50,19 @@ class Pid(_nouns.Pid):
     and the others, always take counts.
     """
 
-    def __init__(self, *, kp=None, ki=0.0, kd=0.0, rate=None, output_limits=None, setpoint=0.0,
+    def __init__(self, *, kp=None, ki=0.0, kd=0.0, rate=None, output_limits=None, setpoint=None,
                  sensor=None, actuator=None, filter=0, setpoint_weight=1.0, integral_limits=None, **config):
+        known = dict(ffi.typeof("struct fixpid_pid_config").fields)
+        for name in config:
+            if name not in known:
+                raise TypeError(f"there is no {name!r}; there are {', '.join(REAL)}; or in counts {', '.join(known)}")
         for name, kind, given in (("sensor", Sensor, sensor), ("actuator", Actuator, actuator)):
             if given is not None and not isinstance(given, kind):
                 raise TypeError(f"{name} = {given!r} is refused: a fixpid.{kind.__name__} is wanted")
         self.sensor, self.actuator = sensor, actuator
         self.rate = None if rate is None else number("rate", rate)
-        self.setpoint, self.setpoint_weight, self.filter = number("setpoint", setpoint), setpoint_weight, filter
+        self.setpoint_weight, self.filter = setpoint_weight, filter
+        self.setpoint = min(max(0.0, self._reach[0]), self._reach[1]) if setpoint is None else setpoint
         self._tunings = None
         if kp is not None:
             config = self._real(kp, ki, kd, output_limits, integral_limits, config)
@@ -113,35 +120,47 @@ class Pid(_nouns.Pid):
             raise ValueError(f"{name} = {tuple(limits)} is refused: {low}..{high} counts are beyond 16 bits")
         return low, high
 
-    def _measured(self, name, value):
-        """A setpoint or a measurement in counts."""
-        value = number(name, value)
-        if self.sensor is not None:
-            return self.sensor.counts(value)
-        return math.floor(min(max(value, -32768.0), 32767.0) + 0.5)
+    def _counts(self, value):
+        """A number of the measurement, or an array or list of them, in counts."""
+        if isinstance(value, list):
+            return list(map(self._counts, value))
+        return nearest(value, -32768, 32767) if self.sensor is None else self.sensor.counts(value)
 
     def _driven(self, counts):
         return counts if self.actuator is None else self.actuator.units(counts)
 
     # ---- in real units ----
 
+    @property
+    def setpoint(self):
+        """What the next call is to reach; what the sensor never shows is refused."""
+        return self._setpoint
+
+    @setpoint.setter
+    def setpoint(self, setpoint):
+        self._setpoint = numbers("setpoint", setpoint, *self._reach)
+        self._wanted = self._counts(self._setpoint)
+
+    @property
+    def _reach(self):
+        return (-32768.0, 32767.0) if self.sensor is None else (self.sensor.low, self.sensor.high)
+
     def __call__(self, measurement, setpoint=None):
         """One step, once per sample period: the output for this measurement."""
-        if setpoint is not None:
-            self.setpoint = number("setpoint", setpoint)
-        return self._driven(self.step(self._measured("setpoint", self.setpoint),
-                                      self._measured("measurement", measurement)))
+        if setpoint is not None and setpoint != self._setpoint:
+            self.setpoint = setpoint
+        return self._driven(self.step(self._wanted, self._counts(number("measurement", measurement))))
 
     def run(self, setpoints, measurements):
         """A call for each element of arrays or lists: the outputs, as an array if there is
         numpy. The last setpoint stays."""
-        def one(setpoint, measurement):
-            return self(measurement, setpoint)
-
-        given = setpoints, measurements
-        if numpy is not None:
-            given = tuple(numpy.asarray(value, dtype=float) for value in given)
-        return each(one, given, float if self.actuator is not None and self.actuator.full is not None else "int16")
+        wanted, measured = numbers("setpoints", setpoints, *self._reach), numbers("measurements", measurements)
+        outputs = each("fixpid_pid_step", self.c, (self._counts(wanted), self._counts(measured)))
+        while hasattr(wanted, "__iter__") and len(wanted):
+            wanted = wanted[-1]
+        if not hasattr(wanted, "__iter__"):
+            self.setpoint = float(wanted)
+        return list(map(self._driven, outputs)) if isinstance(outputs, list) else self._driven(outputs)
 
     @property
     def tunings(self):

@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass
 from typing import Optional
 
+from ._core import numpy
+
 
 def number(name, value):
     """A finite float; who passes another one is told which."""
@@ -26,6 +28,32 @@ def pair(name, value):
     if low >= high:
         raise ValueError(f"{name} = ({low:g}, {high:g}) is refused: the first is not below the second")
     return low, high
+
+
+def numbers(name, values, low=-math.inf, high=math.inf):
+    """Finite floats from low to high, one or an array of them (a list, without numpy); who passes
+    another one is told which."""
+    if not hasattr(values, "__iter__"):
+        found = number(name, values)
+        if not low <= found <= high:
+            raise ValueError(f"{name} = {found:g} is refused: {low:g} to {high:g} is legal here")
+        return found
+    if numpy is None:
+        return [numbers(f"{name}[{at}]", value, low, high) for at, value in enumerate(values)]
+    try:
+        array = numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is refused: an array of numbers is wanted") from None
+    for at in numpy.flatnonzero(~(numpy.isfinite(array) & (array >= low) & (array <= high)))[:1]:
+        numbers(f"{name}[{at}]", array.flat[at], low, high)
+    return array
+
+
+def nearest(value, low, high):
+    """The nearest whole number from low to high; for an array, an array."""
+    if hasattr(value, "dtype"):
+        return numpy.floor(numpy.clip(value, low, high) + 0.5).astype("int16")
+    return math.floor(min(max(value, low), high) + 0.5)
 
 
 @dataclass(frozen=True)
@@ -54,8 +82,7 @@ class Sensor:
 
     def counts(self, value):
         """The nearest count; what is beyond the range is its end."""
-        counted = (value - self.low) / (self.high - self.low) * self.top
-        return math.floor(min(max(counted, 0.0), self.top) + 0.5)
+        return nearest((value - self.low) / (self.high - self.low) * self.top, 0, self.top)
 
     def units(self, count):
         """What a count stands for."""
@@ -93,7 +120,7 @@ class Actuator:
 
     def counts(self, value):
         """The nearest count within the range."""
-        return math.floor(min(max(value / self.unit_per_count, self.lowest), self.highest) + 0.5)
+        return nearest(value / self.unit_per_count, self.lowest, self.highest)
 
     def units(self, count):
         """What a count stands for: the count itself where a unit is one."""

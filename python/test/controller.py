@@ -77,8 +77,15 @@ def arrays_run():
     outputs = pid.run(setpoints, measurements)
     same(outputs.tolist(), [one(y, r) for y, r in zip(measurements, setpoints)])
     same(pid.setpoint, 175)
-    counts = fixpid.Pid(kp=1, rate=1, output_limits=(0, 9)).run(5, [1, 2.6, 9])
-    assert counts.tolist() == [4, 2, 0] and counts.dtype == numpy.int16
+    same(oven().run(numpy.full((2, 3), 180), measurements[:3]).shape, (2, 3))
+    same((pid.run(170, []).size, pid.setpoint), (0, 170))
+    counts = fixpid.Pid(kp=1, rate=1, output_limits=(0, 9))
+    outputs = counts.run(5, [1, 2.6, 9, -1e9, 1e9])
+    assert outputs.tolist() == [4, 2, 0, 9, 0] and outputs.dtype == numpy.int16 and counts.setpoint == 5
+    # What is refused has moved nothing.
+    before = counts.state()
+    assert refuses(ValueError, counts.run, 5, [1, math.inf]) and counts.state() == before
+    same(fixpid.Pid(kp=1, rate=1, sensor=fixpid.Sensor(20, 90), output_limits=(0, 9)).setpoint, 20)
 
 
 def tunings_and_limits_are_set_live():
@@ -119,7 +126,10 @@ def what_is_refused_is_named():
             (TypeError, {"kp": 2, "rate": 1}, "output_limits are missing"),
             (TypeError, {"kp": (2, 1), **limits}, "kp = (2, 1) is refused"),
             (TypeError, {"kp": 2, "output_max": 9, **limits}, "output_max is refused together with kp"),
-            (TypeError, {"outputmax": 255}, "there is no 'outputmax'; there are gains, output_min"),
+            (TypeError, {"outputmax": 255}, "there is no 'outputmax'; there are kp, ki, kd, rate (steps per second), output_limits"),
+            (TypeError, {"Kp": 2, **limits}, "there is no 'Kp'; there are kp"),
+            (TypeError, {"kp": 2, "sample_time": 0.1}, "there is no 'sample_time'; there are kp, ki, kd, rate"),
+            (ValueError, {"kp": 2, **limits, "setpoint": 1e6}, "setpoint = 1e+06 is refused: -32768 to 32767 is legal"),
             (TypeError, {"gains": {"kp": 2}}, "there is no 'kp'; there are kp_q8"),
             (TypeError, {"kp": 2, **limits, "sensor": (0, 100)}, "sensor = (0, 100) is refused: a fixpid.Sensor"),
             (TypeError, {"kp": 2, **limits, "output_limits": 255}, "output_limits = 255 is refused: a pair"),
@@ -145,6 +155,11 @@ def what_is_refused_is_named():
             (OverflowError, pid.step, (1, 32768), "measurement = 32768 is refused"),
             (TypeError, pid.step, (1.0, 1), "setpoint = 1.0 is refused"),
             (ValueError, pid, (math.inf,), "measurement = inf is refused"),
+            (ValueError, oven(), (20, 389.6), "setpoint = 389.6 is refused: -20 to 389.5 is legal here"),
+            (ValueError, pid.run, ([1, -40000], 1), "setpoints[1] = -40000 is refused: -32768 to 32767 is legal"),
+            (ValueError, pid.run, (1, [1, math.nan]), "measurements[1] = nan is refused"),
+            (TypeError, pid.run, (1, ["a"]), "measurements is refused: an array of numbers"),
+            (TypeError, pid.steps, (1,), "setpoint, measurement are wanted, not 1"),
             (TypeError, pid, ((1, 2),), "measurement = (1, 2) is refused"),
             (OverflowError, fixpid.Slew, (1, -1), "fall_q16 = -1 is refused"),
             (TypeError, fixpid.Guard, (5,), "Guard takes its fields by name: output_min"),
