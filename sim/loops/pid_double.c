@@ -74,11 +74,25 @@ static double within_range(const struct pid_double *self, double integral)
     return fmin(fmax(integral, self->integral_min), self->integral_max);
 }
 
+// At rest, before a first step that nothing is held for: fixpid_pid_step says
+// so.
+static void rest(struct pid_double *self, double measurement)
+{
+    const double left = (self->setpoint_weight - 1.0) * measurement;
+    const double output = limited(self, self->feedforward);
+
+    self->integral = within_range(self, output - self->feedforward);
+    self->integral = within_range(self, self->integral - self->gains.kp * left);
+}
+
 double pid_double_step(struct pid_double *self, double setpoint,
                        double measurement)
 {
     const double error = setpoint - measurement;
 
+    if (self->first && !self->manual && !self->seeded) {
+        rest(self, measurement);
+    }
     self->proportional =
         self->gains.kp * (self->setpoint_weight * setpoint - measurement);
     self->derivative = derivative(self, error, measurement);
