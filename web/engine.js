@@ -27,7 +27,7 @@ export function sceneOf(state) {
     return { params, events };
 }
 
-function put(scene) {
+export function put(scene) {
     const memory = wasm.memory.buffer;
     new Float64Array(memory, wasm.tuner_params(), scene.params.length).set(scene.params);
     new Float64Array(memory, wasm.tuner_events(), scene.events.length).set(scene.events);

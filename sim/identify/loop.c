@@ -75,8 +75,8 @@ static struct number change(double angle, int n)
 
 // --- The plant -------------------------------------------------------------
 
-// As plant_process.h has it: a2 y'' + a1 y' + a0 y = gain u.
-static void second_order(struct loop_plant *to, const double a[3], double gain)
+void loop_plant_second_order(struct loop_plant *to, const double a[3],
+                             double gain)
 {
     to->c[0] = 1.0;
     if (a[2] > 0.0) {
@@ -102,15 +102,15 @@ void loop_plant_of(struct loop_plant *to, const struct identify_plant *from,
     if (from->kind == IDENTIFY_RINGING) {
         const double a[3] = {1.0, 2.0 * from->damping * from->lag,
                              from->lag * from->lag};
-        second_order(to, a, gain);
+        loop_plant_second_order(to, a, gain);
         to->scale = (from->lag / larger(from->damping, 0.05)) + from->dead;
     } else if (from->kind == IDENTIFY_INTEGRATING) {
         const double a[3] = {0.0, 1.0, from->lag2};
-        second_order(to, a, gain);
+        loop_plant_second_order(to, a, gain);
         to->scale = 2.0 * (from->dead + from->lag2);
     } else {
         const double a[3] = {1.0, lags, from->lag * from->lag2};
-        second_order(to, a, gain);
+        loop_plant_second_order(to, a, gain);
         to->scale = lags + from->dead;
     }
 }

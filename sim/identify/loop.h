@@ -64,6 +64,11 @@ struct loop_margins {
     double im[LOOP_POINTS];
 };
 
+// a[2] y'' + a[1] y' + a[0] y = gain u, of a plant of zeros. With a[2] = 0 it is
+// of the first order.
+void loop_plant_second_order(struct loop_plant *to, const double a[3],
+                             double gain);
+
 // The plant of a recording between a converter and an actuator: a count is so
 // many units of the measurement, and so many of the recording's drive.
 void loop_plant_of(struct loop_plant *to, const struct identify_plant *from,

@@ -5,11 +5,14 @@
 
 #include "plant.h"
 
-#define GRAVITY_M_S2 9.81
 #define PI 3.14159265358979323846
 #define FLOOR_RAD (PI / 2.0)
 #define BESSEL_FREQUENCY 1.2736
-#define BESSEL_QUALITY 0.5774
+
+double pendulum_filter_rad_s(const struct pendulum *self)
+{
+    return BESSEL_FREQUENCY * 2.0 * PI * self->filter_corner_hz;
+}
 
 static void pendulum_rates(const void *plant, const double *state,
                            double *rates)
@@ -21,11 +24,11 @@ static void pendulum_rates(const void *plant, const double *state,
         self->full_speed_m_s * self->supply * self->drive;
     const double acceleration =
         (no_load_speed - state[PENDULUM_SPEED]) / self->motor_time_constant_s;
-    const double filter = BESSEL_FREQUENCY * 2.0 * PI * self->filter_corner_hz;
+    const double filter = pendulum_filter_rad_s(self);
 
     rates[PENDULUM_ANGLE] = state[PENDULUM_RATE];
     rates[PENDULUM_RATE] =
-        (((GRAVITY_M_S2 * sin(angle)) - (acceleration * cos(angle))) /
+        (((PENDULUM_GRAVITY_M_S2 * sin(angle)) - (acceleration * cos(angle))) /
          self->rod_m) +
         self->shove_rad_s2;
     rates[PENDULUM_SPEED] = acceleration;
@@ -33,7 +36,7 @@ static void pendulum_rates(const void *plant, const double *state,
     rates[PENDULUM_SENSED] = state[PENDULUM_SENSED_RATE];
     rates[PENDULUM_SENSED_RATE] =
         (filter * filter * (angle - state[PENDULUM_SENSED])) -
-        ((filter / BESSEL_QUALITY) * state[PENDULUM_SENSED_RATE]);
+        ((filter / PENDULUM_FILTER_QUALITY) * state[PENDULUM_SENSED_RATE]);
 }
 
 void pendulum_init(struct pendulum *self, double angle_rad)

@@ -12,11 +12,14 @@
 // the note's potentiometer through its second-order Bessel low-pass:
 //
 //   sensed'' = w^2 (angle - sensed) - (w / Q) sensed'
-//   w = 1.2736 * 2 pi * corner,  Q = 0.5774 (-3 dB at the corner)
+//   w = 1.2736 * 2 pi * corner (-3 dB there)
 //
 // Positive drive moves the base towards a positive angle, under the mass.
 #ifndef PLANT_PENDULUM_H
 #define PLANT_PENDULUM_H
+
+#define PENDULUM_GRAVITY_M_S2 9.81
+#define PENDULUM_FILTER_QUALITY 0.5774 // Q
 
 enum pendulum_state {
     PENDULUM_ANGLE,       // rad from the vertical
@@ -44,6 +47,8 @@ struct pendulum {
 
 // The note's pendulum of 0.5 m at rest in `angle_rad`, its filter settled.
 void pendulum_init(struct pendulum *self, double angle_rad);
+
+double pendulum_filter_rad_s(const struct pendulum *self); // w
 
 // Advances by `seconds` at a constant drive, -1..1 (limited). The pendulum
 // comes to rest where it meets the floor, at +-90 degrees.

@@ -16,8 +16,4 @@ double tuner_ms(const struct identify_plant *plant, double full);
 // The seconds that matter to the controller: dead time and lags.
 double tuner_scale_s(void);
 
-// Counts of measurement for a count of output, at rest; of an integrator, after
-// tuner_scale_s. Never negative.
-double tuner_counts_gain(void);
-
 #endif

@@ -6,7 +6,6 @@
 #include "params.h"
 #include "plant.h"
 
-#define DEGREES_PER_RAD 57.29577951308232
 #define SHOVE_S 0.05
 
 static double step_s(void)
@@ -128,6 +127,12 @@ static int16_t converted(double units, double noise)
 int16_t scene_counts(double units)
 {
     return converted(units, 0.0);
+}
+
+int scene_error_per_count(void)
+{
+    const int notes = (int)param(PARAM_CONTROLLER) == TUNER_AN937;
+    return (notes && ((int)param(PARAM_PLANT) == TUNER_MOTOR)) ? 4 : 1;
 }
 
 // Even in -1..1, by the generator of plant_counts.c.

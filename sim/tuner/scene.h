@@ -10,6 +10,8 @@
 #include "plant_pendulum.h"
 #include "plant_process.h"
 
+#define DEGREES_PER_RAD 57.29577951308232
+
 struct scene {
     int kind; // enum tuner_plant
     struct process process;
@@ -37,6 +39,10 @@ int16_t scene_counts(double units);
 double scene_dead_s(const struct scene *self);
 
 void scene_load(struct scene *self, double load);
+
+// What one count of error is to the controller: AN937's motor has 4000 counts
+// of speed where this sensor has 1023.
+int scene_error_per_count(void);
 
 // A step at an output in counts.
 void scene_move(struct scene *self, double output);

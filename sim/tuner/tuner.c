@@ -19,7 +19,6 @@
 #define UPRIGHT_COUNTS 512
 #define ANGLE_LIMIT_COUNTS 341 // where the note's program gives up
 #define DRIFT_LIMIT 55         // eighths of a count, the note's value
-#define ERROR_PER_COUNT 4      // of AN937's motor: 1023 counts are its 4000
 #define TIMEOUT_STEPS 32767
 #define HEAT_UP_WEIGHT 128 // of the setpoint, as fixpid_reaction.h advises
 #define LISTENS 8          // percent: below that it has not begun to heat
@@ -256,11 +255,9 @@ static int16_t error_of(int16_t setpoint, int16_t measurement)
 {
     const int32_t error = is_reverse() ? ((int32_t)measurement - setpoint)
                                        : ((int32_t)setpoint - measurement);
-    const bool notes_motor =
-        (param(PARAM_CONTROLLER) == TUNER_AN937) && is_plant(TUNER_MOTOR);
-    const int32_t scale = notes_motor ? ERROR_PER_COUNT : 1;
 
-    return (int16_t)plant_limit(error * scale, -32768.0, 32767.0);
+    return (int16_t)plant_limit(error * scene_error_per_count(), -32768.0,
+                                32767.0);
 }
 
 static int16_t step_pendulum(int16_t measurement)

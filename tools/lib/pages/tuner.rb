@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# Builds the tuner page into a folder: the C of sim/tuner as WebAssembly, and the
+# Builds the tuner page into a folder: the C of sim/tuner and sim/identify as WebAssembly, and the
 # modules of web/ in one file with it, packed.
 require 'json'
 require 'zlib'
 require_relative 'tuner/costs'
+require_relative 'tuner/layouts'
 require_relative 'tuner/modules'
 require_relative 'tuner/names'
 require_relative 'tuner/sources'
@@ -17,7 +18,7 @@ wasm = "#{folder}/tuner.wasm"
 exit 1 unless system(*Sources.wasm(wasm))
 
 # What the modules import from built.js.
-built = { **Names.lists, COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
+built = { **Names.lists, LAYOUT: Layouts.of('sim/identify/identify.h', 'sim/identify/loop.h'), COSTS: Costs.steps, FEATURES: Costs.features, VERSION: Names.version,
           WASM: [File.binread(wasm)].pack('m0') }
 text = built.map { |name, value| "export const #{name} = #{JSON.generate(value)};\n" }.join
 File.write("#{folder}/built.js", text)

@@ -2,7 +2,7 @@
 # frozen_string_literal: true
 
 # The lists of names that the page shares with the C: each enumeration of
-# sim/tuner/tuner.h and of sim/link/link_page.h, those of both tuners that the page shows, the bits of
+# sim/tuner/tuner.h, of sim/identify/identify.h and of sim/link/link_page.h, those of both tuners that the page shows, the bits of
 # fixpid_pid.h and the ends of its ranges.
 module Names
   class << self
@@ -14,12 +14,14 @@ module Names
       reaction = File.read('include/fixpid_reaction.h')
       pid = File.read('include/fixpid_pid.h')
       an964 = File.read('include/fixpid_an964.h')
+      identify = File.read('sim/identify/identify.h')
       live = File.read('sim/link/link_page.h')
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
         VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), EXPERIMENT: of(header, 'tuner_experiment_kind', 'EXPERIMENT_'),
-        STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'), HEAT_UP: of(reaction, 'fixpid_reaction_state', 'FIXPID_REACTION_'),
+        FIT_KIND: of(identify, 'identify_kind', 'IDENTIFY_'), FIT_REASON: of(identify, 'identify_reason', 'IDENTIFY_'),
+        FIT_START: of(identify, 'identify_start', 'IDENTIFY_'), STATUS: of(tuner, 'fixpid_autotune_state', 'FIXPID_AUTOTUNE_'), HEAT_UP: of(reaction, 'fixpid_reaction_state', 'FIXPID_REACTION_'),
         CAUSE: of(tuner, 'fixpid_autotune_cause', 'FIXPID_AUTOTUNE_'), RULE: of(tuner, 'fixpid_autotune_rule', 'FIXPID_AUTOTUNE_'),
         WORD: %w[QUICK SAFE CALM].to_h { |name| [name, number(tuner, "FIXPID_AUTOTUNE_#{name}")] },
         STEP: of(live, 'live_step', 'LIVE_'), TWIN: of(live, 'live_count', 'LIVE_'), CONFIG: of(live, 'live_config', 'LIVE_'),

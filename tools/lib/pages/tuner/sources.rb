@@ -5,16 +5,18 @@
 module Sources
   LIBRARY = (Dir['src/*/*.c'] - Dir['src/*/*_{pic14,pic18}.c']).sort.freeze
   PLANTS = Dir['sim/plant/plant_{motor,oven,pendulum,process}.c'].sort.freeze
-  TUNER = %w[sim/loops/pid_double.c sim/tuner/fit.c sim/tuner/params.c sim/tuner/scene.c sim/tuner/twin.c sim/tuner/tuner.c].freeze
+  TUNER = ['sim/loops/pid_double.c', *Dir['sim/{identify,tuner}/*.c'].sort].freeze
   LINK = Dir['sim/link/*.c'].sort.freeze # the other end of a board
-  PATHS = %w[-Isim/tuner/libm -Iinclude -Isrc -Isim/plant -Isim/loops -Isim/tuner -Isim/link].freeze
+  PATHS = %w[-Isim/tuner/libm -Iinclude -Isrc -Isim/plant -Isim/loops -Isim/identify -Isim/tuner -Isim/link].freeze
   # Without contraction each operation rounds as IEEE 754 says, on every machine.
   EXACT = %w[-std=c99 -Wall -Wextra -Werror -ffp-contract=off].freeze
 
+  INTERFACES = %w[sim/tuner/tuner.h sim/tuner/margins.h sim/identify/identify.h sim/link/link_page.h].freeze
+
   class << self
-    # Its functions are those of tuner.h and link_page.h.
+    # Its functions are those of these headers.
     def wasm(output)
-      exports = %w[sim/tuner/tuner.h sim/link/link_page.h].flat_map { |path| File.read(path).scan(/^\S.*?((?:tuner|live)_\w+)\(/).flatten }
+      exports = INTERFACES.flat_map { |path| File.read(path).scan(/^\w.*?((?:tuner_|live_|identify)\w*)\(/).flatten }
       ['clang', '--target=wasm32', '-O2', *EXACT, '-ffreestanding', '-nostdlib', '-mbulk-memory', *PATHS, *LIBRARY,
        *PLANTS, *TUNER, *LINK, '-Wl,--no-entry,--strip-all,--gc-sections',
        *exports.map { |name| "-Wl,--export=#{name}" }, '-o', output]
