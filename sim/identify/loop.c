@@ -367,8 +367,7 @@ static bool settles(const struct sampled *s, int n)
 {
     static double driven[MOST_STEPS + 1]; // as it reaches the plant
     struct run run = {.integral = 0.0};
-    double early = 0.0;
-    double late = 0.0;
+    double most[4] = {0.0}; // of each quarter
 
     for (int i = 0; i <= n; i++) {
         driven[i] = 0.0;
@@ -386,13 +385,9 @@ static bool settles(const struct sampled *s, int n)
             driven[i + s->steps + 1] = output;
         }
         move(&run, s, driven[i + 1], driven[i]);
-        if (i >= (3 * n) / 4) {
-            late = larger(late, size);
-        } else if ((i >= n / 4) && (i < n / 2)) {
-            early = larger(early, size);
-        }
+        most[(4 * i) / n] = larger(most[(4 * i) / n], size);
     }
-    return (late < (0.999 * early)) || (late < 1e-9);
+    return (most[3] < (0.999 * most[1])) || (most[3] < 1e-9);
 }
 
 // How many steps of a push are looked at.

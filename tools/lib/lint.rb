@@ -241,11 +241,12 @@ end
 # SDCC compiles the support files, the co-simulation those of chips, and the
 # comparisons, guarded loops, faults and recipes of tools/demo are programs for a PC, as is what the
 # tuner page computes with.
-programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/guard/|/faults/|/tuner/|/link/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
+programs = Dir['{port,examples,sim}/**/*.c'].sort.grep_v(%r{/support/|/gpsim/|/loops/|/random_plants/|/guard/|/faults/|/identify/|/tuner/|/link/|/recipes/|/chip\.c|/esp-idf/|/zephyr/})
+identify = Dir['sim/identify/*.c'].sort # MISRA's types have no room for its doubles
 avr, others = programs.partition { |file| file.start_with?('port/avr/') }
 avr.each { |file| judged(file) { avr_warnings(file) } }
 library.each { |file| judged(file) { [warnings(file), modes_and_forms(file), tidy(file)] } }
-others.each { |file| judged(file) { [warnings(file), tidy(file)] } }
+(others + identify).each { |file| judged(file) { [warnings(file), tidy(file)] } }
 [[], OBJECT_MODE].product(FORMS).each do |mode, form|
   defines = GCC + mode + form
   misra('src', other_texts(library, defines), defines)
@@ -254,6 +255,6 @@ other_systems(library)
 programs.group_by { |file| File.dirname(file) }.each do |directory, files|
   misra(directory, files, GCC + (directory.start_with?('sim/probe') ? ['-DHOST_PROBE_OBJECT=controller'] : []))
 end
-shape(library_all + programs)
+shape(library_all + programs + identify)
 single_conditions(library_all)
 exit(@failures.zero? ? 0 : 1)
