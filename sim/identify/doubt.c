@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a recording leaves unknown: plants that it allows, and how likely each
 // of them is.
-#include "parts.h"
-
 #include <math.h>
+
+#include "parts.h"
 
 #define PROPOSALS 192
 #define WIDER 1.3 // proposals are wider than what they stand for
@@ -32,7 +32,6 @@ static double uniform(void)
 static double normal(void)
 {
     const double size = sqrt(-2.0 * log(uniform()));
-
     return size * cos(6.283185307179586 * uniform());
 }
 
@@ -44,7 +43,6 @@ static double alikeness(struct lines *in)
     double weights = 0.0;
     double square = 0.0;
     double factor = 1.0;
-
     for (int i = 0; i < in->n; i++) {
         weights += in->heavy[i];
     }
@@ -78,7 +76,6 @@ static void slope_of(const struct task *task, struct numbers at, int k,
     const bool folded = (k > 0) || (task->kind == IDENTIFY_INTEGRATING);
     const double high = at.x[k] + step;
     const double low = folded ? fmax(at.x[k] - step, 0.0) : (at.x[k] - step);
-
     at.x[k] = low;
     (void)model_error(task, at);
     for (int i = 0; i < in->n; i++) {
@@ -123,7 +120,6 @@ static struct spread spread_of(const struct task *task, struct numbers best,
                                 ringing ? 0.5 : scale};
     struct spread got = {model_numbers(task->kind), {{0.0}}};
     double guess[NUMBERS];
-
     for (int a = 0; a < got.n; a++) {
         slope_of(task, best, a, step[a], slope[a]);
         guess[a] = 1.0 / squared(sd[a]);
@@ -150,71 +146,53 @@ static struct numbers spread_out(const struct spread *self, struct numbers z)
     return z;
 }
 
-static void keep_deviations(const struct spread *self, double gap,
-                            struct identify_model *model)
-{
-    struct numbers sum = {{0.0}};
-
-    for (int k = 0; k < self->n; k++) {
-        struct numbers z = {{0.0}};
-        z.x[k] = 1.0;
-        z = spread_out(self, z);
-        for (int a = 0; a < self->n; a++) {
-            sum.x[a] += squared(z.x[a]);
-        }
-    }
-    model->sd_lag = sqrt(sum.x[0]);
-    model->sd_dead = sqrt(sum.x[1] + (squared(gap) / 12.0));
-    model->sd_lag2 = sqrt(sum.x[2]);
-}
-
 // ---- Plants ----
 
-// A plant of these numbers, z away from the best: the gain follows from them,
-// with what is unknown of it. Its likelihood is against `least` left over.
+// A plant of these numbers, with what is unknown of the gain and of the time
+// between two lines at which the drive moved.
 static struct proposal proposal_at(const struct task *task, struct numbers at,
-                                   struct numbers z, double least,
-                                   double variance)
+                                   double variance, double *square)
 {
-    const double gap = task->record->gap;
-    const bool best = (z.x[0] == 0.0) && (z.x[1] == 0.0);
     struct proposal one = {model_plant(task->kind, at), 0.0};
     const struct projection got = model_project(task, &one.plant);
     const double sd = (got.fresh > 0.0) ? sqrt(variance / got.fresh) : 1e9;
-    const double away = squared(z.x[0]) + squared(z.x[1]) + squared(z.x[2]);
-
-    one.plant.gain =
-        got.factor[got.columns - 1] + (best ? 0.0 : (sd * normal()));
-    // The drive moved at some time between two lines.
-    one.plant.dead = fmax(one.plant.dead + (gap * (uniform() - 0.5)), 0.0);
-    one.likely =
-        exp(limited(((least - got.square) / (2.0 * variance)) + (away / 2.0),
-                    -600.0, 20.0));
+    const double late = task->record->gap * (uniform() - 0.5);
+    one.plant.gain = got.factor[got.columns - 1] + (sd * normal());
+    one.plant.dead = fmax(one.plant.dead + late, 0.0);
+    *square = got.square;
     return one;
 }
 
-static void keep_gain_deviation(const struct proposal *all,
-                                struct identify_model *model)
+static void keep_deviations(const struct proposal *all,
+                            struct identify_model *m)
 {
+    const bool integrating = m->plant.kind == IDENTIFY_INTEGRATING;
+    double *const to[] = {&m->sd_gain, &m->sd_lag, &m->sd_lag2, &m->sd_dead};
+    double mean[4] = {0.0};
+    double square[4] = {0.0};
     double sum = 0.0;
-    double mean = 0.0;
-    double square = 0.0;
-
     for (int i = 0; i < PROPOSALS; i++) {
-        const double ratio = all[i].plant.gain / model->plant.gain;
-        const double one = log(fmax(ratio, 1e-3));
+        const struct identify_plant *const p = &all[i].plant;
+        const double of[4] = {log(fmax(p->gain / m->plant.gain, 1e-3)),
+                              integrating ? p->lag2 : log(p->lag),
+                              integrating ? 0.0 : (p->lag2 + p->damping),
+                              p->dead};
         sum += all[i].likely;
-        mean += all[i].likely * one;
-        square += all[i].likely * squared(one);
+        for (int k = 0; k < 4; k++) {
+            mean[k] += all[i].likely * of[k];
+            square[k] += all[i].likely * squared(of[k]);
+        }
     }
-    model->sd_gain = sqrt(fabs((square / sum) - squared(mean / sum)));
+    for (int k = 0; k < 4; k++) {
+        *to[k] = sqrt(fabs((square[k] / sum) - squared(mean[k] / sum)));
+    }
 }
 
 void doubt_about(const struct task *task, struct numbers best,
                  struct identify_model *model)
 {
-    const struct identify_plant plant = model_plant(task->kind, best);
     struct proposal *const all = proposals[task->kind];
+    const struct identify_plant plant = model_plant(task->kind, best);
     const struct projection got = model_project(task, &plant);
     const int n = model_numbers(task->kind);
     const double worth = fmax(got.weights - n - got.columns, 1.0);
@@ -222,50 +200,48 @@ void doubt_about(const struct task *task, struct numbers best,
         fmax(got.square / worth, record_exact(task->record)) *
         alikeness(task->lines);
     const struct spread spread = spread_of(task, best, variance);
-
     seed = 1;
     for (int i = 0; i < PROPOSALS; i++) {
         struct numbers z = {{0.0}};
-        for (int k = 0; (k < n) && (i > 0); k++) {
-            z.x[k] = normal();
-        }
-        const struct numbers away = spread_out(&spread, z);
         struct numbers at = best;
+        double away = 0.0;
+        double square;
         for (int k = 0; k < n; k++) {
-            at.x[k] += WIDER * away.x[k];
+            z.x[k] = normal();
+            away += squared(z.x[k]);
         }
-        all[i] = proposal_at(task, at, z, got.square, variance);
+        z = spread_out(&spread, z);
+        for (int k = 0; k < n; k++) {
+            at.x[k] += WIDER * z.x[k];
+        }
+        all[i] = proposal_at(task, at, variance, &square);
+        away += (got.square - square) / variance;
+        all[i].likely = exp(limited(away / 2.0, -600.0, 20.0));
     }
-    keep_deviations(&spread, task->record->gap, model);
-    keep_gain_deviation(all, model);
+    keep_deviations(all, model);
 }
 
 void doubt_draw(const double weight[IDENTIFY_KINDS],
                 struct identify_plant plants[IDENTIFY_PLANTS])
 {
     double each[IDENTIFY_KINDS]; // for a likelihood of 1
-    double passed = 0.0;
     double sum = 0.0;
+    double passed = 0.0;
     int to = 0;
-
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
-        each[kind] = 0.0;
+        double likely = 0.0;
         for (int i = 0; i < PROPOSALS; i++) {
-            each[kind] += proposals[kind][i].likely;
+            likely += proposals[kind][i].likely;
         }
-        each[kind] = weight[kind] / each[kind];
+        each[kind] = weight[kind] / likely;
         sum += weight[kind];
     }
     for (int i = 0; i < IDENTIFY_KINDS * PROPOSALS; i++) {
         const int kind = i / PROPOSALS;
         const struct proposal *const one = &proposals[kind][i % PROPOSALS];
-        passed += one->likely * each[kind] / sum;
-        while ((to < IDENTIFY_PLANTS) &&
-               ((to + 0.5) / IDENTIFY_PLANTS < passed)) {
-            plants[to++] = one->plant;
+        passed += one->likely * each[kind] / sum * IDENTIFY_PLANTS;
+        for (; (to < IDENTIFY_PLANTS) && (to + 0.5 < passed); to++) {
+            plants[to] = one->plant;
         }
-    }
-    for (; to < IDENTIFY_PLANTS; to++) { // passed may be a little less than 1
-        plants[to] = plants[to - 1];
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SIMC's gains for a plant, and Ms of the loop that they make.
-#include "parts.h"
-
 #include <math.h>
+
+#include "parts.h"
 
 #define POINTS 220 // frequencies
 #define UNSTABLE 1e9
@@ -23,7 +23,6 @@ void identify_simc(const struct identify_plant *plant, double step, double calm,
     const double dead = plant->dead + (step / 2.0) + half;
     double lag = plant->lag + half;
     double own = fmax(dead, lag / 10.0);
-
     if (ringing) {
         lag = 2.0 * plant->damping * plant->lag;
         own = plant->lag;
@@ -60,7 +59,6 @@ static struct number difference_at(const struct identify_plant *p, double dead,
     const double size = gains[0] * p->gain / (squared(d.re) + squared(d.im));
     const double re = size * ((c.re * d.re) + (c.im * d.im));
     const double im = size * ((c.im * d.re) - (c.re * d.im));
-
     return (struct number){1.0 + (re * cos(w * dead)) + (im * sin(w * dead)),
                            (im * cos(w * dead)) - (re * sin(w * dead))};
 }
@@ -78,7 +76,6 @@ double identify_ms(const struct identify_plant *plant, double step,
     double nearest = squared(last.re) + squared(last.im);
     double turned = integrating ? (-2.0 * QUARTER) : -QUARTER;
     double w = low;
-
     for (int i = 1; i < POINTS; i++) {
         w *= factor;
         const struct number at = difference_at(plant, dead, gains, w);

@@ -8,7 +8,6 @@
 
 #define MOST_MS 2.2
 #define RISK 0.1          // of the plants may have a larger one
-#define REST_LINES 6      // tell whether it stood still, and fewer do not
 #define UNEXPLAINED 0.01  // of the swing: less than that moves by itself, too
 #define BADLY 0.2         // of what the drive moved is left over
 #define UNSURE 0.3        // a standard deviation that is too much
@@ -20,67 +19,36 @@
 
 static struct record record;
 
-// ---- The start ----
-
-// Whether the lines before the first move of the drive stand still: their slope
-// is no more than their noise could make. -1: there are too few to tell.
-static int stands(const struct record *r, int *lines)
+// Whether the lines before the first move do not tell the start, but those
+// after a later move may.
+static bool told_later(void)
 {
-    const struct lines *const in = &r->all;
-    double t = 0.0;
-    double y = 0.0;
-    double tt = 0.0;
-    double ty = 0.0;
-    double yy = 0.0;
-    int n = 0;
-
-    for (; (n < in->n) && (in->t[n] <= r->at[r->first]); n++) {
-        t += in->t[n];
-        y += in->y[n];
-    }
-    for (int i = 0; i < n; i++) {
-        const double dt = in->t[i] - (t / n);
-        const double dy = in->y[i] - (y / n);
-        tt += dt * dt;
-        ty += dt * dy;
-        yy += dy * dy;
-    }
-    *lines = n;
-    if (!(tt > 0.0)) {
-        return -1;
-    }
-    const double rest = fmax(yy - (ty * ty / tt), 0.0);
-    const double sd = (n >= REST_LINES) ? sqrt(rest / (n - 2)) : 0.0;
-    return (fabs(ty / tt) < 4.0 * fmax(sd, r->noise) / sqrt(tt)) ? 1 : 0;
+    const int early = (record.all.n > REST) ? REST : (record.all.n - 1);
+    const bool again = record.moves - record.first > 1;
+    return again && (record.at[record.moves - 1] > record.all.t[early]) &&
+           ((record.rest != 1) || (record.rest_lines < REST));
 }
 
-// Which starts may be: a known one, or those that the lines can tell apart.
-static void allow_starts(const struct record *r,
-                         const struct identify_recording *in, bool *may,
-                         struct identify_result *result)
+static bool may_start(const struct identify_recording *in, int start)
 {
-    int lines;
-    const int still = stands(r, &lines);
-    const int sixth = (r->all.n > REST_LINES) ? REST_LINES : (r->all.n - 1);
-    const bool later =
-        (r->moves - r->first > 1) && (r->at[r->moves - 1] > r->all.t[sixth]);
-    const bool rests =
-        in->before_known || ((still == 1) && ((lines >= REST_LINES) || !later));
-
-    result->assumed = !in->before_known && (still != 0) && (lines < REST_LINES);
-    may[IDENTIFY_SETTLED] = true;
-    may[IDENTIFY_COLD] = !rests && (in->u[0] != 0.0) && later;
-    may[IDENTIFY_MOVING] = !rests && ((still == 0) || later);
-    may[IDENTIFY_DRIFTING] = !rests && (still == 0);
+    if (in->before_known) {
+        return start == IDENTIFY_SETTLED;
+    }
+    switch (start) {
+    case IDENTIFY_SETTLED:
+        return true;
+    case IDENTIFY_COLD:
+        return told_later() && (in->u[0] != 0.0);
+    case IDENTIFY_MOVING:
+        return told_later() || (record.rest == 0);
+    default:
+        return record.rest == 0;
+    }
 }
 
-// ---- A model ----
-
-// What a search has found of a kind.
 struct found {
     struct task task;
     struct numbers numbers;
-    struct identify_model *model;
 };
 
 static double score_of(const struct task *task, double error)
@@ -88,41 +56,39 @@ static double score_of(const struct task *task, double error)
     static const double COSTS[] = {0.0, COLD_COSTS, MOVING_COSTS, MOVING_COSTS};
     const double lines = fmin(task->lines->n, 200.0);
     const double exact = record_exact(task->record);
-
     return (lines * log(squared(error) + exact)) + COSTS[task->start] +
            ((model_numbers(task->kind) == 3) ? THIRD_COSTS : 0.0);
 }
 
-// The start that fits best, and its numbers, over few lines.
-static void search_starts(struct found *self, const bool *may)
+// The numbers of a kind, with the start that fits best over few lines.
+static struct found search_kind(const struct identify_recording *in, int kind)
 {
-    struct task task = self->task;
+    struct found got = {{&record, &record.all, kind, 0}, {{0.0}}};
     double best = 1e300;
-
-    task.lines = &record.few;
     for (int start = IDENTIFY_SETTLED; start <= IDENTIFY_DRIFTING; start++) {
-        if (may[start]) {
-            task.start = start;
-            search_unweigh(task.lines);
+        if (may_start(in, start)) {
+            const struct task task = {&record, &record.few, kind, start};
+            search_unweigh(&record.few);
             const struct numbers at =
                 search_near(&task, search_all(&task), 0.05);
             const double score = score_of(&task, model_error(&task, at));
             if (score < best) {
                 best = score;
-                self->numbers = at;
-                self->task.start = start;
+                got.numbers = at;
+                got.task.start = start;
             }
         }
     }
+    got.numbers = search_near(&got.task, got.numbers, 0.03);
+    return got;
 }
 
-static void keep_model(const struct found *self)
+static void keep_model(const struct found *found, struct identify_model *m)
 {
-    const struct task *const task = &self->task;
-    struct identify_model *const m = self->model;
+    const struct task *const task = &found->task;
+    const double before = model_before(task);
     struct identify_plant *const p = &m->plant;
-
-    *p = model_plant(task->kind, self->numbers);
+    *p = model_plant(task->kind, found->numbers);
     const struct projection got = model_project(task, p);
     p->gain = got.factor[got.columns - 1];
     m->start = task->start;
@@ -130,15 +96,13 @@ static void keep_model(const struct found *self)
     const double moved = fabs(p->gain) * sqrt(got.fresh / got.weights);
     m->part = (moved > 0.0) ? (m->error / moved) : 1e9;
     m->r2 = 1.0 / (1.0 + squared(m->part));
-    m->noise = task->record->noise;
+    m->noise = record.noise;
     m->score = score_of(task, m->error);
-    m->rest = got.factor[0];
-    if (task->kind != IDENTIFY_INTEGRATING) {
-        m->rest -= p->gain * model_before(task);
-    } else { // its own slope is the second factor
-        const double slope =
-            (got.columns < 3) ? 0.0 : (got.factor[1] / task->record->span);
-        m->holds = model_before(task) - (slope / p->gain);
+    m->rest = got.factor[0] - (p->gain * before);
+    if (task->kind == IDENTIFY_INTEGRATING) { // its slope is the second factor
+        const double slope = (got.columns < 3) ? 0.0 : got.factor[1];
+        m->rest = got.factor[0];
+        m->holds = before - (slope / record.span / p->gain);
     }
 }
 
@@ -149,7 +113,6 @@ static bool possible(const struct identify_model *m)
     const double span = record.span;
     const double part = (m->start >= IDENTIFY_MOVING) ? 0.4 : 0.8;
     const bool known = (p->gain != 0.0) && (p->dead < part * span);
-
     if (p->kind != IDENTIFY_RINGING) {
         return known && (p->lag < 1e4 * span);
     }
@@ -160,7 +123,6 @@ static bool possible(const struct identify_model *m)
 static int best_of(const struct identify_model *models)
 {
     int best = IDENTIFY_FIRST;
-
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
         if (possible(&models[kind]) &&
             (models[kind].score < models[best].score)) {
@@ -170,29 +132,23 @@ static int best_of(const struct identify_model *models)
     return best;
 }
 
-// All kinds, and once more without the lines at which the sensor stood still.
-static void search_kinds(struct found *all, const bool *may,
+static void search_kinds(const struct identify_recording *in, struct found *all,
                          struct identify_result *result)
 {
-    bool again = true;
-
-    for (int turn = 0; again && (turn < 2); turn++) {
-        for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
-            struct found *const one = &all[kind];
-            one->model = &result->models[kind];
-            one->task = (struct task){&record, &record.all, kind, 0};
-            search_starts(one, may);
-            one->numbers = search_near(&one->task, one->numbers, 0.03);
-            keep_model(one);
-        }
-        result->chosen = best_of(result->models);
-        if (turn == 0) {
-            const struct found *const best = &all[result->chosen];
-            search_unweigh(&record.all);
-            (void)model_error(&best->task, best->numbers);
-            again = record_leave_stuck(&record, result);
-        }
+    for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
+        all[kind] = search_kind(in, kind);
+        keep_model(&all[kind], &result->models[kind]);
     }
+    result->chosen = best_of(result->models);
+}
+
+// Whether the best model knows of lines at which the sensor stood still.
+static bool leave_stuck(const struct found *best,
+                        struct identify_result *result)
+{
+    search_unweigh(&record.all);
+    (void)model_error(&best->task, best->numbers);
+    return record_leave_stuck(&record, result);
 }
 
 // ---- The verdict ----
@@ -201,7 +157,6 @@ static void draw_plants(const struct found *all, struct identify_result *result)
 {
     double weight[IDENTIFY_KINDS];
     const double best = result->models[result->chosen].score;
-
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
         struct identify_model *const m = &result->models[kind];
         // A kind with a third number is chosen by much, but as likely by less.
@@ -227,7 +182,6 @@ static void judge_calm(struct identify_model *m,
     const struct identify_plant *const p = &m->plant;
     const double scale = p->lag + p->lag2 + p->dead;
     const double step = ((scale > 0.0) ? scale : record.every) / 40.0;
-
     m->calm = 0.0;
     for (double calm = 1.0; (m->calm == 0.0) && (calm <= 4.0); calm *= 2.0) {
         double ms[IDENTIFY_PLANTS];
@@ -250,7 +204,6 @@ static int unsure_of(const struct identify_model *m)
 {
     const struct identify_plant *const p = &m->plant;
     const double own = fmax(p->dead, (p->lag + (p->lag2 / 2.0)) / 10.0);
-
     if ((m->start != IDENTIFY_SETTLED) && (m->sd_gain > UNSURE)) {
         return IDENTIFY_UNSURE_START;
     }
@@ -261,27 +214,39 @@ static int unsure_of(const struct identify_model *m)
                                           : IDENTIFY_UNSURE_LAG;
 }
 
-static int reason_of(const struct identify_model *m)
+// Whether the drive moved so little of all that it could be chance.
+static bool unmoved(const struct identify_model *m)
+{
+    return (m->plant.kind != IDENTIFY_INTEGRATING) &&
+           (m->error / m->part < UNEXPLAINED * record.swing);
+}
+
+static bool fits(const struct identify_model *m)
+{
+    return (m->r2 >= 0.5) &&
+           ((m->part <= BADLY) || (m->error <= 3.0 * m->noise));
+}
+
+static int reason_of(const struct identify_model *m, bool sure)
 {
     const struct identify_plant *const p = &m->plant;
-    const bool little = (p->kind != IDENTIFY_INTEGRATING) &&
-                        (m->error / m->part < UNEXPLAINED * record.swing);
-    const bool badly = (m->part > BADLY) && (m->error > 3.0 * m->noise);
-
     if (!possible(m)) {
         return IDENTIFY_NO_MODEL;
     }
-    if (little) {
+    if (unmoved(m)) {
         return (m->start == IDENTIFY_SETTLED) ? IDENTIFY_NO_RESPONSE
                                               : IDENTIFY_UNSURE_START;
     }
-    if ((m->r2 < 0.5) || badly) {
+    if (!fits(m)) {
         return IDENTIFY_NO_MODEL;
     }
     if (p->lag + p->lag2 + p->dead < 0.7 * record.every) {
         return IDENTIFY_SLOW_LINES;
     }
-    return (m->calm == 0.0) ? unsure_of(m) : IDENTIFY_USABLE;
+    if (m->calm == 0.0) {
+        return unsure_of(m);
+    }
+    return sure ? IDENTIFY_USABLE : IDENTIFY_UNSURE_START;
 }
 
 // Where it was moving, all models that fit as well must agree on what the drive
@@ -289,7 +254,6 @@ static int reason_of(const struct identify_model *m)
 static bool agreed(const struct identify_result *result)
 {
     const struct identify_model *const chosen = &result->models[result->chosen];
-
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
         const struct identify_model *const m = &result->models[kind];
         const bool counts = (m->start >= IDENTIFY_MOVING) && possible(m) &&
@@ -302,20 +266,15 @@ static bool agreed(const struct identify_result *result)
     return true;
 }
 
-// A usable model rather than one that is not and fits hardly better.
+// A usable model is better than one that is not and fits hardly better.
 static void judge(struct identify_result *result)
 {
     const bool sure = agreed(result);
     const double best = result->models[result->chosen].score;
-
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
         struct identify_model *const m = &result->models[kind];
         judge_calm(m, result->plants);
-        m->reason = reason_of(m);
-        if ((m->reason == IDENTIFY_USABLE) && !sure &&
-            (m->start >= IDENTIFY_MOVING)) {
-            m->reason = IDENTIFY_UNSURE_START;
-        }
+        m->reason = reason_of(m, sure || (m->start < IDENTIFY_MOVING));
     }
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
         const struct identify_model *const m = &result->models[kind];
@@ -327,27 +286,29 @@ static void judge(struct identify_result *result)
     result->reason = result->models[result->chosen].reason;
 }
 
-void identify(const struct identify_recording *recording,
+void identify(const struct identify_recording *in,
               struct identify_result *result)
 {
     struct found all[IDENTIFY_KINDS];
-    bool may[IDENTIFY_DRIFTING + 1];
-
     *result = (struct identify_result){0};
-    result->reason = record_keep(&record, recording, result);
-    if (result->reason == IDENTIFY_USABLE) {
-        allow_starts(&record, recording, may, result);
-        search_kinds(all, may, result);
-        draw_plants(all, result);
-        judge(result);
+    result->reason = record_keep(&record, in, result);
+    if (result->reason != IDENTIFY_USABLE) {
+        return;
     }
+    result->assumed =
+        !in->before_known && (record.rest != 0) && (record.rest_lines < REST);
+    search_kinds(in, all, result);
+    if (leave_stuck(&all[result->chosen], result)) {
+        search_kinds(in, all, result);
+    }
+    draw_plants(all, result);
+    judge(result);
 }
 
 int identify_curve(const struct identify_model *model, double *t, double *y)
 {
     const struct task task = {&record, &record.all, model->plant.kind,
                               model->start};
-
     search_unweigh(task.lines);
     search_weigh(&task, &model->plant);
     (void)model_project(&task, &model->plant);

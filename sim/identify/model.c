@@ -1,32 +1,38 @@
 // SPDX-License-Identifier: MIT
 // The four kinds of plant: what they make of the drive, and the least squares
 // of what is linear in them.
-#include "parts.h"
-
 #include <math.h>
+
+#include "parts.h"
 
 #define SLOTS 4 // lengths of a step that a motion remembers
 #define UNSEEN                                                                 \
     2.5 // times the noise's square, for a line that answers to the
         // drive from before the recording
 
+// What a step of this length leaves of a and of b, and what of one goes to the
+// other.
+struct slot {
+    double step;
+    double keep_a;
+    double keep_b;
+    double turn;
+};
+
 // A plant of gain 1 in motion: a and b are its lags, or the real and imaginary
 // part of an oscillation; of an integrator a is the integral.
 struct motion {
     const struct identify_plant *plant;
-    double shortest; // a difference of times that counts
     double a;
     double b;
-    double of_a; // the measurement is of_a * a + of_b * b
+    double end_a; // where they end with a drive of 1
+    double end_b;
+    double grows; // a, each second
+    double of_a;  // the measurement is of_a a + of_b b
     double of_b;
-
-    // What is left of a and b after a step of this length, and the part that
-    // goes from one to the other.
-    double step[SLOTS];
-    double keep_a[SLOTS];
-    double keep_b[SLOTS];
-    double turn[SLOTS];
-    int slot;
+    double shortest; // difference of steps that counts
+    struct slot slots[SLOTS];
+    int oldest;
 };
 
 static double column[COLUMNS][IDENTIFY_LINES];
@@ -41,7 +47,6 @@ struct identify_plant model_plant(int kind, struct numbers at)
     struct identify_plant p = {.kind = kind, .gain = 1.0};
     const double lag = exp(limited(at.x[0], -60.0, 60.0));
     const double third = fabs(at.x[2]);
-
     p.dead = fabs(at.x[1]);
     switch (kind) {
     case IDENTIFY_SECOND: // equal lags by ones that nearly are
@@ -66,18 +71,21 @@ struct identify_plant model_plant(int kind, struct numbers at)
 
 static struct motion motion_of(const struct identify_plant *p, double span)
 {
-    struct motion m = {.plant = p, .shortest = 1e-9 * span, .of_a = 1.0};
-
+    struct motion m = {.plant = p, .end_a = 1.0, .end_b = 1.0, .of_a = 1.0};
+    m.shortest = 1e-9 * span;
+    for (int k = 0; k < SLOTS; k++) {
+        m.slots[k].step = -1.0;
+    }
     if (p->kind == IDENTIFY_SECOND) {
         m.of_a = p->lag / (p->lag - p->lag2);
         m.of_b = 1.0 - m.of_a;
     } else if (p->kind == IDENTIFY_INTEGRATING) {
+        m.end_a = 0.0;
+        m.grows = 1.0;
         m.of_b = -p->lag2;
     } else if (p->kind == IDENTIFY_RINGING) {
+        m.end_b = 0.0;
         m.of_b = p->damping / sqrt(1.0 - squared(p->damping));
-    }
-    for (int k = 0; k < SLOTS; k++) {
-        m.step[k] = -1e300;
     }
     return m;
 }
@@ -87,57 +95,46 @@ static double left_after(double step, double lag)
     return (lag > 0.0) ? exp(-fmin(step / lag, 600.0)) : 0.0;
 }
 
-// The slot for a step, in the place of the oldest if it is a new one.
-static int slot_of(struct motion *m, double step)
+static struct slot slot_of(const struct identify_plant *p, double step)
 {
-    const struct identify_plant *const p = m->plant;
-
-    for (int k = 0; k < SLOTS; k++) {
-        if (fabs(step - m->step[k]) <= m->shortest) {
-            return k;
-        }
-    }
-    const int k = m->slot;
-    m->slot = (k + 1) % SLOTS;
-    m->step[k] = step;
-    m->turn[k] = 0.0;
-    if (p->kind == IDENTIFY_RINGING) {
+    struct slot s = {step, left_after(step, p->lag), left_after(step, p->lag2),
+                     0.0};
+    if (p->kind == IDENTIFY_INTEGRATING) {
+        s.keep_a = 1.0;
+    } else if (p->kind == IDENTIFY_RINGING) {
         const double left = left_after(step, p->lag / p->damping);
         const double angle = sqrt(1.0 - squared(p->damping)) * step / p->lag;
-        m->keep_a[k] = left * cos(angle);
-        m->keep_b[k] = m->keep_a[k];
-        m->turn[k] = left * sin(angle);
-    } else {
-        const bool integral = p->kind == IDENTIFY_INTEGRATING;
-        m->keep_a[k] = integral ? 1.0 : left_after(step, p->lag);
-        m->keep_b[k] = left_after(step, p->lag2);
+        s.keep_a = left * cos(angle);
+        s.keep_b = s.keep_a;
+        s.turn = left * sin(angle);
     }
-    return k;
+    return s;
 }
 
-static void advance(struct motion *m, double step, double drive)
+// From one time to another with a drive. Most steps are as long as one of the
+// last. Returns the time at which it is.
+static double advance(struct motion *m, double now, double then, double drive)
 {
-    const int kind = m->plant->kind;
-    const int k = slot_of(m, step);
-    const double end_a = (kind == IDENTIFY_INTEGRATING) ? 0.0 : drive;
-    const double end_b = (kind == IDENTIFY_RINGING) ? 0.0 : drive;
-    const double a = m->a - end_a;
-    const double b = m->b - end_b;
-
-    m->a = end_a + (m->keep_a[k] * a) - (m->turn[k] * b);
-    m->b = end_b + (m->keep_b[k] * b) + (m->turn[k] * a);
-    if (kind == IDENTIFY_INTEGRATING) {
-        m->a += drive * step;
-    }
-}
-
-static double advance_to(struct motion *m, double now, double then,
-                         double drive)
-{
-    if (then <= now) {
+    const double step = then - now;
+    int k = 0;
+    if (!(step > 0.0)) {
         return now;
     }
-    advance(m, then - now, drive);
+    while ((k < SLOTS) && !(fabs(step - m->slots[k].step) <= m->shortest)) {
+        k++;
+    }
+    if (k == SLOTS) {
+        k = m->oldest;
+        m->oldest = (k + 1) % SLOTS;
+        m->slots[k] = slot_of(m->plant, step);
+    }
+    const struct slot *const s = &m->slots[k];
+    const double end_a = m->end_a * drive;
+    const double end_b = m->end_b * drive;
+    const double a = m->a - end_a;
+    const double b = m->b - end_b;
+    m->a = end_a + (s->keep_a * a) - (s->turn * b) + (m->grows * step * drive);
+    m->b = end_b + (s->keep_b * b) + (s->turn * a);
     return then;
 }
 
@@ -157,13 +154,12 @@ static void answer(const struct task *task, const struct identify_plant *plant,
     double now = 0.0;
     double drive = 0.0;
     int next = 0;
-
     for (int i = 0; i < in->n; i++) {
         while ((next < r->moves) && (r->at[next] + plant->dead <= in->t[i])) {
-            now = advance_to(&m, now, r->at[next] + plant->dead, drive);
+            now = advance(&m, now, r->at[next] + plant->dead, drive);
             drive = r->to[next++] - before;
         }
-        now = advance_to(&m, now, in->t[i], drive);
+        now = advance(&m, now, in->t[i], drive);
         to[i] = (m.of_a * m.a) + (m.of_b * m.b);
     }
 }
@@ -177,14 +173,10 @@ static int remains(const struct task *task, const struct identify_plant *plant,
     const bool even = (plant->kind == IDENTIFY_INTEGRATING) ||
                       (task->start == IDENTIFY_DRIFTING);
     struct motion m = motion_of(plant, span);
-
-    if (task->start < IDENTIFY_MOVING) {
-        return 0;
-    }
     m.a = 1.0;
     m.b = (plant->kind == IDENTIFY_RINGING) ? 0.0 : 1.0;
     for (int i = 0; i < in->n; i++) {
-        (void)advance_to(&m, (i > 0) ? in->t[i - 1] : in->t[i], in->t[i], 0.0);
+        (void)advance(&m, in->t[(i > 0) ? (i - 1) : 0], in->t[i], 0.0);
         first[i] = even ? ((in->t[i] - in->t[0]) / span) : m.a;
         second[i] = m.b;
     }
@@ -197,7 +189,6 @@ double model_product(const struct lines *lines, const double *a,
                      const double *b)
 {
     double sum = 0.0;
-
     for (int i = 0; i < lines->n; i++) {
         sum += lines->heavy[i] * a[i] * b[i];
     }
@@ -216,7 +207,6 @@ static void subtract(int n, double factor, const double *part, double *from)
 static void begin(const struct task *task, double dead, struct projection *got)
 {
     struct lines *const in = task->lines;
-
     for (int i = 0; i < in->n; i++) {
         const bool unseen =
             (task->start == IDENTIFY_MOVING) && (in->t[i] < dead);
@@ -237,7 +227,6 @@ static double orthogonal(const struct lines *in, int k, const double *square,
                          double r[COLUMNS][COLUMNS])
 {
     const double before = model_product(in, column[k], column[k]);
-
     for (int turn = 0; turn < 2 * k; turn++) {
         const int j = turn % k;
         if (square[j] > 0.0) {
@@ -258,9 +247,11 @@ struct projection model_project(const struct task *task,
     struct projection got = {0};
     double r[COLUMNS][COLUMNS] = {{0.0}};
     double square[COLUMNS];
-
     begin(task, plant->dead, &got);
-    got.columns = 2 + remains(task, plant, column[1], column[2]);
+    got.columns = 2;
+    if (task->start >= IDENTIFY_MOVING) {
+        got.columns += remains(task, plant, column[1], column[2]);
+    }
     answer(task, plant, column[got.columns - 1]);
     for (int k = 0; k < got.columns; k++) {
         square[k] = orthogonal(in, k, square, r);
@@ -283,6 +274,5 @@ double model_error(const struct task *task, struct numbers at)
 {
     const struct identify_plant plant = model_plant(task->kind, at);
     const struct projection got = model_project(task, &plant);
-
     return sqrt(got.square / got.weights);
 }

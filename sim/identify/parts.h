@@ -7,6 +7,7 @@
 
 #define MOVES 1500 // of the drive; where there are more, it is averaged
 #define NUMBERS 3  // of a model, at most, that a search moves
+#define REST 6     // lines tell surely that the plant is at rest
 #define COLUMNS 4  // of a model's linear part, at most
 
 struct lines {
@@ -30,6 +31,10 @@ struct record {
     double to[MOVES];
     double before;
     int first; // index of the first that is a move
+
+    int rest;       // 1 if the lines before that move stand still, 0 if they
+                    // do not, -1 if none tells
+    int rest_lines; // how many there are
 
     double span;    // seconds from the first line to the last
     double every;   // the median of the seconds between lines

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The lines of a recording that are kept, and what they say by themselves.
+#include <math.h>
+#include <string.h>
+
 #include "parts.h"
 
-#include <math.h>
-
 #define LEAST 8     // lines of a recording
-#define MOST 65536  // of its lines that are searched for single ones and noise
+#define MOST 65536  // of them that are searched for outliers and noise
 #define FEW 300     // lines that a search looks at
 #define REACH 3     // neighbours on each side that a line is compared with
 #define STUCK 6     // lines of the same value, at least
@@ -28,7 +29,6 @@ double nth(double *values, int n, int k)
 {
     int low = 0;
     int high = n - 1;
-
     while (low < high) {
         const double pivot = values[(low + high) / 2];
         int i = low;
@@ -57,14 +57,38 @@ double nth(double *values, int n, int k)
     return values[k];
 }
 
-// ---- Lines that stand alone ----
+// The value that a part of them are below; of what is sorted already, too.
+static double quantile(int n, const double *values, double part)
+{
+    for (int i = 0; i < n; i++) {
+        sorted[i] = values[i];
+    }
+    return nth(sorted, n, (int)(part * (n - 1)));
+}
 
-// The median of y from a line to before another, of the lines that there are.
+// Without a part of them at each end.
+static double range_of(int n, const double *values, double part)
+{
+    const double high = quantile(n, values, 1.0 - part);
+    return high - quantile(n, values, part);
+}
+
+static double mean_of(const double *values, int from, int to)
+{
+    double sum = 0.0;
+    for (int i = from; i < to; i++) {
+        sum += values[i];
+    }
+    return sum / (to - from);
+}
+
+// ---- Outliers: lines that stand alone ----
+
+// The median of a line and those up to before another, as far as there are any.
 static double median_of(int n, const double *y, int from, int to)
 {
     double some[(2 * REACH) + 1];
     int count = 0;
-
     for (int i = from; i < to; i++) {
         if ((i >= 0) && (i < n)) {
             some[count++] = y[i];
@@ -86,99 +110,70 @@ static bool stands_alone(int n, const double *y, int i)
     const int right = (i < n - 1) ? (i + 1) : (i - REACH);
     const double before = median_of(n, y, left, left + REACH);
     const double after = median_of(n, y, right, right + REACH);
-
     return fabs(before - after) <
            (0.3 * fmin(fabs(y[i] - before), fabs(y[i] - after)));
 }
 
-// Returns how many there are. If that is more than one in twenty, they are not
-// errors of single lines: none is left out.
+// Returns how many there are: none, where it would be one line in twenty.
 static int mark_alone(int n, const double *y)
 {
+    const double least = 0.15 * range_of(n, y, 0.05);
     int found = 0;
-
-    for (int i = 0; i < n; i++) {
-        sorted[i] = y[i];
-    }
-    const double high = nth(sorted, n, (int)(0.95 * (n - 1)));
-    const double low = nth(sorted, n, (int)(0.05 * (n - 1)));
     for (int i = 0; i < n; i++) {
         sorted[i] = distance(n, y, i);
     }
-    const double far =
-        fmax(8.0 * SIZE * nth(sorted, n, n / 2), 0.15 * (high - low));
+    const double far = fmax(least, 8.0 * SIZE * quantile(n, sorted, 0.5));
     for (int i = 0; i < n; i++) {
         alone[i] = (distance(n, y, i) > far) && stands_alone(n, y, i);
         found += alone[i] ? 1 : 0;
     }
-    if (found <= (0.05 * n)) {
-        return found;
+    if (found > 0.05 * n) {
+        found = 0;
+        (void)memset(alone, 0, sizeof(alone));
     }
-    for (int i = 0; i < n; i++) {
-        alone[i] = false;
-    }
-    return 0;
+    return found;
 }
 
 // ---- What is kept ----
 
-static double median_step(int n, const double *t)
+static int count_moves(const struct identify_recording *in)
 {
-    const int steps = ((n > MOST) ? MOST : n) - 1;
-
-    for (int i = 0; i < steps; i++) {
-        sorted[i] = t[i + 1] - t[i];
-    }
-    return nth(sorted, steps, steps / 2);
-}
-
-// Over some lines, each by the time until the next.
-static double mean_drive(const struct identify_recording *from, int i, int to)
-{
-    double sum = 0.0;
-    double time = 0.0;
-
-    if (to == i + 1) {
-        return from->u[i];
-    }
-    for (; (i < to) && (i < from->lines); i++) {
-        const int next = (i < from->lines - 1) ? (i + 1) : i;
-        const double step = from->t[next] - from->t[i] + 1e-12;
-        sum += step * from->u[i];
-        time += step;
-    }
-    return sum / time;
-}
-
-static void keep_moves(struct record *self,
-                       const struct identify_recording *from)
-{
-    const int n = from->lines;
-    double sizes = 0.0;
     int count = 1;
+    for (int i = 1; i < in->lines; i++) {
+        count += (in->u[i] != in->u[i - 1]) ? 1 : 0;
+    }
+    return count;
+}
 
-    for (int i = 1; i < n; i++) {
-        count += (from->u[i] != from->u[i - 1]) ? 1 : 0;
+// The drive moved between two times: in the middle. Returns its size.
+static double add_move(struct record *self, double from, double until,
+                       double to)
+{
+    const int last = self->moves - 1;
+    const double size = fabs(to - ((last < 0) ? self->before : self->to[last]));
+    if ((last < 0) || (size > 0.0)) {
+        self->at[self->moves] = (from + until) / 2.0;
+        self->to[self->moves++] = to;
+        self->gap += size * (until - from);
     }
-    const int block = 1 + ((count > MOVES) ? (n / (MOVES - 1)) : 0);
-    self->moves = 1;
-    self->at[0] = 0.0;
-    self->to[0] = mean_drive(from, 0, block);
-    self->before = from->before_known ? from->before : self->to[0];
-    self->first = (self->to[0] != self->before) ? 0 : 1;
+    return size;
+}
+
+static void keep_moves(struct record *self, const struct identify_recording *in)
+{
+    const int blocks = (count_moves(in) > MOVES) ? (MOVES - 1) : in->lines;
+    const int block = 1 + ((in->lines - 1) / blocks);
+    const double *const t = in->t;
+    double sizes = 0.0;
+    self->before = in->before_known ? in->before : mean_of(in->u, 0, block);
+    self->moves = 0;
     self->gap = 0.0;
-    for (int i = block; i < n; i += block) {
-        const double to = mean_drive(from, i, i + block);
-        const double size = fabs(to - self->to[self->moves - 1]);
-        if (size > 0.0) { // at some time between two lines
-            self->at[self->moves] =
-                ((from->t[i - 1] + from->t[i]) / 2.0) - from->t[0];
-            self->to[self->moves++] = to;
-            self->gap += size * (from->t[i] - from->t[i - 1]);
-            sizes += size;
-        }
+    for (int i = 0; i < in->lines; i += block) {
+        const int end = (i + block < in->lines) ? (i + block) : in->lines;
+        const double from = (i == 0) ? 0.0 : (t[i - 1] - t[0]);
+        sizes += add_move(self, from, t[i] - t[0], mean_of(in->u, i, end));
     }
-    sizes += fabs(self->to[0] - self->before);
+    self->first = (self->to[0] != self->before) ? 0 : 1;
     self->gap = fmax((sizes > 0.0) ? (self->gap / sizes) : 0.0, self->every);
 }
 
@@ -189,27 +184,32 @@ static void add(struct lines *self, double t, double y)
     self->use[self->n++] = 1.0;
 }
 
-// Means of blocks, where there are more lines than IDENTIFY_LINES.
-static void keep_lines(struct record *self,
-                       const struct identify_recording *from)
+// The mean of some lines but of those that stand alone.
+static void add_mean(struct record *self, const struct identify_recording *in,
+                     int from, int to)
 {
-    const int block = 1 + ((from->lines - 1) / IDENTIFY_LINES);
+    double t = 0.0;
+    double y = 0.0;
+    int n = 0;
+    for (int i = from; i < to; i++) {
+        if ((i >= MOST) || !alone[i]) {
+            t += in->t[i] - in->t[0];
+            y += in->y[i];
+            n++;
+        }
+    }
+    if (n > 0) {
+        add(&self->all, t / n, y / n);
+    }
+}
 
+static void keep_lines(struct record *self, const struct identify_recording *in)
+{
+    const int block = 1 + ((in->lines - 1) / IDENTIFY_LINES);
     self->all.n = 0;
-    for (int i = 0; i < from->lines; i += block) {
-        double t = 0.0;
-        double y = 0.0;
-        int n = 0;
-        for (int k = i; (k < i + block) && (k < from->lines); k++) {
-            if ((k >= MOST) || !alone[k]) {
-                t += from->t[k] - from->t[0];
-                y += from->y[k];
-                n++;
-            }
-        }
-        if (n > 0) {
-            add(&self->all, t / n, y / n);
-        }
+    for (int i = 0; i < in->lines; i += block) {
+        const int end = (i + block < in->lines) ? (i + block) : in->lines;
+        add_mean(self, in, i, end);
     }
     self->few.n = 0;
     for (int i = 0; i < self->all.n; i += 1 + ((self->all.n - 1) / FEW)) {
@@ -221,82 +221,91 @@ static void keep_lines(struct record *self,
 // a converter does.
 static void measure_noise(struct record *self, int n, const double *y)
 {
-    int count = 0;
-    double least = 1e300;
-
     for (int i = 2; i < n; i++) {
         sorted[i - 2] = fabs(y[i] - (2.0 * y[i - 1]) + y[i - 2]);
     }
-    self->noise = SIZE * nth(sorted, n - 2, (n - 2) / 2) / sqrt(6.0);
+    self->noise = SIZE * quantile(n - 2, sorted, 0.5) / sqrt(6.0);
+    self->quantum = 1e300;
     for (int i = 1; i < n; i++) {
         const double step = fabs(y[i] - y[i - 1]);
-        if (step > 1e-12) {
-            sorted[count++] = step;
-            least = fmin(least, step);
-        }
+        self->quantum = fmin(self->quantum, (step > 1e-12) ? step : 1e300);
     }
-    self->quantum = (count > 0) ? least : 0.0;
+    self->quantum = (self->quantum < 1e300) ? self->quantum : 0.0;
     self->noise = fmax(self->noise, self->quantum / sqrt(12.0));
 }
 
-static void measure_swing(struct record *self)
+// Whether the lines before the first move of the drive stand still: their slope
+// is no more than their noise could make. 1, 0, or -1 where none tells.
+static int rest_of(const struct record *self, int *lines)
 {
-    const struct lines *all = &self->all;
-
-    for (int i = 0; i < all->n; i++) {
-        sorted[i] = all->y[i];
+    const struct lines *const in = &self->all;
+    double tt = 0.0;
+    double ty = 0.0;
+    double yy = 0.0;
+    int n = 0;
+    while ((n < in->n) && (in->t[n] <= self->at[self->first])) {
+        n++;
     }
-    const double high = nth(sorted, all->n, (int)(0.98 * (all->n - 1)));
-    const double low = nth(sorted, all->n, (int)(0.02 * (all->n - 1)));
-    const double most = nth(sorted, all->n, all->n - 1);
-    self->swing = (high > low) ? (high - low) : (most - nth(sorted, all->n, 0));
+    const double middle = mean_of(in->t, 0, n);
+    const double mean = mean_of(in->y, 0, n);
+    for (int i = 0; i < n; i++) {
+        const double t = in->t[i] - middle;
+        const double y = in->y[i] - mean;
+        tt += t * t;
+        ty += t * y;
+        yy += y * y;
+    }
+    *lines = n;
+    if (!(tt > 0.0)) {
+        return -1;
+    }
+    const double left = fmax(yy - (ty * ty / tt), 0.0);
+    const double sd = (n >= REST) ? sqrt(left / (n - 2)) : 0.0;
+    return (fabs(ty) < 4.0 * fmax(sd, self->noise) * sqrt(tt)) ? 1 : 0;
 }
 
-// What the times, the drive and the measurement say without a model.
+// Why it cannot be identified, by the lines alone.
 static int reason_of(const struct record *self,
-                     const struct identify_recording *from)
+                     const struct identify_recording *in)
 {
     bool moves = false;
-
-    for (int i = 1; i < from->lines; i++) {
-        if (from->t[i] < from->t[i - 1]) {
-            return IDENTIFY_TIME;
-        }
-        moves = moves || (from->y[i] != from->y[0]);
+    bool back = !(self->span > 0.0);
+    for (int i = 1; i < in->lines; i++) {
+        back = back || (in->t[i] < in->t[i - 1]);
+        moves = moves || (in->y[i] != in->y[0]);
     }
-    if (!(self->span > 0.0)) {
-        return IDENTIFY_TIME;
-    }
-    if (self->first == self->moves) {
-        return IDENTIFY_DRIVE_STANDS;
-    }
-    return moves ? IDENTIFY_USABLE : IDENTIFY_NO_RESPONSE;
+    return back                         ? IDENTIFY_TIME
+           : self->first == self->moves ? IDENTIFY_DRIVE_STANDS
+           : moves                      ? IDENTIFY_USABLE
+                                        : IDENTIFY_NO_RESPONSE;
 }
 
-int record_keep(struct record *self, const struct identify_recording *from,
+int record_keep(struct record *self, const struct identify_recording *in,
                 struct identify_result *result)
 {
-    const int n = from->lines;
-
-    if (n < LEAST) {
+    if (in->lines < LEAST) {
         return IDENTIFY_FEW_LINES;
     }
-    self->span = from->t[n - 1] - from->t[0];
-    self->every = median_step(n, from->t);
+    const int n = (in->lines < MOST) ? in->lines : MOST;
+    for (int i = 1; i < n; i++) {
+        sorted[i - 1] = in->t[i] - in->t[i - 1];
+    }
+    self->span = in->t[in->lines - 1] - in->t[0];
+    self->every = quantile(n - 1, sorted, 0.5);
     self->every = (self->every > 0.0) ? self->every : (self->span / n);
-    keep_moves(self, from);
-    const int reason = reason_of(self, from);
-    if (reason == IDENTIFY_TIME) {
-        return reason;
-    }
-    result->every = self->every;
+    keep_moves(self, in);
+    const int reason = reason_of(self, in);
     if (reason == IDENTIFY_USABLE) {
-        const int looked_at = (n > MOST) ? MOST : n;
-        result->outliers = mark_alone(looked_at, from->y);
-        measure_noise(self, looked_at, from->y);
-        keep_lines(self, from);
-        measure_swing(self);
+        result->outliers = mark_alone(n, in->y);
+        measure_noise(self, n, in->y);
+        keep_lines(self, in);
+        self->rest = rest_of(self, &self->rest_lines);
+        self->swing = range_of(self->all.n, self->all.y, 0.02);
+        if (!(self->swing > 0.0)) {
+            self->swing = range_of(self->all.n, self->all.y, 0.0);
+        }
     }
+    result->every = (reason == IDENTIFY_TIME) ? 0.0 : self->every;
     return reason;
 }
 
@@ -306,22 +315,6 @@ double record_exact(const struct record *self)
 }
 
 // ---- A sensor that stood still ----
-
-// Of the lines from one with the same value: the first that is not, and how far
-// the model moves.
-static int run_of(const struct lines *in, int from, double *moved)
-{
-    double low = 1e300;
-    double high = -1e300;
-    int i = from;
-
-    for (; (i < in->n) && (in->y[i] == in->y[from]); i++) {
-        low = fmin(low, in->y[i] - in->left[i]);
-        high = fmax(high, in->y[i] - in->left[i]);
-    }
-    *moved = high - low;
-    return i;
-}
 
 static void leave_out(struct lines *self, double from, double to)
 {
@@ -335,27 +328,31 @@ static void leave_out(struct lines *self, double from, double to)
 bool record_leave_stuck(struct record *self, struct identify_result *result)
 {
     const struct lines *const all = &self->all;
-    double most =
-        fmax(fmax(6.0 * self->noise, 3.0 * self->quantum), 0.05 * self->swing);
-    int from = 0;
-    int to = 0;
-    int next = 0;
-
-    for (int i = 0; i < all->n; i = next) {
-        double moved;
-        next = run_of(all, i, &moved);
-        if ((next - i >= STUCK) && (moved > most)) {
-            most = moved;
-            from = i;
-            to = next;
+    const double least = fmax(6.0 * self->noise, 3.0 * self->quantum);
+    double most = fmax(least, 0.05 * self->swing);
+    double low = 0.0;
+    double high = 0.0;
+    int start = 0;
+    bool found = false;
+    for (int i = 0; i < all->n; i++) {
+        const double model = all->y[i] - all->left[i];
+        if ((i == 0) || (all->y[i] != all->y[i - 1])) {
+            start = i;
+            low = model;
+            high = model;
+        }
+        low = fmin(low, model);
+        high = fmax(high, model);
+        if ((i - start >= STUCK - 1) && (high - low > most)) {
+            found = true;
+            most = high - low;
+            result->stuck_from = all->t[start];
+            result->stuck_to = all->t[i];
         }
     }
-    if (to == 0) {
-        return false;
+    if (found) {
+        leave_out(&self->few, result->stuck_from, result->stuck_to);
+        leave_out(&self->all, result->stuck_from, result->stuck_to);
     }
-    result->stuck_from = all->t[from];
-    result->stuck_to = all->t[to - 1];
-    leave_out(&self->few, result->stuck_from, result->stuck_to);
-    leave_out(&self->all, result->stuck_from, result->stuck_to);
-    return true;
+    return found;
 }

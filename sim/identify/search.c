@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The numbers of a model with the least error: a grid, and from its best place
 // for each dead time Nelder and Mead's simplex.
-#include "parts.h"
-
 #include <math.h>
+
+#include "parts.h"
 
 #define DEADS 10
 #define THIRDS 3
+#define TURNS 60
+#define FINE 1e-9
 #define FAR (2.5 * 1.4826) // times the median of sizes: what is far away
 
 struct corner {
@@ -28,7 +30,6 @@ static struct numbers sides_of(const struct task *task, struct numbers at,
     const bool integrating = task->kind == IDENTIFY_INTEGRATING;
     const double scale =
         integrating ? (p.lag2 + p.dead + (0.001 * span)) : p.lag;
-
     return (struct numbers){
         {integrating ? (part * scale) : part, part * fmin(scale, 0.1 * span),
          (task->kind == IDENTIFY_RINGING) ? (0.3 * part) : (part * scale)}};
@@ -47,13 +48,17 @@ static void sort(struct corner *corners, int n)
     }
 }
 
+static struct corner better(struct corner a, struct corner b)
+{
+    return (b.error < a.error) ? b : a;
+}
+
 // A corner on the line from the worst of n + 1 through the middle of the
 // others, so many times as far behind it.
 static struct corner beyond(const struct task *task,
                             const struct corner *corners, int n, double far)
 {
     struct numbers at = {{0.0}};
-
     for (int k = 0; k < n; k++) {
         for (int c = 0; c < n; c++) {
             at.x[k] += corners[c].at.x[k] * (1.0 + far) / n;
@@ -63,39 +68,44 @@ static struct corner beyond(const struct task *task,
     return corner_at(task, at);
 }
 
+// Where else to look after a first try behind the middle; 0: nowhere.
+static double other_place(double error, const struct corner *corners, int n)
+{
+    return (error < corners[0].error)       ? 2.0
+           : (error < corners[n - 1].error) ? 0.0
+           : (error < corners[n].error)     ? 0.5
+                                            : -0.5;
+}
+
 // One turn of the simplex.
 static void turn(const struct task *task, struct corner *corners, int n)
 {
     struct corner one = beyond(task, corners, n, 1.0);
-
-    if ((one.error < corners[0].error) || (one.error >= corners[n - 1].error)) {
-        const double far = (one.error < corners[0].error)   ? 2.0
-                           : (one.error < corners[n].error) ? 0.5
-                                                            : -0.5;
-        const struct corner other = beyond(task, corners, n, far);
-        one = (other.error < one.error) ? other : one;
+    const double far = other_place(one.error, corners, n);
+    if (far != 0.0) {
+        one = better(one, beyond(task, corners, n, far));
     }
     if (one.error < corners[n].error) {
         corners[n] = one;
     } else { // all towards the best
         for (int c = 1; c <= n; c++) {
+            struct numbers at = corners[c].at;
             for (int k = 0; k < n; k++) {
-                corners[c].at.x[k] =
-                    (corners[c].at.x[k] + corners[0].at.x[k]) / 2.0;
+                at.x[k] = (at.x[k] + corners[0].at.x[k]) / 2.0;
             }
-            corners[c] = corner_at(task, corners[c].at);
+            corners[c] = corner_at(task, at);
         }
     }
     sort(corners, n + 1);
 }
 
+// Until the corners' errors are within a part of the least.
 static struct corner lowest(const struct task *task, struct numbers from,
-                            double part, int turns)
+                            double part, double tolerance)
 {
     const struct numbers sides = sides_of(task, from, part);
     const int n = model_numbers(task->kind);
     struct corner corners[NUMBERS + 1];
-
     corners[0] = corner_at(task, from);
     for (int k = 0; k < n; k++) {
         struct numbers at = from;
@@ -103,36 +113,32 @@ static struct corner lowest(const struct task *task, struct numbers from,
         corners[k + 1] = corner_at(task, at);
     }
     sort(corners, n + 1);
-    for (int i = 0; (i < turns) && ((corners[n].error - corners[0].error) >
-                                    (1e-9 * corners[0].error));
-         i++) {
+    for (int i = 0; i < TURNS; i++) {
+        if (corners[n].error <= (1.0 + tolerance) * corners[0].error) {
+            break;
+        }
         turn(task, corners, n);
     }
     return corners[0];
-}
-
-static struct corner better(struct corner a, struct corner b)
-{
-    return (b.error < a.error) ? b : a;
 }
 
 // The best place of a grid over lags and thirds, for one of the dead times,
 // which are parts of the lag or of the recording.
 static struct corner best_place(const struct task *task, int dead)
 {
-    static const double DEAD[DEADS] = {0.0,  0.1,  0.3,  1.0, 3.0,
-                                       0.01, 0.03, 0.08, 0.2, 0.4};
+    static const double OF_LAG[DEADS] = {0.0, 0.1, 0.3, 1.0, 3.0};
+    static const double OF_SPAN[DEADS] = {0.0,  0.0,  0.0,  0.0, 0.0,
+                                          0.01, 0.03, 0.08, 0.2, 0.4};
     static const double LAG2[THIRDS] = {0.08, 0.4, 0.9};
     static const double DAMPING[THIRDS] = {0.1, 0.3, 0.6};
     const double span = task->record->span;
     const bool ringing = task->kind == IDENTIFY_RINGING;
     const bool integrating = task->kind == IDENTIFY_INTEGRATING;
     const int thirds = (model_numbers(task->kind) == 3) ? THIRDS : 1;
+    const double factor = ringing ? 1.25 : 1.8;
     struct corner best = {{{0.0}}, 1e300};
-
-    for (double lag = 0.002 * span; lag < 3.0 * span;
-         lag *= ringing ? 1.25 : 1.8) {
-        const double time = DEAD[dead] * ((dead < 5) ? lag : span);
+    for (double lag = 0.002 * span; lag < 3.0 * span; lag *= factor) {
+        const double time = (OF_LAG[dead] * lag) + (OF_SPAN[dead] * span);
         for (int k = 0; (k < thirds) && (time < 0.6 * span); k++) {
             const struct numbers at = {{integrating ? lag : log(lag), time,
                                         ringing ? DAMPING[k] : LAG2[k] * lag}};
@@ -147,12 +153,11 @@ static struct corner best_place(const struct task *task, int dead)
 struct numbers search_all(const struct task *task)
 {
     struct corner best = {{{0.0}}, 1e300};
-
     for (int dead = 0; dead < DEADS; dead++) {
         const struct corner place = best_place(task, dead);
-        best = better(best, lowest(task, place.at, 0.3, 60));
+        best = better(best, lowest(task, place.at, 0.3, 1e-4));
     }
-    return lowest(task, best.at, 0.1, 100).at;
+    return lowest(task, best.at, 0.1, FINE).at;
 }
 
 // Huber's weights: what is far away counts by its distance, not its square.
@@ -160,9 +165,8 @@ static void weigh(struct lines *in)
 {
     static double sizes[IDENTIFY_LINES];
     int n = 0;
-
     for (int i = 0; i < in->n; i++) {
-        if ((in->use[i] > 0.0) && (in->heavy[i] > 0.0)) {
+        if (in->heavy[i] > 0.0) {
             sizes[n++] = fabs(in->left[i]);
         }
     }
@@ -196,7 +200,7 @@ struct numbers search_near(const struct task *task, struct numbers from,
     for (int i = 0; i < 2; i++) {
         const struct identify_plant plant = model_plant(task->kind, from);
         search_weigh(task, &plant);
-        from = lowest(task, from, part, 60).at;
+        from = lowest(task, from, part, FINE).at;
     }
     return from;
 }
