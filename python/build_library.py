@@ -18,9 +18,8 @@ from cffi import FFI
 from headers import NUMBER
 
 ROOT = "c" if os.path.isdir("c") else ".."
-INCLUDE, SOURCE, TUNER = (os.path.join(ROOT, *path) for path in (("include",), ("src",), ("sim", "tuner")))
-SIM = os.path.join(ROOT, "sim")
-LINK = os.path.join(SIM, "link")
+INCLUDE, SOURCE, SIM = (os.path.join(ROOT, folder) for folder in ("include", "src", "sim"))
+IDENTIFY, LINK, TUNER = (os.path.join(SIM, folder) for folder in ("identify", "link", "tuner"))
 
 
 def beside(*names):
@@ -28,17 +27,17 @@ def beside(*names):
 
 
 HEADERS = beside(INCLUDE, "*.h")
-READ = HEADERS + [os.path.join(TUNER, name) for name in ("fit.h", "tuner.h")] + [
-    os.path.join(LINK, name) for name in ("link_frames.h", "link_twin.h")]
+READ = HEADERS + [os.path.join(SIM, *path.split("/")) for path in (
+    "identify/identify.h", "identify/loop.h", "tuner/fit.h", "tuner/margins.h", "tuner/tuner.h", "link/link_frames.h", "link/link_twin.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
 # What the page is made of: tools/lib/pages/tuner/sources.rb has the same.
-PAGE = [path for path in beside(TUNER, "*.c") if not path.endswith("main.c")] + [
+PAGE = beside(TUNER, "*.c") + beside(IDENTIFY, "*.c") + [
     os.path.join(SIM, "loops", "pid_double.c"),
     *(os.path.join(SIM, "plant", f"plant_{plant}.c") for plant in ("motor", "oven", "pendulum", "process"))]
 PAGE_LIBRARY = ("fixpid_tuner", {
     "sources": PAGE, "cflags": ["-std=c99", "-ffp-contract=off", "-fno-builtin", "-D_DEFAULT_SOURCE"],
-    "include_dirs": [os.path.join(TUNER, "libm"), INCLUDE, os.path.join(SIM, "plant"), os.path.join(SIM, "loops"), TUNER],
+    "include_dirs": [os.path.join(TUNER, "libm"), INCLUDE, os.path.join(SIM, "plant"), os.path.join(SIM, "loops"), IDENTIFY, TUNER],
     "obj_deps": {"": beside(SIM, "**", "*.h") + HEADERS}})
 
 
@@ -48,13 +47,13 @@ def preprocessed(*options):
         for name in ("limits", "stdbool", "stddef", "stdint"):
             open(os.path.join(empty, name + ".h"), "w").close()
         command = [os.environ.get("CC", "cc"), "-E", "-P", "-nostdinc", "-I", INCLUDE, "-I", TUNER,
-                   "-I", LINK, "-I", empty]
+                   "-I", IDENTIFY, "-I", LINK, "-I", empty]
         return subprocess.run(command + list(options) + ["-x", "c", "-"], input=TEXT, check=True,
                               stdout=subprocess.PIPE, universal_newlines=True).stdout
 
 
 def declarations():
-    macros = re.findall(r"^#define ((?:FIXPID|LINK|TUNER)_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
+    macros = re.findall(r"^#define ((?:FIXPID|IDENTIFY|LINK|LOOP|TUNER)_\w+) (.*)$", preprocessed("-dM"), re.MULTILINE)
     numbers = [name for name, value in macros if NUMBER.fullmatch(value)]
     # An inline function is declared like any other.
     declared = re.sub(r"static inline ([^{]*)\{[^}]*\}", r"\1;", preprocessed())
@@ -81,4 +80,4 @@ ffi.cdef(DECLARED + "".join(f"{one};\n" for one in LOOPS))
 # The twin of a live link is in the library itself: it is a controller.
 SOURCES = beside(SOURCE, "*", "*.c") + [os.path.join(LINK, name) for name in ("link_frames.c", "link_twin.c")]
 ffi.set_source("fixpid._library", TEXT + "".join(f"static {one}\n{body}" for one, body in LOOPS.items()), sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
-               include_dirs=[INCLUDE, TUNER, LINK], extra_compile_args=["-std=c99"])
+               include_dirs=[INCLUDE, IDENTIFY, TUNER, LINK], extra_compile_args=["-std=c99"])

@@ -44,7 +44,7 @@ class WithSources(sdist):
     def make_release_tree(self, base_dir, files):
         super().make_release_tree(base_dir, [file for file in files if not file.startswith("..")])
         self.distribution.metadata.write_pkg_info(base_dir)
-        for folder in "include", "src", "sim/tuner", "sim/plant", "sim/loops", "sim/link":
+        for folder in "include", "src", "sim/identify", "sim/tuner", "sim/plant", "sim/loops", "sim/link":
             shutil.copytree(os.path.join(build_library.ROOT, folder), os.path.join(base_dir, "c", folder))
         if build_library.ROOT == "..":
             shutil.copy(os.path.join("..", "LICENSE"), base_dir)

@@ -44,10 +44,10 @@ def within_reason(s):
     return {**s, **{name: max(s[name], shortest) for name in ("T1", "T2") if s[name] > 0}}
 
 
-_lock = threading.Lock()  # the C has one scene
+lock = threading.Lock()  # the C has one scene
 
 
-def _put(s):
+def put(s):
     params = lib.tuner_params()
     for name, at in PARAM.items():
         params[at] = s[name]
@@ -72,8 +72,8 @@ def _series(n):
 
 def run(s):
     """{"n", "results", "series"}; n is -1 where the controller refuses a value."""
-    with _lock:
-        _put(s)
+    with lock:
+        put(s)
         n = lib.tuner_run()
         return {"n": n, "results": _results(), "series": _series(max(n, 0))}
 
@@ -81,8 +81,8 @@ def run(s):
 def experiment(s, rules):
     """The scene's tuner in the controller's place: {"n", "results", "rules"}, with {"has", "results"}
     for each pair of a rule and a robustness."""
-    with _lock:
-        _put(s)
+    with lock:
+        put(s)
         n = lib.tuner_experiment()
         found = {"n": n, "results": _results(), "rules": []}
         for rule, robustness in rules:

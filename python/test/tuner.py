@@ -4,6 +4,7 @@
 TABLE has what the page computes, test/web/tuner/shared.json; HEADERS is include/, to compile a
 header with. Then what is Python's own: recordings, hardware, refusals, plots.
 """
+import csv
 import datetime
 import importlib
 import json
@@ -177,6 +178,20 @@ def scenes_are_the_pages():
         curve = [[margins["curve"][at].real, margins["curve"][at].imag] for at in (0, 160, 320, 479)]
         near({**margins, "curve": curve}, row["margins"], what, 1e-6)
         same(_header.header_of(state, found["results"], margins, row["fragment"]), row["header"])
+
+
+def margins_are_the_recorded():
+    """The scenes of margins.csv with the margins that other code computed, empty where there is none."""
+    names = {"gain": "gainMargin", "lower_gain": "lowerGainMargin", "phase_degrees": "phaseMargin", "delay_s": "delayMargin"}
+    with open(f"{HEADERS}/../test/support/margins.csv", encoding="ascii") as file:
+        rows = [{name: float(value) if value else None for name, value in row.items()} for row in csv.DictReader(file)]
+    for i, row in enumerate(rows):
+        state = {**_scene.COMMON, **{name: value for name, value in row.items() if name in _scene.COMMON}}
+        found = _margins.margins_of(state, {name[len("RESULT_"):]: value for name, value in row.items() if name.startswith("RESULT_")})
+        found = {"scale_s": _margins.scale_seconds(state), **found, **{name: found[of] for name, of in names.items()}}
+        for name in "stable", "ms", "scale_s", *names:
+            near(found[name], row[name], f"scene {i}: {name}")
+    assert len(rows) > 50, len(rows)
 
 
 def rules_are_the_pages():
@@ -500,7 +515,7 @@ def plots_have_what_they_show():
 
 
 run((near_tells_numbers_apart, columns_are_read_at_their_limits, fits_are_the_pages, fits_without_numpy_are_too,
-     plants_of_models_are_the_pages, scenes_are_the_pages, rules_are_the_pages, links_are_the_pages,
+     plants_of_models_are_the_pages, scenes_are_the_pages, rules_are_the_pages, margins_are_the_recorded, links_are_the_pages,
      numbers_are_written_as_on_the_page, the_table_is_whole, recordings_of_all_kinds,
      a_number_is_a_step_at_the_first_time_or_where_it_is_said, what_is_left_out_is_said, each_kind_is_told_apart,
      each_kind_is_tuned_and_simulated, what_is_no_step_is_refused, what_is_refused_can_be_looked_at,

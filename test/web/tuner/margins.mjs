@@ -63,7 +63,7 @@ function rowFaults(row) {
     return Object.keys(found).filter((name) => !(away(found[name], row[name]) < 1e-9)).map((name) => `${name} ${found[name]}, not ${row[name]}`);
 }
 
-const [names, ...lines] = readFileSync('test/support/vectors/margins.csv', 'utf8').trim().split('\n').map((line) => line.split(','));
+const [names, ...lines] = readFileSync('test/support/margins.csv', 'utf8').trim().split('\n').map((line) => line.split(','));
 lines.forEach((line, at) => checkNone(`scene ${at + 2} of margins.csv`,
     rowFaults(Object.fromEntries(names.map((name, i) => [name, line[i] === '' ? null : Number(line[i])])))));
 
