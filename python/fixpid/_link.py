@@ -70,7 +70,7 @@ class Link:
 
     Each step of the board is one of the same C here, the twin, whose output and flags must be equal;
     key frames must have its whole state. `difference` is the first step that was not, `compared` and
-    `not_compared` count.
+    `not_compared` count. `resets` says how often the board began anew, which `notes` tells.
 
     A file that can only be read is a recording, as `save`, a file to write to, gets one: it has steps
     until it ends, and takes no commands. `every` streams each so many steps only, which have no twin.
@@ -88,6 +88,8 @@ class Link:
     compared: int
     not_compared: int
     difference: Optional[Difference]
+    resets: int
+    notes: List[str]
 
     def __init__(self, port: Any, *, every: int = 1, timeout: float = 2.0, save: Any = None, keep: int = KEPT):
         self._port, self._save = port, save
@@ -99,16 +101,17 @@ class Link:
         self._twin.wants_record = True
         self._twin.asks = self._live
         self._before = ffi.new("struct fixpid_pid *")
-        self._payload = ffi.new("uint8_t[]", lib.LINK_FRAMES_MAX)
         self._bytes = bytearray()
+        self._odd = b""  # the last that came since a command was sent, and was no frame
         self._steps: Deque[Step] = deque(maxlen=keep)  # nobody has read them
         self._kept: Deque[Step] = deque(maxlen=keep)
         self._number: Optional[int] = None  # of the last step
+        self._run = 0  # steps since the board began
         self._setpoint: Optional[int] = None
         self._heard = time.monotonic()
         self._streams = self._key_due = False
-        self.compared = self.not_compared = 0
-        self.difference = None
+        self.compared = self.not_compared = self.resets = 0
+        self.difference, self.notes = None, []
         if self._live:
             self.hello()
 
@@ -128,7 +131,8 @@ class Link:
 
     def __repr__(self) -> str:
         said = "no step differs" if self.difference is None else str(self.difference)
-        return f"<Link {self.name}: {self.compared} steps compared, {self.not_compared} not, {said}>"
+        anew = f", {self.resets} resets" if self.resets else ""
+        return f"<Link {self.name}: {self.compared} steps compared, {self.not_compared} not, {said}{anew}>"
 
     # ---- bytes ----
 
@@ -175,17 +179,16 @@ class Link:
         twin = self._twin
         if not framed:
             return
-        payload = bytes(ffi.buffer(self._payload, lib.link_payload(framed, len(framed), self._payload)))
-        before = twin.frames, twin.different
         self._before[0] = twin.pid
-        tracked = twin.tracked
+        different, tracked = twin.different, twin.tracked
         for byte in framed:
             lib.link_twin_receive(twin, byte)
-        lib.link_twin_receive(twin, 0)
-        if twin.frames == before[0]:
-            return  # it is spoilt
+        if not lib.link_twin_receive(twin, 0):
+            self._odd = (self._odd + framed)[-2 * lib.LINK_FRAMES_MAX:]
+            return
+        payload = bytes(twin.frame[0:twin.frame_bytes])
         if payload[0] & lib.LINK_STEP or payload[0] == lib.LINK_KEY:
-            self._take_step(payload, False if twin.different != before[1] else True if twin.compared else None, tracked)
+            self._take_step(payload, False if twin.different != different else True if twin.compared else None, tracked)
         elif payload[0] == lib.LINK_HELLO:
             self._take_hello(payload)
 
@@ -214,7 +217,6 @@ class Link:
             self._setpoint = int.from_bytes(payload[setpoint_at:setpoint_at + 2], "little", signed=True)
         elif jump != self._every:
             self._setpoint = None
-        self._number = number if key or self._number is None else (self._number + jump) % 2**32
         if equal is None:
             self.not_compared += jump
         else:
@@ -227,16 +229,28 @@ class Link:
             terms = (lib.fixpid_pid_proportional(ffi.addressof(twin.pid)) / 256,
                      lib.fixpid_pid_integral(ffi.addressof(twin.pid)) / 65536,
                      lib.fixpid_pid_derivative(ffi.addressof(twin.pid)) / 256)
-        step = Step(self._number, self._setpoint, measurement, output, flags, *terms, equal)
+        step = Step(self._number or 0, self._setpoint, measurement, output, flags, *terms, equal)
         self._steps.append(step)
         self._kept.append(step)
+        self._run += 1
 
     def _jump(self, number: int, key: bool) -> int:
-        """By how many steps the board has gone on. One that began anew has made one."""
-        if self._number is None:
+        """By how many steps the board has gone on; notes their number."""
+        if key and self._number is not None and (number - self._number) % 2**32 >= 2**31:
+            self._anew()
+        last, self._number = self._number, number
+        if last is None:
             return 1
-        jump = (number - self._number) % (2**32 if key else NUMBERS)
-        return jump if 0 < jump < 2**31 else 1
+        jump = (number - last) % (2**32 if key else NUMBERS)
+        self._number = (last + jump) % 2**32
+        return jump or 1
+
+    def _anew(self) -> None:
+        """The board was reset: its steps count from 0, and it controls as its program has it."""
+        self.notes.append(f"The board was reset behind step {self._number}: its setpoint and its gains are those of its "
+                          "program again.")
+        self.resets += 1
+        self._number, self._run = None, 0
 
     def _differs(self, payload: bytes, measurement: int, output: int, flags: int, tracked: bool) -> Difference:
         """The step once more, for both answers."""
@@ -283,9 +297,21 @@ class Link:
                 if not self._live:
                     raise StopIteration
                 if time.monotonic() - self._heard > self._silence():
-                    self._begin()  # a board that was reset streams nothing
+                    self._wake()
             self._mend()
         return self._steps.popleft()
+
+    def _wake(self) -> None:
+        """Asks a silent board. One that answers and streams nothing was reset."""
+        self._ask("record", lib.LINK_ASK_RECORD)
+        end = time.monotonic() + max(PATIENCE, 2 * (self.period or 0) * self._every)
+        while not self._steps:
+            if time.monotonic() > end:
+                self._anew()
+                self.hello()
+                self._begin()
+                return
+            self._pump()
 
     def _mend(self) -> None:
         """Asks for what the twin needs: the record, and a key frame, with which a stream begins."""
@@ -316,6 +342,7 @@ class Link:
         if not self._live:
             raise ValueError(f"{what} is refused: a recording takes no commands")
         twin, period = self._twin, self.period or 0
+        self._odd, frames = b"", twin.frames
         lib.link_twin_send(twin, command, value, len(value))
         # A 0 ends what the board may have of another command.
         framed = b"\0" + bytes(ffi.buffer(twin.command, twin.command_bytes))
@@ -334,8 +361,20 @@ class Link:
             if twin.command_bytes != 0:  # whether it was done is not known
                 twin.command_bytes = 0
                 self._doubt()
-        raise TimeoutError(f"the board did not answer to {what} within {max(self._timeout, 5 * period):g} s: the wire, the "
-                           "baud rate, or a loop without fixpid_link_receive and fixpid_link_answer")
+        raise TimeoutError(f"the board did not answer to {what} within {max(self._timeout, 5 * period):g} s: "
+                           f"{self._came(twin.frames != frames)}")
+
+    def _came(self, frames: bool) -> str:
+        """What came in the place of an answer, and what that tells."""
+        loop, odd = "a loop without fixpid_link_receive and fixpid_link_answer", self._odd + self._bytes
+        if frames:
+            return f"its steps come, so it is the wire to the board, or {loop}"
+        if not odd:
+            return f"nothing came; the wire, the baud rate, or {loop}"
+        text = odd.decode("latin-1")
+        if all(one.isspace() or " " <= one <= "~" for one in text):
+            return f"text came, {text[:40]!r}; another program runs there, or prints on this port"
+        return f"{odd[:10].hex(' ')} came, which is no frame; the baud rate, or another program runs there"
 
     def _command(self, what: str, command: int, value: bytes, needs: str, why: str) -> None:
         result = self._ask(what, command, value)
@@ -443,11 +482,11 @@ class Link:
 
     def recording(self, sensor: Optional[Sensor] = None, actuator: Optional[Actuator] = None) -> Tuple[Any, Any, Any]:
         """Seconds, output and measurement of `log`, for `fit(*link.recording())`: counts, or with a
-        sensor and an actuator their units."""
+        sensor and an actuator their units. It begins behind the board's last reset."""
         if self.period is None:
             raise ValueError("the period is not known: the recording has no hello")
-        first = self._kept[0].number if self._kept else 0
-        t = [(step.number - first) % 2**32 * self.period for step in self._kept]
-        u = [step.output if actuator is None else actuator.units(step.output) for step in self._kept]
-        y = [step.measurement if sensor is None else sensor.units(step.measurement) for step in self._kept]
+        steps = list(self._kept)[max(0, len(self._kept) - self._run):]
+        t = [(step.number - steps[0].number) % 2**32 * self.period for step in steps]
+        u = [step.output if actuator is None else actuator.units(step.output) for step in steps]
+        y = [step.measurement if sensor is None else sensor.units(step.measurement) for step in steps]
         return (t, u, y) if numpy is None else (numpy.array(t), numpy.array(u), numpy.array(y))

@@ -42,7 +42,8 @@ class Clock:
 
 class Board:
     """`damage` is one byte in so many that is lost, turned, doubled or another, in both directions;
-    `deaf` is how many commands are not heard; `silent` boards say nothing."""
+    `deaf` is how many commands are not heard; of `silent` ones
+    nothing comes."""
 
     def __init__(self, allowed=ALL, damage=0, noise=10, lag=16, seed=1, clock=None, **board):
         self.config, self.pid, self.link, self.board = (
@@ -107,10 +108,8 @@ class Board:
         return bytes(self.link.frame[0:count])
 
     def read(self, _):
-        if self.silent:
-            return b""
         self.loop()
-        data, self.out = bytes(self.out), bytearray()
+        data, self.out = b"" if self.silent else bytes(self.out), bytearray()
         return data
 
     # ---- the loop ----

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A live link against a board in C, over good wires and bad ones: link.py."""
+import itertools
 import os
 import random
 import socket
@@ -7,6 +8,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 
 import numpy
 
@@ -186,15 +188,21 @@ def a_silent_board_is_said():
     board = Board(clock=CLOCK)
     board.silent = True
     said = message(TimeoutError, fixpid.Link, board, timeout=0.5)
-    assert said.startswith("the board did not answer to hello within 0.5 s: the wire, the baud rate"), said
+    assert said.startswith("the board did not answer to hello within 0.5 s: nothing came; the wire, the baud rate"), said
     board, link = pair()
     link.read(10)
     board.silent = True
     since = CLOCK.now
     assert message(TimeoutError, link.read, 10).startswith("the board did not answer to record within 2 s")
     assert 2 < CLOCK.now - since < 5, CLOCK.now - since
+    board.deaf, board.silent = 10**6, False
+    assert ": its steps come, so it is the wire to the board" in message(TimeoutError, link.record)
     with link:
         pass  # it does not mind
+    for came, said in ((b"boot\r\nfree: 1024 bytes\r\n", "text came, 'boot\\r\\nfree: 1024 bytes\\r\\n"),
+                       (b"\x00\xf8\x80\xfe\x00", " f8 80 fe f8 80 fe ")):
+        wire = types.SimpleNamespace(write=len, read=lambda _, of=itertools.cycle((b"", came)): next(of))
+        assert said in message(TimeoutError, fixpid.Link, wire, timeout=0.5), came
     board, link = pair(period_us=1000000)
     board.silent, said = True, []
     board.write = said.append
@@ -250,12 +258,39 @@ def what_the_program_changes_is_taken_over():
     link.read(500)
     same(link.record()["gains"]["kp_q8"], 300)
     assert link.equal and link.compared > 1950, link
-    board.start(CONFIG, 0)  # the chip was reset
+
+
+def a_reset_is_seen_and_said():
+    """Whether the numbers fall, or rise because the board was silent for longer than it had run."""
+    for before in 3000, 50:
+        board, link = pair()
+        link.read(before)
+        link.setpoint(200)
+        lib.fixpid_link_allow(board.link, 0)
+        board.start(CONFIG, 0)
+        last, since = link._number, board.steps
+        link.read(300)
+        same((link.resets, len(link.notes), link.allowed), (1, 1, frozenset()))
+        assert link.notes[0].startswith(f"The board was reset behind step {last}: "), link.notes
+        assert repr(link).endswith("no step differs, 1 resets>"), repr(link)
+        assert link.equal and link.read(1)[0].equal and link.not_compared < 20, link
+        t, u, _ = link.recording()
+        same((t[0], len(t) == len(u), round(t[-1] * 1000)), (0, True, len(t) - 1))
+        assert len(t) <= board.steps - since, (len(t), board.steps - since)
+    # Where frames go on to come, the number of a key frame tells it.
+    board.start(CONFIG, 0)
     lib.fixpid_link_allow(board.link, ALL)
-    link.read(300)
-    link.setpoint(100)
-    assert link.equal and link.read(1)[0].equal and link.read(1)[0].setpoint == 100, link
-    assert link._number < 3000 and link.not_compared < 1000, link
+    link.stream(1)
+    same((link.read(1)[0].number < 5, link.resets, len(link.recording()[0])), (True, 2, 1))
+    # A wire that was cut for long is no reset.
+    board, link = pair()
+    link.read(50)
+    board.silent = True
+    since = CLOCK.now
+    board.before_step = lambda at: setattr(at, "silent", CLOCK.now - since < 2.5)
+    link.read(KEY_FRAMES)
+    assert link.resets == 0 and link.notes == [] and link.read(1)[0].equal, link
+    assert link.recording()[0][-1] > 1 and link.not_compared > 1000, link
 
 
 def tracked_steps_are_equal():
@@ -396,6 +431,6 @@ def ports_of_several_kinds():
 
 run((the_board_says_who_it_is, steps_have_the_terms_of_the_board, all_steps_are_equal_on_a_good_wire,
      nothing_is_wrong_on_a_bad_wire, a_bit_of_the_board_is_noticed, what_is_refused_is_said, gains_are_written,
-     a_silent_board_is_said, a_command_is_repeated_and_done_once, what_the_program_changes_is_taken_over,
+     a_silent_board_is_said, a_command_is_repeated_and_done_once, what_the_program_changes_is_taken_over, a_reset_is_seen_and_said,
      tracked_steps_are_equal, a_thinned_stream_has_no_twin, text_spoils_one_frame, a_file_is_read_again,
      ports_of_several_kinds))
