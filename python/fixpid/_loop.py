@@ -266,7 +266,7 @@ class Loop:
         self.output = _array([actuator.units(one) for one in series["OUTPUT"]])
         self.p, self.i, self.d = (_array([one * per_count / scale for one in series[name]])
                                   for name, scale in (("P", 256), ("I", 65536), ("D", 256)))
-        self.flags, self.limited = _array(series["FLAGS"]), _array(limited_steps(state, run))
+        self.flags, self.limited = _array(series["FLAGS"]), _array(limited_steps(run))
 
     @property
     def gains(self) -> tuple:

@@ -359,6 +359,24 @@ def rates_are_those_of_the_macro():
             same(fixpid.slew_rate(*rate), int(folded))
 
 
+def figures_are_those_of_the_run():
+    """By numpy, of the series: from 20 degrees to 120, to 90 at 200 s, and a load at 400 s."""
+    oven = fixpid.Plant(gain=200, lag=30, dead=2, start=20)
+    pid = fixpid.Pid(kp=3, ki=0.4, rate=5, setpoint=120, sensor=fixpid.Sensor(0, 300),
+                     actuator=fixpid.Actuator(highest=255, full=100))
+    loop = fixpid.simulate(oven, pid, duration=600, events=[(200, "setpoint", 90), (400, "load", -0.2)])
+    error = abs(loop.true - loop.setpoint)
+    first = loop.true[:1000]
+    found = loop.metrics
+    assert abs(found["iae"] - error.sum() / 5) < 1e-9 * found["iae"] and abs(found["mean_error"] - error.mean()) < 1e-9
+    assert abs(found["overshoot"] - (first.max() - loop.setpoint[0]) / 100) < 1e-3 and found["overshoot"] > 0.02, found
+    same((found["settled"], found["rise"]), (loop.t[numpy.flatnonzero(abs(first - loop.setpoint[0]) > 2)[-1] + 1],
+                                             loop.t[numpy.flatnonzero(first >= 20 + 0.9 * (loop.setpoint[0] - 20))[0]]))
+    same((found["load"], found["limited"]), (error[2000:].max(), loop.limited.mean()))
+    assert 0 < found["limited"] < 0.5 and found["load"] > 2 and 0 < found["twin"]["rms"] <= found["twin"]["most"] < 20, found
+    same(set(found), {name for name in found if name == name.lower()})
+
+
 def names_of(path):
     """What the blocks of a page leave, one after the other."""
     with open(path, encoding="utf-8") as page:
@@ -394,7 +412,7 @@ def code_of_the_guide_runs():
     assert "LOOP_CONFIG" in names["header"] and names["url"].startswith("build/tuner/index.html#p=flow&")
 
 
-TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step,
+TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step, figures_are_those_of_the_run,
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
          table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
