@@ -17,11 +17,12 @@ installed() {
     [ -x "$venv/bin/pip" ] ||
         "${PYTHON:-/usr/bin/python3}" -m venv --system-site-packages "$venv"
     (cd "$root" && "$venv/bin/python" -m pip install --no-build-isolation --no-deps ./python)
-    sources_are_clean
+    sources_are_clean "$root/python"
 }
 
+# sources_are_clean FOLDER
 sources_are_clean() {
-    same '' "$(find "$root/python" -name '*.egg-info' -o -name '*.so' -o -name build -o -name '*.[ch]')"
+    same '' "$(find "$1" -name '*.egg-info' -o -name '*.so' -o -name build -o -name '*.[ch]')"
 }
 
 # seeded FOLDER CHECK: a copy of that folder of the tests, with that fault.
