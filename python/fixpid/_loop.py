@@ -280,7 +280,7 @@ class Loop:
         s, per_count = self.state, self._actuator.unit_per_count
         kp, ki, kd = self.gains
         ends = s["INTEGRAL_MIN"], s["INTEGRAL_MAX"]
-        return Pid(kp=kp, ki=ki, kd=kd, rate=s["RATE"], setpoint=s["SETPOINT"], filter=int(s["FILTER"]),
+        return Pid(kp=kp, ki=ki, kd=kd, rate=s["RATE"], setpoint=min(s["SETPOINT"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]), filter=int(s["FILTER"]),
                    sensor=Sensor(s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"], s["SENSOR_BITS"], s["unit"]),
                    actuator=self._actuator, reverse=bool(s["OPTIONS"] & _scene.REVERSE),
                    setpoint_weight=0 if s["OPTIONS"] & _scene.PROPORTIONAL_ON_MEASUREMENT else s["WEIGHT"],
@@ -327,12 +327,10 @@ def _events(events):
     for event in events:
         at, what, *values = event
         what = str(what).upper()
-        if _scene.EVENT.get(what, 0) == 0 or len(values) > 2:
+        if _scene.EVENT.get(what, 0) == 0 or len(values) != {"AUTO": 0, "LIMITS": 2}.get(what, 1):
             known = ", ".join(name.lower() for name in _scene.EVENT if name != "NONE")
             raise ValueError(f"event {event!r} is refused: (seconds, what, value) is wanted, and what is one of {known}")
-        if not 0 <= number("at", at) <= 1e6:
-            raise ValueError(f"event {event!r} is refused: 0 to 1e6 seconds are legal")
-        found.append({"at": float(at), "what": what, **{name: number("value", value) for name, value in zip("ab", values)}})
+        found.append({"at": number("at", at), "what": what, **{name: number("value", value) for name, value in zip("ab", values)}})
     if len(found) > _scene.lib.TUNER_EVENTS:
         raise ValueError(f"events are refused: {len(found)} of them, and at most {_scene.lib.TUNER_EVENTS} happen")
     return found
@@ -341,7 +339,7 @@ def _events(events):
 def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0) -> Loop:
     """The loop of a Plant, or of a Fit, and a Pid, from rest: a Loop.
 
-    It lasts `duration` seconds, at most 20000 steps; without one, ten times what matters of the
+    It lasts `duration` seconds, 4 to 20000 steps; without one, ten times what matters of the
     plant. `setpoint` is the Pid's own if it is not given. `events` are (seconds, what, value):
     setpoint in units, load as a part of full drive, manual, limits and feedforward in counts,
     auto. `noise` is of the sensor, in counts to each side. The Pid itself stays as it is.
@@ -367,9 +365,9 @@ def simulate(plant, pid, duration=None, setpoint=None, events=(), noise=0.0) -> 
              "events": _events(events)}
     if sensor.unit:
         state["unit"] = sensor.unit
-    usual = 10 * scale_seconds(state)
-    state["DURATION"] = max(4 / pid.rate, usual if duration is None else number("duration", duration))
-    return Loop(_scene.within_reason(state), actuator)
+    usual = max(4 / pid.rate, min(10 * scale_seconds(state), _scene.lib.TUNER_STEPS / pid.rate))
+    state["DURATION"] = usual if duration is None else number("duration", duration)
+    return Loop(_scene.within_reason(_scene.possible(state)), actuator)
 
 
 def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe", tuner="autotune") -> Loop:
@@ -410,6 +408,9 @@ def tune(fit, rule="PI", rate=None, sensor=None, actuator=None, robustness="safe
         state["EXPERIMENT"] = _scene.EXPERIMENT[kind]
         tried = _scene.experiment(state, [(rule, robust)])
         status = states(int(tried["results"]["STATUS"]))
+        if status is states.RUNNING:
+            raise ValueError(f"no gains: the experiment is not over after the {_scene.lib.TUNER_STEPS} steps that a run has, which are "
+                             f"{_scene.lib.TUNER_STEPS / rate:g} s at rate = {rate:g}: take a lower rate")
         if status is not states.DONE:
             raise ValueError(f"no gains: {status.advice}")
         if not tried["rules"][0]["has"]:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """A scene of the tuner page: its parameters by their names in sim/tuner/tuner.h, and a run of
 it in the same C, bit for bit. web/engine.js and a part of web/state.js in Python."""
+import math
 import threading
 from urllib.parse import quote
 
 from ._format import number, shortest
 from ._library import ffi, lib
+from ._units import numbers, pair
 
 
 def _names(enumeration, prefix):
@@ -44,6 +46,22 @@ def within_reason(s):
     return {**s, **{name: max(s[name], shortest) for name in ("T1", "T2") if s[name] > 0}}
 
 
+def possible(s):
+    """The scene; or a ValueError for what a run would cut in silence."""
+    seconds = s["DURATION"]
+    numbers("duration", seconds, 4 / s["RATE"], lib.TUNER_STEPS / s["RATE"])
+    sensor = s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]
+    numbers("setpoint", s["SETPOINT"], *sensor)
+    for event in s["events"]:
+        what = event["what"].lower()
+        numbers(f"time of {what}", event["at"], 0, seconds - 1 / s["RATE"])
+        legal = {"setpoint": sensor, "load": (-math.inf, math.inf)}.get(what, (-32768, 32767))
+        values = [numbers(what, event[name], *legal) for name in "ab" if name in event]
+        if what == "limits":
+            pair(what, values)
+    return s
+
+
 lock = threading.Lock()  # the C has one scene
 
 
@@ -75,7 +93,10 @@ def run(s):
     with lock:
         put(s)
         n = lib.tuner_run()
-        return {"n": n, "results": _results(), "series": _series(max(n, 0))}
+        found = {"n": n, "results": _results(), "series": _series(max(n, 0))}
+    if n > 0:
+        numbers("dead", s["DEAD"], 0, found["results"]["DEAD_S"] + 1 / s["RATE"])
+    return found
 
 
 def experiment(s, rules):

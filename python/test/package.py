@@ -22,7 +22,7 @@ import numpy
 
 import fixpid
 from board import Board, Clock
-from runner import refuses, run, same
+from runner import message, refuses, run, same
 from sensors import ntc, type_k, type_k_mv
 
 INCLUDE, README, GUIDE = sys.argv[1:]
@@ -377,6 +377,22 @@ def figures_are_those_of_the_run():
     same(set(found), {name for name in found if name == name.lower()})
 
 
+def what_a_run_would_cut_is_refused():
+    plant, events = fixpid.Plant(gain=100, lag=30, dead=3), [(20, "limits", 0, 9), (40, "auto")]
+    pid = fixpid.Pid(kp=1, ki=0.1, rate=5, setpoint=50, sensor=fixpid.Sensor(0, 150), actuator=fixpid.Actuator(highest=255, full=100))
+    same(len(fixpid.simulate(plant, pid, 4000, setpoint=150, events=[*events, (3999.8, "manual", 9)]).t), 20000)
+    for fields, said in (
+            ({"duration": 4001}, "duration = 4001 is refused: 0.8 to 4000 is legal here"),
+            ({"duration": 0.7}, "duration = 0.7 is refused"), ({"setpoint": 1e6}, "setpoint = 1e+06 is refused: 0 to 150 is legal"),
+            ({"duration": 50, "events": [(50, "auto")]}, "time of auto = 50 is refused: 0 to 49.8"),
+            ({"events": [(1, "setpoint", -1)]}, "setpoint = -1 is refused"), ({"events": [(1, "setpoint")]}, "event (1, 'setpoint') is refused"),
+            ({"events": [(1, "auto", 1)]}, "event (1, 'auto', 1) is refused"), ({"events": [(1, "manual", 40000)]}, "manual = 40000 is refused"),
+            ({"events": [(1, "limits", 9, 9)]}, "limits = (9, 9) is refused"),
+            ({"plant": fixpid.Plant(gain=100, lag=0.1, dead=3000), "duration": 3900}, "dead = 3000 is refused: 0 to ")):
+        found = message(ValueError, fixpid.simulate, **{"plant": plant, "pid": pid, **fields})
+        assert found.startswith(said), found
+
+
 def names_of(path):
     """What the blocks of a page leave, one after the other."""
     with open(path, encoding="utf-8") as page:
@@ -412,7 +428,7 @@ def code_of_the_guide_runs():
     assert "LOOP_CONFIG" in names["header"] and names["url"].startswith("build/tuner/index.html#p=flow&")
 
 
-TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step, figures_are_those_of_the_run,
+TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step, figures_are_those_of_the_run, what_a_run_would_cut_is_refused,
          what_does_not_fit_is_refused, what_is_refused_is_named,
          guard_is_chosen_by_its_rule, guard_sees_a_heater_that_does_not_heat,
          table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,

@@ -358,7 +358,7 @@ def plants_and_events_that_are_none_are_refused():
             (fixpid.Plant, {"gain": math.nan}, "gain = nan"), (fixpid.Plant, {"gain": 1, "lag": 0}, "lag = 0"),
             (fixpid.Plant, {"gain": 1, "dead": -1}, "dead = -1 is refused: 0 to 100000"), (fixpid.Plant, {"gain": 1, "kind": "x"}, "kind = 'x'"),
             (fixpid.simulate, {"plant": plant, "pid": pid, "events": [(1, "bang", 2)]}, "event (1, 'bang', 2) is refused"),
-            (fixpid.simulate, {"plant": plant, "pid": pid, "events": [(-1, "load", 2)]}, "event (-1, 'load', 2) is refused"),
+            (fixpid.simulate, {"plant": plant, "pid": pid, "events": [(-1, "load", 2)]}, "time of load = -1 is refused: 0 to 9.9 is legal"),
             (fixpid.simulate, {"plant": plant, "pid": fixpid.Pid(output_max=9)}, "pid is refused: it needs a rate")):
         said = message(ValueError, call, **fields)
         assert said.startswith(start), said
