@@ -13,11 +13,6 @@ BOARD = {"period_us": 1000, "manual_steps": 50, "setpoint_min": -500, "setpoint_
 ALL = 0x0F
 
 
-def stuffed(data):
-    """COBS, with the 0 at the end."""
-    return b"".join(bytes([len(part) + 1]) + part for part in data.split(b"\0")) + b"\0"
-
-
 def unstuffed(framed):
     """COBS backwards, without the 0 at the end."""
     found, left = bytearray(), framed[0]
