@@ -4,52 +4,21 @@ import enum
 import operator
 import textwrap
 
-from . import _nouns
+from . import _headers, _nouns
 from ._core import accept as _accept, each, ffi, fields_of as _fields, lib, new as _new
 
 
-def _causes(name, noun, advice):
-    """An enum of C whose members say what to do: `advice` has a sentence for each."""
-    prefix = f"FIXPID_{noun.upper()}_"
-    values = {value[len(prefix):]: number
-              for number, value in ffi.typeof(f"enum fixpid_{name}").elements.items()
-              if value.startswith(prefix)}
-    made = enum.IntEnum("".join(map(str.capitalize, name.split("_"))), values, module=__name__)
+def _causes(name):
+    """An enum of C, whose members' `advice` is what the header says: what it is, and what to do."""
+    prefix = f"FIXPID_{name.split('_')[0].upper()}_"
+    made = enum.IntEnum("".join(map(str.capitalize, name.split("_"))), {
+        one[len(prefix):]: value for value, one in sorted(ffi.typeof(f"enum fixpid_{name}").elements.items())}, module=__name__)
     for member in made:
-        member.advice = advice[member.name]
+        member.advice = _headers.FIELDS[f"fixpid_{name}"][prefix + member.name]
     return made
 
 
-AutotuneState = _causes("autotune_state", "autotune", {
-    "REFUSED": "A value of the configuration is out of its range.",
-    "RUNNING": "Keep stepping.",
-    "DONE": "It has measured: ask for a result.",
-    "NO_OSCILLATION": "A half cycle took longer than timeout_steps: the setpoint is out of reach of "
-                      "the output range, or the plant is slower than thought. Take the load away, and "
-                      "begin at rest.",
-    "SATURATED": "The measurement reached measurement_min or measurement_max: begin at rest at the "
-                 "setpoint, with output_rest what holds it.",
-    "IRREGULAR": "The cycles were not alike, or the output that holds the setpoint is next to an "
-                 "end of the range: wait for a steady load, then begin at rest with a range of a "
-                 "tenth to a fifth on each side of what holds the setpoint. A heater: take Reaction.",
-    "TOO_FAST": "A period has less than 10 steps: sample faster, or measure with less noise.",
-    "TOO_SMALL": "The swing is not far above the noise: try once more, take a larger output range, "
-                 "or measure with less noise.",
-    "TOO_SLOW": "The cycles took 32767 steps: sample more slowly."})
-
-AutotuneCause = _causes("autotune_cause", "autotune", {
-    "NO_REASON": "There are gains.",
-    "NOT_DONE": "The experiment has not measured: its status says why.",
-    "NOT_LEGAL": "There is no such rule, or the robustness is outside 8..64.",
-    "SHAPE": "The noise or the hysteresis hides the wave: try once more, or measure with less "
-             "noise. For PID: take PI.",
-    "TWO_PROCESSES": "For PID the ways up and down tell of two processes, such as a heater that cools "
-                     "slowly: take PI, which is for the quicker one.",
-    "RUNS_AWAY": "More measurement was held with less output: try once more with a steady load, from "
-                 "rest. If it comes twice, the process is unstable: set its gains by hand.",
-    "GAIN_TOO_LARGE": "kp, ki or kd is above its range: take a finer measurement, or a smaller "
-                      "output range.",
-    "GAIN_TOO_SMALL": "ki is below its range: take a slower rate, or a coarser measurement."})
+AutotuneState, AutotuneCause, ReactionState = map(_causes, ("autotune_state", "autotune_cause", "reaction_state"))
 
 
 class Autotune(_nouns.Autotune):
@@ -108,20 +77,6 @@ class Autotune(_nouns.Autotune):
         if not lib.fixpid_autotune_unpack(tuner.c, _new("autotune_record", {"bytes": list(record)})):
             raise ValueError("a byte of the record is wrong")
         return tuner
-
-
-ReactionState = _causes("reaction_state", "reaction", {
-    "REFUSED": "output_drive is output_rest, or timeout_steps is above 32767.",
-    "RUNNING": "Keep stepping.",
-    "DONE": "It has measured: ask for a result.",
-    "MOVING": "The reading was not at rest: wait until it stands or falls.",
-    "NO_MOVEMENT": "Nothing moved within timeout_steps: is the heater on, and the sensor in place? If both are, "
-                   "take a longer timeout_steps.",
-    "WRONG_WAY": "The reading went the other way: change reverse; if it is right, take Autotune.",
-    "LIMIT": "The reading would come to measurement_stop: begin colder, let it go further, or take half of "
-             "output_drive where half the output has half the effect.",
-    "LEVELS_OFF": "The reading came to rest before its slope was clear: take Autotune, or a faster rate.",
-    "TOO_SLOW": "It took more than 32768 steps: sample more slowly."})
 
 
 class Reaction(_nouns.Reaction):
