@@ -28,7 +28,7 @@ def beside(*names):
 
 HEADERS = beside(INCLUDE, "*.h")
 READ = HEADERS + [os.path.join(SIM, *path.split("/")) for path in (
-    "identify/identify.h", "identify/loop.h", "tuner/fit.h", "tuner/margins.h", "tuner/tuner.h", "link/link_frames.h", "link/link_twin.h")]
+    "identify/identify.h", "identify/loop.h", "identify/verdict.h", "tuner/fit.h", "tuner/margins.h", "tuner/tuner.h", "link/link_frames.h", "link/link_twin.h")]
 TEXT = "".join(f'#include "{os.path.basename(path)}"\n' for path in READ)
 
 # What the page is made of: tools/lib/pages/tuner/sources.rb has the same.

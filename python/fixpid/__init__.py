@@ -16,11 +16,13 @@ Who passes what is no whole number gets a TypeError, what does not fit an Overfl
 what C refuses by returning false a ValueError; each names the value.
 """
 from ._core import __version__
+from ._fit import Fit, fit
 from ._library import ffi, lib
 from ._link import Difference, Link, Step
-from ._loop import Fit, Loop, Plant, fit, simulate, tune
+from ._loop import Loop, simulate, tune
 from ._modules import (Autotune, AutotuneCause, AutotuneState, Reaction, ReactionState, Table, gains_from_milli,
                        gains_to_milli, guard_config, record_pack, record_unpack, sat16, slew_rate, table)
 from ._nouns import *  # noqa: F403, the constants, and the classes that C alone makes
 from ._pid import Pid, pid_gains
+from ._plant import Plant
 from ._units import Actuator, Sensor

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What a person should know of these settings: web/advice.js in Python. What the controller
 refuses, and where a gain is coarse, the loop has little margin or the sensor ends."""
+from ._fit import MOST_MS
 from ._format import digits, percent, whole
 from ._library import lib
 from ._margins import scale_seconds
@@ -54,8 +55,8 @@ def _gains(s, r):
 def _loop(margins):
     if not margins["stable"]:
         return ["The loop is unstable near its setpoint: what is seen is held by the limits."]
-    if margins["ms"] > 2.2:
-        return [f"Little margin: Ms {digits(margins['ms'])} is above 2.2; small changes of the plant make it swing."]
+    if margins["ms"] > MOST_MS:
+        return [f"Little margin: Ms {digits(margins['ms'])} is above {MOST_MS}; small changes of the plant make it swing."]
     return []
 
 

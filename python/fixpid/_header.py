@@ -9,6 +9,7 @@ from ._library import lib
 from ._margins import error_per_count
 from ._scene import CONTROLLER, DERIVATIVE_ON_ERROR, PLANT, PROPORTIONAL_ON_MEASUREMENT, REVERSE
 
+NAME = re.compile(r"[A-Za-z0-9_]{0,31}")
 KI_FINE = 0x7FFF7F  # the largest without FIXPID_PID_HAS_COARSE_KI
 
 
@@ -37,32 +38,32 @@ def _initialiser(name, fields):
     return _macro(name, ["{", *(f"    {value.ljust(width)} /* {text} */" for value, text in rows), "}"])
 
 
-def _pid(s, r):
+def _pid(s, r, loop):
     def option(bit):
         return "true" if int(r["OPTIONS"]) & bit else "false"
 
     return [
         "// The same, folded in double precision:",
         f"// FIXPID_PID_GAINS({', '.join(map(number, (s['KP'], s['KI'], s['KD'], s['RATE'], r['FILTER'])))})",
-        *_initialiser("LOOP_GAINS", [
+        *_initialiser(f"{loop}_GAINS", [
             (f"{number(r['KP'])}u", "kp_q8", short(r["KP"] / 256)),
             (f"{number(r['KI'])}u", "ki_q24", f"{short(r['KI'] * s['RATE'] / 2**24)} per second"),
             (f"{number(r['KD'])}u", "kd_q8", f"{short(r['KD'] * 2**r['FILTER'] / 256 / s['RATE'])} s"),
             (f"{number(r['FILTER'])}u", "derivative_filter", "")]),
         "",
-        "// static const struct fixpid_pid_config config = LOOP_CONFIG;",
+        f"// static const struct fixpid_pid_config config = {loop}_CONFIG;",
         f"// It needs -DFIXPID_PID_FEATURES=0x{features_of(s, r):02X} or more.",
-        *_initialiser("LOOP_CONFIG", [
-            ("LOOP_GAINS", "gains", ""),
+        *_initialiser(f"{loop}_CONFIG", [
+            (f"{loop}_GAINS", "gains", ""),
             *((number(s[name.upper()]), name, "") for name in ("output_min", "output_max", "integral_min", "integral_max")),
             (f"{number(r['WEIGHT'])}u", "setpoint_weight_q8", ""),
             (option(REVERSE), "reverse", ""), (option(DERIVATIVE_ON_ERROR), "derivative_on_error", ""),
             (option(PROPORTIONAL_ON_MEASUREMENT), "proportional_on_measurement", "")])]
 
 
-def _an937(s, r):
-    return ["// static const struct fixpid_an937_config config = LOOP_CONFIG;",
-            *_initialiser("LOOP_CONFIG", [
+def _an937(s, r, loop):
+    return [f"// static const struct fixpid_an937_config config = {loop}_CONFIG;",
+            *_initialiser(f"{loop}_CONFIG", [
                 (f"{number(r['KP'])}u", "kp_q4", short(r["KP"] / 16)),
                 (f"{number(r['KI'])}u", "ki_q4", f"{short(r['KI'] / 16)} per tick"),
                 (f"{number(r['KD'])}u", "kd_q4", short(r["KD"] / 16)),
@@ -70,9 +71,9 @@ def _an937(s, r):
                 (f"{number(r['FILTER'])}u", "derivative_period_ticks", "")])]
 
 
-def _an964(_, r):
-    return ["// static const struct fixpid_an964_gains gains = LOOP_CONFIG;",
-            *_initialiser("LOOP_CONFIG", [(f"{number(r['KP'])}u", "kp", short(r["KP"] / 1024)),
+def _an964(_, r, loop):
+    return [f"// static const struct fixpid_an964_gains gains = {loop}_CONFIG;",
+            *_initialiser(f"{loop}_CONFIG", [(f"{number(r['KP'])}u", "kp", short(r["KP"] / 1024)),
                                           (f"{number(r['KI'])}u", "ki", ""), (f"{number(r['KD'])}u", "kd", "")])]
 
 
@@ -115,19 +116,19 @@ def _plant(s, unit):
 
 
 def _margins(margins):
-    known = (("Ms", margins["ms"], ""), ("phase", margins["phaseMargin"], " degrees"), ("gain", margins["gainMargin"], ""),
-             ("dead time", margins["delayMargin"], " s"))
+    known = (("Ms", margins["ms"], ""), ("phase", margins["phase_margin"], " degrees"), ("gain", margins["gain_margin"], ""),
+             ("dead time", margins["delay_margin"], " s"))
     said = [f"{name} {_plain(digits(value).replace('−', '-'))}{unit}" for name, value, unit in known if value is not None]
     return ", ".join(said) if margins["stable"] else "unstable"
 
 
-def _scale(s, unit):
+def _scale(s, unit, loop):
     """The counts of a constant in units, and the rate, for the rest of the firmware."""
     low, high = (f"({number(value)})" for value in (s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]))
     return [
-        f"#define LOOP_RATE {number(s['RATE'])} // steps per second",
+        f"#define {loop}_RATE {number(s['RATE'])} // steps per second",
         f"// A constant setpoint of so many {unit} in counts; beyond the sensor it does not compile.",
-        *_macro("LOOP_COUNTS(x)", [
+        *_macro(f"{loop}_COUNTS(x)", [
             "FIXPID_CAST(int16_t,",
             f"    FIXPID_FOLDED((FIXPID_REAL(x) - {low}) / {number(s['SENSOR_RANGE'])} * {2**int(s['SENSOR_BITS']) - 1}) +",
             f"        FIXPID_CHECKED(0, (FIXPID_REAL(x) >= {low}) &&",
@@ -135,16 +136,37 @@ def _scale(s, unit):
         ""]
 
 
-def header_of(s, results, margins, link):
+def _digest(lines):
+    """FNV-1a of the lines, by which two headers of one name are known to differ."""
+    found = 0x811C9DC5
+    for byte in "\n".join(lines).encode("ascii"):
+        found = (found ^ byte) * 0x01000193 % 2**32
+    return f"0x{found:08X}u"
+
+
+def _guarded(name, loop, lines):
+    """Between a guard that two copies of the same header pass, and no others."""
+    guard, digest = f"{loop}_GAINS_H", _digest(lines)
+    differ = f"for the loop {name} differ: give each loop a name of its own" if name else (
+        "without a name differ: give each loop a name")
+    return [f"#ifndef {guard}", f"#define {guard} {digest}", *lines, f"#elif {guard} != {digest}",
+            f'#error "two headers of gains {differ}"', "#endif", ""]
+
+
+def header_of(s, results, margins, link, name="", said=()):
     """A header with the integers that have run, as an initialiser that every compiler takes, and with
-    what it is from: the plant, the margins, and the link of the page that has it."""
+    what it is from: the plant, the margins and what else is said of them, and the link of the page
+    that has it. `name` is that of the loop, or none."""
+    if not NAME.fullmatch(name):
+        raise ValueError(f"name = {name!r} is refused: at most 31 letters, digits and _ are legal")
     noun, lines = {CONTROLLER["PID"]: ("fixpid_pid", _pid), CONTROLLER["AN937"]: ("fixpid_an937", _an937),
                    CONTROLLER["AN964"]: ("fixpid_an964", _an964)}[s["CONTROLLER"]]
-    unit = _plain(s["unit"]) or "units"
+    unit, loop = _plain(s["unit"]) or "units", f"LOOP_{name.upper()}" if name else "LOOP"
     return "\n".join([
-        f"// Gains of a loop, by the tuner page of fixpid {__version__}",
+        f"""// Gains of {f'the loop "{name}"' if name else 'a loop'}, by the tuner page of fixpid {__version__}""",
         f"// {short(s['RATE'])} steps per second; sensor: {number(s['SENSOR_BITS'])} bits, {short(s['SENSOR_RANGE'])} {unit}",
-        f"// Plant: {_plant(s, unit)}", f"// Margins: {_margins(margins)}", f"// The page has it with #{_plain(link)}",
-        "#ifndef LOOP_GAINS_H", "#define LOOP_GAINS_H", f'#include "{noun}.h"', "", *_scale(s, unit),
-        *([] if noun == "fixpid_pid" else [_error(s)]), *(_limits() if noun == "fixpid_an964" else []),
-        *lines(s, results), "", "#endif", ""])
+        f"// Plant: {_plant(s, unit)}", f"// Margins: {_margins(margins)}", *(f"// {_plain(text)}" for text in said),
+        f"// The page has it with #{_plain(link)}",
+        *_guarded(name, loop, [
+            f'#include "{noun}.h"', "", *_scale(s, unit, loop), *([] if noun == "fixpid_pid" else [_error(s)]),
+            *(_limits() if noun == "fixpid_an964" else []), *lines(s, results, loop), ""])])

@@ -4,7 +4,7 @@ Python."""
 import math
 
 from ._format import precise
-from ._library import lib
+from ._library import ffi, lib
 from ._margins import scale_seconds
 from ._metrics import unit_per_count
 from ._scene import COMMON, PLANT, REVERSE
@@ -16,35 +16,26 @@ def round4(x):
     return precise(x, 4)
 
 
-def _with_gains(kp, ki, kd=0, derivative_filter=0):
-    return {"KP": round4(kp), "KI": round4(ki), "KD": round4(kd), "FILTER": derivative_filter, "WEIGHT": 1}
-
-
-def simc(s):
-    """Skogestad's rules (SIMC) for the plant as kp, ki and kd see it, which are counts per count. The
-    hold is half a step of dead time; half of a second lag is dead time, and half lengthens the
-    first. The loop's time constant is the dead time, or a tenth of the lag where that is more; of
-    what oscillates it is 1 / the natural frequency."""
+def simc(s, calm):
+    """Skogestad's rules (SIMC) for the plant as kp, ki and kd see it, which are counts per count; the
+    loop's time constant is `calm` times that of the rule."""
+    kind = {PLANT["OSCILLATOR"]: lib.IDENTIFY_RINGING, PLANT["INTEGRATOR"]: lib.IDENTIFY_INTEGRATING}.get(
+        s["PLANT"], lib.IDENTIFY_SECOND)
+    lag2, lag = (s["T2"], 0) if kind == lib.IDENTIFY_INTEGRATING else sorted((s["T1"], s["T2"]))
     per_count = abs(s["GAIN"]) / unit_per_count(s) / max(s["OUTPUT_MAX"], -s["OUTPUT_MIN"])
-    hold = s["DEAD"] + 0.5 / s["RATE"]
-    if s["PLANT"] == PLANT["OSCILLATOR"]:
-        k = per_count * (s["T1"] + hold)
-        derivative_filter = min(7, max(0, math.floor(math.log2(s["T1"] * s["RATE"] / 10))))
-        return _with_gains(2 * s["DAMPING"] * s["T1"] / k, 1 / k, s["T1"] * s["T1"] / k, derivative_filter)
-    if s["PLANT"] == PLANT["INTEGRATOR"]:
-        dead = hold + s["T2"] / 2
-        kp = 1 / (per_count * 2 * dead)
-        return _with_gains(kp, kp / (8 * dead))
-    second, first = sorted((s["T1"], s["T2"]))
-    lag, dead = first + second / 2, hold + second / 2
-    wanted = dead + max(dead, lag / 10)
-    kp = lag / (per_count * wanted)
-    return _with_gains(kp, kp / min(lag, 4 * wanted))
+    plant = ffi.new("struct identify_plant *", {"kind": kind, "gain": per_count, "lag": lag, "lag2": lag2,
+                                                "damping": s["DAMPING"], "dead": s["DEAD"]})
+    gains = ffi.new("double[3]")
+    lib.identify_simc(plant, 1 / s["RATE"], calm, gains)
+    kp, ki, kd = map(round4, gains)
+    filtered = kind == lib.IDENTIFY_RINGING
+    derivative_filter = min(7, max(0, math.floor(math.log2(s["T1"] * s["RATE"] / 10)))) if filtered else 0
+    return {"KP": kp, "KI": ki, "KD": kd, "FILTER": derivative_filter, "WEIGHT": 1}
 
 
-def with_plant(s):
+def with_plant(s, calm):
     """The scene of a state with its own plant and hardware: a setpoint, another one, a load, and
-    first gains."""
+    first gains, those of SIMC."""
     low, high = s["SENSOR_LOW"], s["SENSOR_LOW"] + s["SENSOR_RANGE"]
     reach = math.copysign(0.4 * s["SENSOR_RANGE"], s["GAIN"]) if s["PLANT"] == PLANT["INTEGRATOR"] else s["GAIN"]
 
@@ -56,23 +47,7 @@ def with_plant(s):
             "SETPOINT": inside(s["START"] + reach / 2),
             "events": [{"at": round4(0.4 * seconds), "what": "SETPOINT", "a": inside(s["START"] + 0.65 * reach)},
                        {"at": round4(0.72 * seconds), "what": "LOAD", "a": -0.1}],
-            **simc(s), "INTEGRAL_MIN": 0, "INTEGRAL_MAX": 0}
-
-
-# ---- The plant of a model ----
-
-
-def plant_of_model(model, step, rest):
-    """What a scene calls a model that was recorded with a step of this part of full drive, from
-    `rest`."""
-    gain = model["rise"] / step
-    plant = {"GAIN": round4(gain), "T1": round4(model.get("T1", 1)), "T2": round4(model.get("T2", 0)),
-             "DEAD": round4(model["dead"]), "START": round4(model["start"] - gain * rest), "PLANT": PLANT["LAGS"]}
-    if model["kind"] == "integrating":
-        return {**plant, "PLANT": PLANT["INTEGRATOR"], "START": round4(model["start"])}
-    if model["kind"] == "ringing":
-        return {**plant, "PLANT": PLANT["OSCILLATOR"], "DAMPING": round4(model["damping"])}
-    return plant
+            **simc(s, calm), "INTEGRAL_MIN": 0, "INTEGRAL_MAX": 0}
 
 
 def range_for(low, high):

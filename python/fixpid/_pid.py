@@ -193,7 +193,8 @@ class Pid(_nouns.Pid):
         self._tunings = now
 
     def set_gains(self, **gains):
-        """New gains for the next step, as pid_gains makes them."""
+        """New gains for the next step, as pid_gains makes them. What is not named stays."""
+        gains = {**self._said[1].get("gains", {}), **gains}
         accept(lib.fixpid_pid_set_gains(self.c, new("pid_gains", gains)),
                ", ".join(f"{name} = {value}" for name, value in gains.items()))
         self._said = ((), {**self._said[1], "gains": gains})

@@ -139,4 +139,4 @@ def fragment(s):
                       for event in s["events"])
     return "&".join([f"p={PRESETS[plant]}", *(f"{name.lower()}={number(s[name])}" for name in PARAM
                                              if name not in ("CONTROLLER", "PLANT")),
-                     f"unit={quote(s['unit'], safe='')}", f"rule={s['rule']}", f"events={events}"])
+                     f"unit={quote(s['unit'], safe='')}", *([f"loop={s['loop']}"] if s.get("loop") else []), f"rule={s['rule']}", f"events={events}"])

@@ -101,8 +101,10 @@ def tunings_and_limits_are_set_live():
     assert pid(-20) == 60 and pid(300) == 10
     raw = fixpid.Pid(gains=fixpid.pid_gains(2, 0.5, 1.5, 10, 2), output_max=255, rate=10)
     assert all(abs(one - other) < 1e-6 for one, other in zip(raw.tunings, (2, 0.5, 1.5))), raw.tunings
-    raw.set_gains(kp_q8=512)
-    same(raw.tunings, (2, 0, 0))
+    tunings = raw.tunings
+    raw.set_gains(kp_q8=1024)
+    same(raw.tunings, (4, *tunings[1:]))  # what is not named stays
+    assert message(TypeError, raw.set_gains, kp=2).startswith("there is no 'kp'")
 
 
 def by_hand_and_back_without_a_bump():
