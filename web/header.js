@@ -53,21 +53,26 @@ function option(results, name) {
     return (results.OPTIONS & OPTION[name]) !== 0 ? 'true' : 'false';
 }
 
-function pidLines(s, r) {
+// What a loop's name makes of `LOOP`: two headers in one firmware share no name.
+const prefixOf = ({ loop }) => (loop === '' ? 'LOOP' : `LOOP_${loop.toUpperCase()}`);
+
+export const fileOf = (s) => `${prefixOf(s).toLowerCase()}_gains.h`;
+
+function pidLines(s, r, loop) {
     return [
         '// The same, folded in double precision:',
         `// FIXPID_PID_GAINS(${s.KP}, ${s.KI}, ${s.KD}, ${s.RATE}, ${r.FILTER})`,
-        ...initialiser('LOOP_GAINS', [
+        ...initialiser(`${loop}_GAINS`, [
             field(`${r.KP}u`, 'kp_q8', short(r.KP / 256)),
             field(`${r.KI}u`, 'ki_q24', `${short(r.KI * s.RATE / 2 ** 24)} per second`),
             field(`${r.KD}u`, 'kd_q8', `${short(r.KD * 2 ** r.FILTER / 256 / s.RATE)} s`),
             field(`${r.FILTER}u`, 'derivative_filter'),
         ]),
         '',
-        '// static const struct fixpid_pid_config config = LOOP_CONFIG;',
+        `// static const struct fixpid_pid_config config = ${loop}_CONFIG;`,
         `// It needs -DFIXPID_PID_FEATURES=${hex(featuresOf(s, r))} or more.`,
-        ...initialiser('LOOP_CONFIG', [
-            field('LOOP_GAINS', 'gains'),
+        ...initialiser(`${loop}_CONFIG`, [
+            field(`${loop}_GAINS`, 'gains'),
             field(s.OUTPUT_MIN, 'output_min'),
             field(s.OUTPUT_MAX, 'output_max'),
             field(s.INTEGRAL_MIN, 'integral_min'),
@@ -97,10 +102,10 @@ function limitLines() {
     ];
 }
 
-function an937Lines(s, r) {
+function an937Lines(s, r, loop) {
     return [
-        '// static const struct fixpid_an937_config config = LOOP_CONFIG;',
-        ...initialiser('LOOP_CONFIG', [
+        `// static const struct fixpid_an937_config config = ${loop}_CONFIG;`,
+        ...initialiser(`${loop}_CONFIG`, [
             field(`${r.KP}u`, 'kp_q4', short(r.KP / 16)),
             field(`${r.KI}u`, 'ki_q4', `${short(r.KI / 16)} per tick`),
             field(`${r.KD}u`, 'kd_q4', short(r.KD / 16)),
@@ -110,10 +115,10 @@ function an937Lines(s, r) {
     ];
 }
 
-function an964Lines(s, r) {
+function an964Lines(s, r, loop) {
     return [
-        '// static const struct fixpid_an964_gains gains = LOOP_CONFIG;',
-        ...initialiser('LOOP_CONFIG', [
+        `// static const struct fixpid_an964_gains gains = ${loop}_CONFIG;`,
+        ...initialiser(`${loop}_CONFIG`, [
             field(`${r.KP}u`, 'kp', short(r.KP / 1024)),
             field(`${r.KI}u`, 'ki'),
             field(`${r.KD}u`, 'kd'),
@@ -147,12 +152,12 @@ function marginText({ stable, ms, phaseMargin, gainMargin, delayMargin }) {
 }
 
 // The counts of a constant in units, and the rate, for the rest of the firmware.
-function scaleLines(s, unit) {
+function scaleLines(s, unit, loop) {
     const [low, high] = [s.SENSOR_LOW, s.SENSOR_LOW + s.SENSOR_RANGE].map((value) => `(${value})`);
     return [
-        `#define LOOP_RATE ${s.RATE} // steps per second`,
+        `#define ${loop}_RATE ${s.RATE} // steps per second`,
         `// A constant setpoint of so many ${unit} in counts; beyond the sensor it does not compile.`,
-        ...macroOf('LOOP_COUNTS(x)', [
+        ...macroOf(`${loop}_COUNTS(x)`, [
             'FIXPID_CAST(int16_t,',
             `    FIXPID_FOLDED((FIXPID_REAL(x) - ${low}) / ${s.SENSOR_RANGE} * ${2 ** s.SENSOR_BITS - 1}) +`,
             `        FIXPID_CHECKED(0, (FIXPID_REAL(x) >= ${low}) &&`,
@@ -162,28 +167,42 @@ function scaleLines(s, unit) {
     ];
 }
 
-// With what it is from and for: the plant, the margins, the page's settings, the scale.
-// Python's package writes the same.
-export function wholeHeaderOf(s, results, margins = marginsOf(s, results)) {
+// FNV-1a of the lines, by which two headers of one name are known to differ.
+function digestOf(lines) {
+    const hash = [...lines.join('\n')].reduce((sum, c) => Math.imul(sum ^ c.charCodeAt(0), 0x01000193) >>> 0, 0x811C9DC5);
+    return `0x${hash.toString(16).toUpperCase().padStart(8, '0')}u`;
+}
+
+// Its lines between a guard that two copies of the same header pass, and no others.
+function guarded(s, lines) {
+    const guard = `${prefixOf(s)}_GAINS_H`;
+    const digest = digestOf(lines);
+    const differ = s.loop === '' ? 'without a name differ: give each loop a name' : `for the loop ${s.loop} differ: give each loop a name of its own`;
+    return [`#ifndef ${guard}`, `#define ${guard} ${digest}`, ...lines, `#elif ${guard} != ${digest}`, `#error "two headers of gains ${differ}"`, '#endif', ''];
+}
+
+// With what it is from and for: the plant, the margins and what else is said of them, the
+// page's settings, the scale. Python's package writes the same.
+export function wholeHeaderOf(s, results, margins = marginsOf(s, results), said = []) {
     const noun = NOUN[s.CONTROLLER];
     const lines = { fixpid_pid: pidLines, fixpid_an937: an937Lines, fixpid_an964: an964Lines }[noun];
     const unit = plain(s.unit) || 'units';
+    const loop = prefixOf(s);
     return [
-        `// Gains of a loop, by the tuner page of fixpid ${VERSION}`,
+        `// Gains of ${s.loop === '' ? 'a loop' : `the loop "${s.loop}"`}, by the tuner page of fixpid ${VERSION}`,
         `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
         `// Plant: ${plantText(s, unit)}`,
         `// Margins: ${marginText(margins)}`,
+        ...said.map((text) => `// ${plain(text)}`),
         `// The page has it with #${plain(fragmentOf({ ...s, kept: [] }))}`,
-        '#ifndef LOOP_GAINS_H',
-        '#define LOOP_GAINS_H',
-        `#include "${noun}.h"`,
-        '',
-        ...scaleLines(s, unit),
-        ...(s.CONTROLLER === CONTROLLER.PID ? [] : [errorText(s)]),
-        ...(s.CONTROLLER === CONTROLLER.AN964 ? limitLines() : []),
-        ...lines(s, results),
-        '',
-        '#endif',
-        '',
+        ...guarded(s, [
+            `#include "${noun}.h"`,
+            '',
+            ...scaleLines(s, unit, loop),
+            ...(s.CONTROLLER === CONTROLLER.PID ? [] : [errorText(s)]),
+            ...(s.CONTROLLER === CONTROLLER.AN964 ? limitLines() : []),
+            ...lines(s, results, loop),
+            '',
+        ]),
     ].join('\n');
 }

@@ -18,7 +18,7 @@ export function csvOf(s, { n, series }) {
 
 export function jsonOf(s, figures, margins, header) {
     const settings = { preset: s.preset };
-    for (const name of [...LINKED, 'unit', 'rule', 'events', 'kept']) {
+    for (const name of [...LINKED, 'unit', 'loop', 'rule', 'events', 'kept']) {
         settings[name.toLowerCase()] = s[name];
     }
     const { curve, angles, steps, ...numbers } = margins;
@@ -39,7 +39,7 @@ export function stateOfJson(text) {
         return { why: 'This JSON is not one of this page: it has no “format” and “settings” of it.' };
     }
     const parts = [`p=${settings.preset}`];
-    for (const name of [...LINKED, 'unit', 'rule'].map((one) => one.toLowerCase())) {
+    for (const name of [...LINKED, 'unit', 'loop', 'rule'].map((one) => one.toLowerCase())) {
         if (['number', 'string'].includes(typeof settings[name])) {
             parts.push(`${name}=${encodeURIComponent(settings[name])}`);
         }

@@ -11,7 +11,7 @@ const common = {
     OUTPUT_MIN: 0, OUTPUT_MAX: 1000, RATE: 20, DURATION: 60, SETPOINT: 50,
     KP: 1, KI: 0, KD: 0, FILTER: 0, WEIGHT: 1, OPTIONS: 0, INTEGRAL_MIN: 0, INTEGRAL_MAX: 0,
     EXPERIMENT: EXPERIMENT.RELAY, SWING: 0, CYCLES: 1, DRIVE: 100, ROBUSTNESS: 16,
-    CLOCK: 16, unit: '%', rule: 'PI', events: [], kept: [],
+    CLOCK: 16, unit: '%', loop: '', rule: 'PI', events: [], kept: [],
 };
 
 function preset(id, name, story, more) {
@@ -182,6 +182,7 @@ export function change(more) {
 // --- The link ------------------------------------------------------------
 
 export const KEPT_MOST = 4;
+export const LOOP_NAME = /^[A-Za-z0-9_]{0,31}$/; // a part of names of C
 export const LINKED = [...Object.keys(PARAM), 'CLOCK'];
 
 export function eventsText(events) {
@@ -202,7 +203,7 @@ export function fragmentOf(of) {
             parts.push(`${name.toLowerCase()}=${of[name]}`);
         }
     }
-    for (const name of ['unit', 'rule']) {
+    for (const name of ['unit', 'loop', 'rule']) {
         if (of[name] !== from[name]) {
             parts.push(`${name}=${encoded(of[name])}`);
         }
@@ -246,6 +247,9 @@ export function stateOfFragment(fragment) {
     }
     if (pairs.has('unit')) {
         found.unit = decoded(pairs.get('unit')).slice(0, 12);
+    }
+    if (LOOP_NAME.test(pairs.get('loop') ?? '')) {
+        found.loop = pairs.get('loop') ?? '';
     }
     if (pairs.get('rule') in RULE) {
         found.rule = pairs.get('rule');

@@ -87,6 +87,18 @@ checkNone('headers of random settings', ['°C', 'a*/b\\', '', '??/'].flatMap((un
 const beyond = ['LOOP_COUNTS(500)', 'LOOP_COUNTS(-1)'].map((one) => headerFaults(PRESETS[0], () => [[one, 0]]));
 check('LOOP_COUNTS beyond the sensor compiles nowhere', beyond.every((faults) => faults.length === 4 && !faults.some((fault) => fault.includes('other integers'))), `${beyond}`);
 
+// Two loops in one firmware have a header each: with names of their own both hold; of one name
+// two that differ do not compile, and a second copy of the same does no harm.
+const named = (kp, loop) => ({ ...PRESETS[1], KP: kp, loop });
+const headersOf = (...states) => states.map((s) => headerOf(s, run(s).results)).join('\n');
+checkNone('two named headers in one file', faultsOf('two loops', `${headersOf(named(1, 'bed'), named(2, 'Nozzle'), named(1, 'bed'))}
+static const struct fixpid_pid_config bed = LOOP_BED_CONFIG, nozzle = LOOP_NOZZLE_CONFIG;`,
+() => ['bed.gains.kp_q8 == 256', 'nozzle.gains.kp_q8 == 512', 'LOOP_BED_RATE == LOOP_NOZZLE_RATE']));
+for (const [loop, said] of [['', 'two headers of gains without a name differ: give each loop a name'], ['bed', 'two headers of gains for the loop bed differ']]) {
+    const faults = faultsOf('two loops', headersOf(named(1, loop), named(2, loop)), () => []);
+    check(`two headers ${loop ? 'of one name' : 'without a name'} that differ compile nowhere`, faults.length === COMPILERS.length && faults.every((one) => one.includes(said)), `${faults}`);
+}
+
 // Each rule's gains fold to the very integers that the autotuner gave. A motor without dead
 // time swings too fast for it, and it says so.
 for (const preset of PRESETS.filter((one) => one.CONTROLLER === 0 && one.preset !== 'spring')) {
