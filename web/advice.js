@@ -9,16 +9,6 @@ import { actsWrongly, notesLimits } from './own.js';
 const COARSE = 50; // below it a step of the integer is more than 2 %
 const LIMIT_16 = 32767;
 const KI_LEAST = 8; // of 2^24
-const KI_BITS = 32767; // what is above keeps 15 bits
-
-// `ki_q24` as the controller has it: one of 24, 16 or 8 fractional bits.
-export function keptKi(ki) {
-    let shift = 0;
-    while (Math.floor(ki / 2 ** shift + 0.5) > KI_BITS) {
-        shift += 8;
-    }
-    return Math.floor(ki / 2 ** shift + 0.5) * 2 ** shift;
-}
 
 function pidRefusals(s, r) {
     const found = [];
@@ -105,15 +95,8 @@ export function adviceOf(s, run, margins) {
     return { refused: [], warnings: [...own(run.results, s), ...loopAdvice(s, margins), ...sceneAdvice(s, run)] };
 }
 
-// Beside the labels of the gains: the integers, and of ki the one that its 15
-// bits keep.
-export function notesOf(s, r) {
-    if (s.CONTROLLER !== CONTROLLER.PID) {
-        return {};
-    }
-    const kept = keptKi(r.KI);
-    const ki = kept === r.KI ? `${whole(r.KI)} / 2²⁴` : `${whole(r.KI)} → ${whole(kept)}`;
-    const [ti, td] = [s.KP > 0 && s.KI > 0 ? `, Ti ${time(s.KP / s.KI)}` : '', s.KP > 0 && s.KD > 0 ? `, Td ${time(s.KD / s.KP)}` : ''];
-    return { KP: `${whole(r.KP)} / 256`, KI: `${ki}${ti}`, KD: `${whole(r.KD)} / 256${td}`,
-        WEIGHT: `${whole(r.WEIGHT)} / 256` };
+// Beside the labels of the gains: the times that other controllers have in their place.
+export function notesOf(s) {
+    const [ti, td] = [s.KI, s.KD].map((gain) => s.CONTROLLER === CONTROLLER.PID && s.KP > 0 && gain > 0);
+    return { KI: ti ? `Ti ${time(s.KP / s.KI)}` : '', KD: td ? `Td ${time(s.KD / s.KP)}` : '' };
 }

@@ -80,7 +80,7 @@ export function wishText(found, wish) {
 export function calmSlider(onMore) {
     const slider = make('input', { type: 'range', id: 'c-calm', min: 0, max: PLACES, step: 1, 'aria-describedby': 'calm-note', title: 'A double click resets it' });
     const note = make('em', { id: 'calm-note' });
-    const name = make('span', { className: 'name' }, make('label', { htmlFor: 'c-calm', textContent: 'Calm to quick' }), helpFor('calm', 'Calm to quick'));
+    const name = make('span', { className: 'name' }, make('label', { htmlFor: 'c-calm', textContent: 'Calm to quick' }));
     const wish = make('input', { type: 'text', inputMode: 'decimal', id: 'c-ms', value: '1.6', autocomplete: 'off', 'aria-describedby': 'ms-said' });
     const take = make('button', { type: 'button', id: 'take-ms', textContent: 'Set' });
     const said = make('p', { id: 'ms-said', className: 'caption', role: 'status' });
@@ -104,14 +104,13 @@ export function calmSlider(onMore) {
     take.addEventListener('click', wanted);
     wish.addEventListener('keydown', (event) => event.key === 'Enter' && wanted());
     const row = make('div', { className: 'control calm', id: 'calm' }, name, note, slider,
-        make('span', { className: 'wish' }, make('label', { htmlFor: 'c-ms', textContent: 'Ms ' }), wish, take, helpFor('wish', 'a wanted Ms')), said);
+        make('span', { className: 'wish' }, make('label', { htmlFor: 'c-ms', textContent: 'Ms ' }), wish, take), said, helpFor('calm'), helpFor('wish'));
     return { row, update: (s) => {
         const found = calmOf(s);
         const simc = s.KP > 0 ? simcGains(s) : null;
         slider.value = placeOf(found?.calm ?? (simc === null ? CALMEST : simc.KP / s.KP));
         slider.setAttribute('aria-valuetext', lineText(s));
         slider.classList.toggle('off', found === null);
-        slider.style.setProperty('--part', `${slider.value / PLACES * 100}%`);
         setText(note, lineText(s));
         if (gainsOf(s) !== heard) {
             setText(said, '');

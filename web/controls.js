@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The sliders and numbers of the panel. Their ranges follow the plant, so that
 // the middle of each is a sensible value.
-import { CONTROLLER, EXPERIMENT, PLANT, WORD } from './built.js';
+import { CONTROLLER, EXPERIMENT, OPTION, PLANT, WORD } from './built.js';
 import { calmSlider, hasLine } from './calm.js';
-import { make } from './dom.js';
+import { find, make, setText } from './dom.js';
 import { createField } from './fields.js';
 import { digits } from './format.js';
 import { helpFor } from './help.js';
@@ -113,31 +113,31 @@ function gainControls(s) {
         ['KP', 'kp', 'counts per count', (now) => around(1 / countsGain(now), 60, true)],
         ['KI', 'ki', 'per second', (now) => around(1 / countsGain(now) / scaleSeconds(now), 100, true)],
         ['KD', 'kd', 'seconds', (now) => around(0.1 * scaleSeconds(now) / countsGain(now), 100, true)],
+    ];
+}
+
+// What most loops leave as it is.
+function moreControls(s) {
+    return s.CONTROLLER !== CONTROLLER.PID ? [] : [
         ['FILTER', 'Derivative filter', '2ⁿ − 1 steps', () => straight(0, 7, 1)],
         ['WEIGHT', 'Setpoint weight', '', () => straight(0.01, 1, 0.01)],
+        ['INTEGRAL_MIN', 'Integral, lowest', 'counts; 0 and 0: free', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
+        ['INTEGRAL_MAX', 'Integral, highest', 'counts', (now) => straight(0, Math.max(now.OUTPUT_MAX, 1), 1)],
     ];
 }
 
 const duration = (s) => around(isOwn(s) ? 12 * scaleSeconds(s) : from(s, 'DURATION'), 10);
 
-function sensorControls(s) {
+function hardwareControls(s) {
     const notes = s.preset === 'an937';
-    const rate = ['RATE', 'Sample rate', 'steps per second', likePreset('RATE', 16)];
-    const bits = ['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)];
-    const noise = ['NOISE', 'Noise ±', 'counts', () => straight(0, 20, 0.2)];
-    const range = ['SENSOR_RANGE', 'Range', s.unit, likePreset('SENSOR_RANGE', 5)];
-    const show = ['DURATION', 'Show', 's', duration];
-    if (s.PLANT === PLANT.PENDULUM) {
-        return [noise, show];
-    }
-    return [rate, ...(notes ? [] : [bits]), range, noise,
-        ...(notes ? [] : [
-            ['OUTPUT_MIN', 'Lowest output', 'counts', () => straight(-1000, 0, 10)],
-            ['OUTPUT_MAX', 'Highest output', 'counts', () => ({ low: 15, high: 32767, log: true, whole: true })],
-        ]), ...(s.CONTROLLER !== CONTROLLER.PID ? [] : [
-            ['INTEGRAL_MIN', 'Integral, lowest', 'counts; 0 and 0: free', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
-            ['INTEGRAL_MAX', 'Integral, highest', 'counts', (now) => straight(0, Math.max(now.OUTPUT_MAX, 1), 1)],
-        ]), show];
+    return s.PLANT === PLANT.PENDULUM ? [] : [
+        ...(notes ? [] : [['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)],
+            ['SENSOR_LOW', 'Count 0 is', s.unit, (now) => straight(-now.SENSOR_RANGE, now.SENSOR_RANGE, now.SENSOR_RANGE / 200)]]),
+        ['SENSOR_RANGE', 'All counts are', s.unit, likePreset('SENSOR_RANGE', 5)],
+        ...(notes ? [] : [['OUTPUT_MIN', 'Lowest output', 'counts', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
+            ['OUTPUT_MAX', 'Highest output', 'counts', () => ({ low: 15, high: 32767, log: true, whole: true })]]),
+        ['RATE', 'Sample rate', 'steps per second', likePreset('RATE', 16)],
+    ];
 }
 
 function setpointControls(s) {
@@ -158,37 +158,18 @@ function tunerControls({ EXPERIMENT: kind }) {
     ];
 }
 
-// In the order in which a user knows them: the hardware, the plant, and what follows.
-function ownSections(s, line) {
-    const hardware = [
-        ['SENSOR_BITS', 'Converter', 'bits', () => straight(6, 15, 1)],
-        ['SENSOR_LOW', 'Count 0 is', s.unit, (now) => straight(-now.SENSOR_RANGE, now.SENSOR_RANGE, now.SENSOR_RANGE / 200)],
-        ['SENSOR_RANGE', 'All counts are', s.unit, likePreset('SENSOR_RANGE', 5)],
-        ['OUTPUT_MIN', 'Lowest output', 'counts', (now) => straight(-Math.max(now.OUTPUT_MAX, 1), 0, 1)],
-        ['OUTPUT_MAX', 'Highest output', 'counts', () => ({ low: 15, high: 32767, log: true, whole: true })],
-        ['RATE', 'Sample rate', 'steps per second', likePreset('RATE', 16)],
-    ];
-    const more = sensorControls(s).filter(([key]) => !hardware.some(([other]) => other === key));
-    return [
-        { title: '1 Your sensor, actuator, rate', open: true, head: [unitField], controls: hardware },
-        { title: '2 Your plant', open: true, head: [kindChoice], controls: plantControls(s) },
-        { title: '3 Your gains', open: true, head: [controllerChoice, firstButton, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
-        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls(s) }] : []),
-        { title: 'Noise, integral, time', open: false, controls: more },
-    ];
-}
-
+// In the order of the work; `at` is the part of the page that has a section.
 export function sectionsOf(s) {
-    const line = hasLine(s) ? [calmSlider] : [];
-    if (isOwn(s)) {
-        return ownSections(s, line);
-    }
+    const own = isOwn(s);
+    const pid = s.CONTROLLER === CONTROLLER.PID;
     return [
-        { title: 'Gains', open: true, head: s.PLANT === PLANT.PENDULUM ? [] : [controllerChoice, ...line], controls: [...setpointControls(s), ...gainControls(s)] },
-        { title: 'Plant', open: true, controls: plantControls(s) },
-        { title: 'Sensor, actuator, rate', open: false, controls: sensorControls(s) },
-        ...(s.CONTROLLER === CONTROLLER.PID ? [{ title: 'Autotune', open: false, controls: tunerControls(s) }] : []),
-    ];
+        { at: 'plant', title: '1 Sensor, actuator, rate', open: own, head: own ? [unitField] : [], controls: hardwareControls(s) },
+        { at: 'plant', title: '2 Your plant', open: true, sliders: true, head: [mounted('#recorder'), ...(own ? [kindChoice] : [])], controls: plantControls(s) },
+        { at: 'gains', title: '3 Gains', open: true, sliders: true, head: hasLine(s) ? [calmSlider] : [], controls: [...setpointControls(s), ...gainControls(s)] },
+        ...(s.PLANT === PLANT.PENDULUM ? [] : [{ at: 'more', title: 'Controller and options', head: [controllerChoice, firstButton, optionBoxes], controls: moreControls(s) }]),
+        ...(pid ? [{ at: 'more', title: 'Autotune', controls: tunerControls(s) }] : []),
+        { at: 'more', title: 'What happens, and when', head: [mounted('#events')], controls: [['NOISE', 'Noise ±', 'counts', () => straight(0, 20, 0.2)], ['DURATION', 'Show', 's', duration]] },
+    ].filter(({ controls }) => controls.length > 0);
 }
 
 // --- Slider positions: 0..400 -------------------------------------------------
@@ -225,32 +206,38 @@ function leastStep(range) {
     return range.log ? range.low : (range.high - range.low) / POSITIONS;
 }
 
-// One control; returns { row, update(state) }. `note` is text beside its label.
-function createControl([key, label, unit, range], id, onInput) {
-    const slider = make('input', { type: 'range', min: 0, max: POSITIONS, step: 1 });
-    slider.setAttribute('aria-label', `${label}, slider`);
-    const note = make('em', {});
-    const name = make('span', { className: 'name' }, make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit })), helpFor(key, label));
-    const number = createField(id, {}, { read: () => currentState()[key], onInput: (value) => onInput(key, value),
-        step: () => ({ least: leastStep(range(currentState())), whole: WHOLE.includes(key) }) });
+// The slider of a control; its field has the same by the arrow keys, so that Tab passes it.
+function createSlider(key, label, unit, range, onInput) {
+    const slider = make('input', { type: 'range', min: 0, max: POSITIONS, step: 1, tabIndex: -1, title: 'A double click resets it', 'aria-label': `${label}, slider` });
     slider.addEventListener('input', () => onInput(key, valueOf(range(currentState()), Number(slider.value))));
     slider.addEventListener('dblclick', () => onInput(key, from(currentState(), key)));
-    slider.title = 'A double click resets it';
-    function update(s, text = note.textContent) {
-        number.update();
-        const at = positionOf(range(s), s[key]);
-        slider.value = at;
+    return { slider, update: (s) => {
+        slider.value = positionOf(range(s), s[key]);
         slider.setAttribute('aria-valuetext', `${digits(s[key], 4)} ${unit}`);
-        slider.style.setProperty('--part', `${Math.min(100, Math.max(0, at / POSITIONS * 100))}%`);
-        note.textContent = text;
-    }
-    return { key, row: make('div', { className: 'control' }, name, note, slider, number.field, number.why), update };
+    } };
 }
 
-// What stands above the controls of a section: { key, row, update(state) }. Each gets
-// what takes a change of the state.
+// One control; returns { row, update(state) }. `note` is text beside its label.
+function createControl([key, label, unit, range], id, hasSlider, onInput) {
+    const note = make('em', {});
+    const name = make('label', { htmlFor: id }, label, ' ', make('small', { textContent: unit }));
+    const number = createField(id, {}, { read: () => currentState()[key], onInput: (value) => onInput(key, value),
+        step: () => ({ least: leastStep(range(currentState())), whole: WHOLE.includes(key) }) });
+    const { slider = '', update = () => {} } = hasSlider ? createSlider(key, label, unit, range, onInput) : {};
+    return { key, row: make('div', { className: hasSlider ? 'control' : 'control plain' }, name, note, slider, number.field, number.why, helpFor(key)),
+        update: (s, text) => {
+            number.update();
+            update(s);
+            setText(note, text);
+        } };
+}
+
+// What stands above the controls of a section: { row, update(state) }. Each gets what
+// takes a change of the state.
+const mounted = (selector) => () => ({ row: find(selector), update: () => {} }); // a part that has its own module
+
 function unitField(onMore) {
-    const field = make('input', { type: 'text', id: 'c-unit', maxLength: 12, size: 5 });
+    const field = make('input', { type: 'text', id: 'c-unit', maxLength: 12, size: 5, value: currentState().unit });
     field.addEventListener('input', () => onMore({ unit: field.value }));
     return { row: make('label', { className: 'line' }, 'Unit of the measurement ', field),
         update: (s) => {
@@ -282,29 +269,50 @@ function controllerChoice(onMore) {
     } };
 }
 
+const OPTIONS = { 'reverse acting': OPTION.REVERSE, 'derivative on the error': OPTION.DERIVATIVE_ON_ERROR, 'P on the measurement': OPTION.PROPORTIONAL_ON_MEASUREMENT };
+
+function optionBoxes(onMore) {
+    const boxes = Object.entries(OPTIONS).map(([text, bit]) => {
+        const box = make('input', { type: 'checkbox', value: bit });
+        box.addEventListener('change', () => {
+            const s = currentState();
+            onMore({ OPTIONS: box.checked ? s.OPTIONS | bit : s.OPTIONS & ~bit });
+        });
+        return { box, bit, row: make('div', {}, make('label', {}, box, ` ${text}`), helpFor(text)) };
+    });
+    return { row: make('div', { id: 'options' }, ...boxes.map(({ row }) => row)), update: (s) => boxes.forEach(({ box, bit, row }) => {
+        box.checked = (s.OPTIONS & bit) !== 0;
+        row.hidden = s.CONTROLLER !== CONTROLLER.PID && bit !== OPTION.REVERSE;
+    }) };
+}
+
 function firstButton(onMore) {
     const button = make('button', { type: 'button', id: 'first-gains', textContent: 'First gains for this plant' });
     button.addEventListener('click', () => onMore(gainsFor(currentState())));
     return { row: button, update: () => {} };
 }
 
-// Fills the panel; returns update(state, notes), which builds it again only when
-// its controls are others.
-export function createPanel(place, onMore) {
+// Fills the panel; returns update(state, notes), which builds it again only when its
+// controls are others. What has the focus has it afterwards.
+export function createPanel(onMore) {
+    const places = ['plant', 'gains', 'more'].map((id) => find(`#${id}`));
     let [shape, controls] = ['', []];
     const onInput = (key, value) => onMore({ [key]: value });
+
     function build(s) {
-        const open = new Map([...place.querySelectorAll('details')].map((one) => [one.dataset.title, one.open]));
-        controls = [];
-        place.replaceChildren(...sectionsOf(s).map((section) => {
-            const made = [...(section.head ?? []).map((one) => one(onMore)),
-                ...section.controls.map((one) => createControl(one, `c-${one[0].toLowerCase()}`, onInput))];
-            controls.push(...made);
-            const details = make('details', { open: open.get(section.title) ?? section.open },
-                make('summary', { textContent: section.title }), ...made.map((one) => one.row));
-            details.dataset.title = section.title;
-            return details;
-        }));
+        const open = new Map(places.flatMap((place) => [...place.children].map((one) => [one.dataset.title, one.open])));
+        const focused = document.activeElement.id;
+        const made = sectionsOf(s).map(({ at, title, open: first, head = [], sliders = false, controls: own }) => {
+            const rows = [...head.map((one) => one(onMore)), ...own.map((one) => createControl(one, `c-${one[0].toLowerCase()}`, sliders, onInput))];
+            const details = make('details', { open: open.get(title) ?? first }, make('summary', { textContent: title }), ...rows.map(({ row }) => row));
+            details.dataset.title = title;
+            return { at, details, rows };
+        });
+        places.forEach((place) => place.replaceChildren(...made.filter(({ at }) => at === place.id).map(({ details }) => details)));
+        controls = made.flatMap(({ rows }) => rows);
+        if (focused !== '' && document.activeElement.id !== focused) {
+            document.getElementById(focused)?.focus();
+        }
     }
     return (s, notes) => {
         const wanted = JSON.stringify([s.preset, s.PLANT, s.CONTROLLER, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);

@@ -44,10 +44,10 @@ export function table(caption, head, rows) {
         })));
 }
 
-// An empty canvas as sharp as the screen: its context in CSS pixels, width and height.
-export function blank(canvas) {
+// An empty canvas as sharp as the screen: its context in CSS pixels, width and height, which
+// the browser need not be asked for where they are known.
+export function blank(canvas, width = canvas.clientWidth, height = canvas.clientHeight) {
     const ratio = window.devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (canvas.width !== across || canvas.height !== down) {
         [canvas.width, canvas.height] = [across, down];

@@ -126,13 +126,13 @@ export function createFlags(place, plots, state, onEvents) {
         }
     }
 
-    let last = null;
+    let [last, width] = [null, 0];
     const update = (s) => {
         last = s;
         if (flags.length !== s.events.length) {
             build(s.events.length);
         }
-        const places = placesOf(s, place.clientWidth, plots);
+        const places = placesOf(s, width, plots);
         place.style.setProperty('--rows', Math.max(1, ...places.map(({ row }) => row + 1)));
         s.events.forEach((event, i) => {
             const part = event.at / s.DURATION;
@@ -145,7 +145,12 @@ export function createFlags(place, plots, state, onEvents) {
             flags[i].setAttribute('aria-label', `${text} at ${short(event.at)} s; the arrow keys move it, Delete removes it`);
         });
     };
-    new ResizeObserver(() => last && update(last)).observe(place);
+    new ResizeObserver(() => {
+        width = place.clientWidth;
+        if (last !== null) {
+            update(last);
+        }
+    }).observe(place);
     return update;
 }
 

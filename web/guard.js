@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What fixpid_guard takes for a loop whose plant a tuner has measured: band, patience
 // and noisy are the library's.
+import { setText } from './dom.js';
 
 const INTEGRATING = 2 ** 32 - 1;
 const SURE = 0.8; // of the way to where an end of the output would bring the plant
@@ -35,4 +36,15 @@ export function guardText(config) {
     const width = Math.max(...rows.map(([value]) => value.length));
     return ['#include "fixpid_guard.h"', '', 'static const struct fixpid_guard_config guard_config = {',
         ...rows.map(([value, name]) => `    ${value.padEnd(width)} /* ${name} */`), '};', ''].join('\n');
+}
+
+// Beside gains: the guard for the same loop, where the experiment has a model.
+export function fillGuard(place, results, loop) {
+    const config = results ? guardOf(results, loop) : null;
+    place.hidden = config === null;
+    const reach = config?.reach_max > 0 ? 'From the setpoint to where the ends of the output would bring the plant, it takes four fifths as surely within reach'
+        : 'In place of reach_min and reach_max write the lowest and the highest setpoint of the loop; with 0 a setpoint that it cannot reach is an alarm';
+    setText(place.querySelector('p'), config === null ? '' : 'The guard for this loop, by the rule of fixpid_guard.h: a reading outside ' +
+        `measurement_min to measurement_max is a broken sensor’s. ${reach}.`);
+    setText(place.querySelector('pre'), config === null ? '' : guardText(config));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One sentence and a link for what the page shows, behind a question mark beside it.
-import { find, make } from './dom.js';
+// One sentence and a link for what the page shows: below it while “Explain” is pressed.
+import { make } from './dom.js';
 
 // [sentence, document and heading].
 export const HELP = {
@@ -54,24 +54,13 @@ export function documentOf(link, location) {
     return location.href.includes('/build/tuner/') ? `../../docs/${name}.md#${heading}` : `../docs/${name}.html#${heading}`;
 }
 
-function showHelp(button, name, [sentence, link]) {
-    const place = find('#help');
-    place.replaceChildren(make('b', { textContent: name }), make('p', { textContent: sentence }),
-        make('a', { href: documentOf(link, location), textContent: 'More in the documents' }));
-    place.showPopover();
-    place.lastChild.focus(); // Escape brings it back to the question mark
-    const box = button.getBoundingClientRect();
-    place.style.left = `${Math.max(8, Math.min(box.left, window.innerWidth - place.offsetWidth - 8))}px`;
-    const below = box.bottom + 6;
-    place.style.top = `${below + place.offsetHeight < window.innerHeight ? below : Math.max(8, box.top - 6 - place.offsetHeight)}px`;
+// The sentence for what has one, or nothing.
+export function helpFor(key) {
+    const [sentence, link] = HELP[key] ?? [];
+    return link === undefined ? '' : make('small', { className: 'help' }, `${sentence} `, make('a', { href: documentOf(link, location), textContent: 'More' }));
 }
 
-// A question mark for what has help, or nothing.
-export function helpFor(key, name) {
-    if (!HELP[key]) {
-        return '';
-    }
-    const button = make('button', { type: 'button', className: 'help', textContent: '?', 'aria-label': `What is ${name}?`, 'aria-haspopup': 'dialog' });
-    button.addEventListener('click', () => showHelp(button, name, HELP[key]));
-    return button;
+// Shows all of them, or none.
+export function listenForHelp(button) {
+    button.addEventListener('click', () => button.setAttribute('aria-pressed', String(document.body.classList.toggle('explains'))));
 }

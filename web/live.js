@@ -77,8 +77,7 @@ function listenForFiles(section, input, read) {
 function dress(own) {
     for (const id of ['baud', 'setpoint', 'step', 'length']) {
         const label = own(id).closest('label');
-        const name = label.firstChild.textContent.trim();
-        label.after(helpFor(name, name));
+        label.after(helpFor(label.firstChild.textContent.trim()));
     }
     own('docs').href = documentOf('link#a-live-link', location);
     own('connect').disabled = !hasSerial();

@@ -2,17 +2,16 @@
 // The page: all that it shows follows from the one state, each time anew.
 import { CONTROLLER, EXPERIMENT, LIMIT, OPTION, PLANT, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
-import { figuresOf, fillChips, fillFigures, fillRecordRules, fillRules, marginFigures } from './cards.js';
+import { figuresOf, fillFigures, fillRules, marginFigures } from './cards.js';
 import { createPanel } from './controls.js';
 import { find, make, setText } from './dom.js';
-import { experiment, recorded, run, startEngine } from './engine.js';
+import { experiment, run, startEngine } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
-import { createField, readNumber } from './fields.js';
-import { digits, short, whole } from './format.js';
-import { guardOf, guardText } from './guard.js';
-import { wholeHeaderOf } from './header.js';
-import { helpFor } from './help.js';
+import { digits, whole } from './format.js';
+import { fillGuard } from './guard.js';
+import { fileOf, wholeHeaderOf } from './header.js';
+import { listenForHelp } from './help.js';
 import { createLive } from './live.js';
 import { loadAlone, loadPairs, restText } from './load.js';
 import { marginsOf } from './margins.js';
@@ -21,15 +20,15 @@ import { createPendulum } from './pendulum.js';
 import { plantOfKind } from './own.js';
 import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
-import { readRecord, recordText } from './record.js';
+import { recordText } from './record.js';
 import { createRecorder, serveRecordings } from './recorder.js';
 import { drawBode, drawNyquist, offText } from './response.js';
-import { gainsOfRecord, gainsOfRule } from './rules.js';
+import { gainsOfRule } from './rules.js';
 import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
 import { csvOf, jsonOf, stateOfJson } from './saved.js';
-import { tableOf, tableText } from './sensor.js';
-import { PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
+import { LOOP_NAME, PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
 import { createSvg } from './svg.js';
+import { createTools } from './tools.js';
 import { showTour } from './tour.js';
 
 let plots = null;
@@ -40,7 +39,8 @@ let pendulum = null;
 let past = null;
 let recorder = null;
 let live = null;
-let clock = null;
+let tools = null;
+let held = false; // a hand drags a slider or a flag
 let mode = 'run'; // or 'load', or 'tune': what the plots show
 let cursor = null;
 let shown = 0; // seconds that the plots show
@@ -78,8 +78,13 @@ function rowsFor(s) {
 
 // --- Plots --------------------------------------------------------------------
 
+// Float64Array.from would ask an iterator for each.
 function each(counts, as) {
-    return Float64Array.from(counts, as);
+    const found = new Float64Array(counts.length);
+    for (let i = 0; i < counts.length; i++) {
+        found[i] = as(counts[i]);
+    }
+    return found;
 }
 
 const TERMS = {
@@ -100,7 +105,6 @@ function panesOf(s, found) {
             { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
             ...(mode === 'run' ? keptSeries(s, 'value') : []),
             { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
-            { name: 'double precision', color: 'twin', width: 1.25, dash: [2, 3], data: tuning ? none : series.VALUE_TWIN },
         ],
     };
     const output = {
@@ -118,23 +122,18 @@ function panesOf(s, found) {
             { name: 'D', color: 'd', width: 1.25, data: each(series.D, (c) => c / d) },
         ],
     };
-    const difference = {
-        title: 'Cost of the integers', unit: 'counts of the sensor', leastSpan: 2,
-        series: [{ name: 'beside double precision', color: 'twin', width: 1.25,
-            data: series.VALUE_TRUE.map((value, k) => (value - series.VALUE_TWIN[k]) / unitsPerCount(s)) }],
-    };
     const progress = {
         title: 'Progress', unit: '%', leastSpan: 100,
         series: [{ name: 'done', color: 'i', held: true,
             data: tuning ? progressOf(found) : none }],
     };
-    return tuning ? [measurement, output, progress] : [measurement, output, terms, difference];
+    return [measurement, output, tuning ? progress : terms];
 }
 
-function showPlots(s, found) {
+function showPlots(s, found, first = false) {
     const seconds = 1 / s.RATE;
     shown = mode === 'tune' ? Math.max(1, found.n) * seconds : Math.min(s.DURATION, LIMIT.STEPS * seconds);
-    plots.show({ panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events, duration: shown });
+    plots.show({ panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events, duration: shown }, first);
     showStage(s);
 }
 
@@ -175,24 +174,12 @@ function showStage(s) {
     setText(find('#stage'), seen ? stageText(s, tuned.found, Math.round((cursor ?? shown) * s.RATE)) : '');
 }
 
-// Beside gains: the guard for the same loop, where the experiment has a model.
-function showGuard(place, results, loop) {
-    const top = 2 ** currentState().SENSOR_BITS - 1;
-    const config = results ? guardOf(results, { top, ...loop }) : null;
-    place.hidden = config === null;
-    const reach = config?.reach_max > 0 ? 'From the setpoint to where the ends of the output would bring the plant, it takes four fifths as surely within reach'
-        : 'In place of reach_min and reach_max write the lowest and the highest setpoint of the loop; with 0 a setpoint that it cannot reach is an alarm';
-    setText(place.querySelector('p'), config === null ? '' : 'The guard for this loop, by the rule of fixpid_guard.h: a reading outside ' +
-        `measurement_min to measurement_max is a broken sensor’s. ${reach}.`);
-    setText(place.querySelector('pre'), config === null ? '' : guardText(config));
-}
-
 function showTuning(s) {
     find('#tuning').hidden = mode !== 'tune';
     if (mode !== 'tune') {
         find('#found').textContent = '';
         find('#rules').replaceChildren();
-        showGuard(find('#guard'), null);
+        fillGuard(find('#guard'), null);
         return null;
     }
     find('#experiment').value = s.EXPERIMENT;
@@ -203,36 +190,19 @@ function showTuning(s) {
     setText(find('#found'), experimentText(s.RATE, lasted, found) + (has ? ringingText(s) : ''));
     find('#rules').hidden = !has;
     find('#copy-record').disabled = found.record === null;
-    showGuard(find('#guard'), found.results, { outputMin: s.OUTPUT_MIN, outputMax: s.OUTPUT_MAX, reverse: (s.OPTIONS & OPTION.REVERSE) !== 0,
-        rest: found.series.MEASUREMENT[0], setpoint: found.series.SETPOINT[0] });
+    fillGuard(find('#guard'), found.results, { outputMin: s.OUTPUT_MIN, outputMax: s.OUTPUT_MAX, reverse: (s.OPTIONS & OPTION.REVERSE) !== 0,
+        top: 2 ** s.SENSOR_BITS - 1, rest: found.series.MEASUREMENT[0], setpoint: found.series.SETPOINT[0] });
     fillRules(find('#rules'), has ? rows : [], (row) => row.rule === s.rule && row.robustness === s.ROBUSTNESS, useRule);
     return found;
 }
 
-// The record that was pasted. Its rate is the page's.
-function showRecord(s) {
-    find('#chip').hidden = !hasTuner(s);
-    const { bytes, refused } = readRecord(find('#record').value);
-    const found = bytes ? recorded(s, bytes) : null;
-    const rows = found === null || !isMeasured(found.results) ? []
-        : found.rules.map((one) => ({ ...one, gains: one.has ? gainsOfRecord(s, one.results) : null }));
-    const has = rows.some((row) => row.gains !== null);
-    const lasted = `At ${short(s.RATE)} steps per second, as set on this page`;
-    const wrong = bytes ? 'A byte of the record is wrong: its check does not fit.' : refused ?? '';
-    setText(find('#record-found'), found === null ? wrong : experimentText(s.RATE, lasted, found));
-    find('#record-found').classList.toggle('refused', found === null && wrong !== '');
-    find('#record-rules').hidden = !has;
-    fillRecordRules(find('#record-rules'), has ? rows : [], useRecord);
-    const own = found?.results;
-    showGuard(find('#record-guard'), own, { outputMin: own?.OUTPUT_MIN, outputMax: own?.OUTPUT_MAX, reverse: (own?.OPTIONS & OPTION.REVERSE) !== 0,
-        rest: 2, setpoint: null });
-}
-
 function showMargins(s, margins) {
     fillFigures(find('#margins'), marginFigures(s, margins));
-    drawNyquist(find('#nyquist'), margins);
-    drawBode(find('#bode'), margins, s.RATE);
     setText(find('#off'), offText(margins));
+    if (find('#judged').open) {
+        drawNyquist(find('#nyquist'), margins);
+        drawBode(find('#bode'), margins, s.RATE);
+    }
 }
 
 function showModes(s) {
@@ -259,18 +229,12 @@ function showPicture(s, found) {
 }
 
 function showHead(s) {
-    for (const button of find('#presets').children) {
-        button.setAttribute('aria-pressed', String(button.value === s.preset));
+    find('#preset').value = s.preset;
+    setText(find('#story'), s.story);
+    const field = find('#loop');
+    if (document.activeElement !== field) {
+        field.value = s.loop;
     }
-    if (find('#story').textContent !== s.story) {
-        find('#presets [aria-pressed=true]').scrollIntoView({ block: 'nearest', inline: 'nearest' });
-        setText(find('#story'), s.story);
-    }
-    for (const box of find('#options').querySelectorAll('input')) {
-        box.checked = (s.OPTIONS & Number(box.value)) !== 0;
-        box.closest('div').hidden = s.CONTROLLER !== CONTROLLER.PID && Number(box.value) !== OPTION.REVERSE;
-    }
-    find('#options').hidden = s.PLANT === PLANT.PENDULUM;
 }
 
 function allowTaking(allowed) {
@@ -291,8 +255,7 @@ function showRefused(s, found) {
     }
     setText(find('#off'), '');
     find('#header').textContent = '';
-    find('#chips').replaceChildren();
-    find('#chips-text').textContent = '';
+    setText(find('#file'), fileOf(s));
     allowTaking(false);
     pendulum.update(null);
     plots.show({ panes: panesOf(s, { ...found, n: 0 }), seconds: 1 / s.RATE,
@@ -300,17 +263,26 @@ function showRefused(s, found) {
 }
 
 function showRun(s, found, margins, alone) {
+    const { results } = found;
     const experimenting = showTuning(s);
-    fillFigures(find('#metrics'), experimenting !== null ? [] : alone !== null ? loadPairs(alone) : figuresOf(s, metricsOf(s, found)));
-    fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, metricsOf(s, found), margins));
-    fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, metricsOf(s, found), margins, onKept);
+    const figures = metricsOf(s, found);
+    fillFigures(find('#metrics'), experimenting !== null ? [] : alone !== null ? loadPairs(alone) : figuresOf(s, figures));
+    fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, figures, margins));
+    fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, figures, margins, onKept);
     showPlots(alone?.s ?? s, experimenting ?? alone?.found ?? found);
     showPicture(s, found);
     showMargins(s, margins);
-    clock.update();
-    fillChips(find('#chips-text'), find('#chips'), s, found.results);
-    setText(find('#header'), wholeHeaderOf(s, found.results, margins));
+    setText(find('#header'), wholeHeaderOf(s, results, margins));
+    setText(find('#file'), `${fileOf(s)}: kp ${results.KP}, ki ${results.KI}, kd ${results.KD}`);
     allowTaking(true);
+}
+
+// While something is dragged: what the hand looks at. The rest comes when it lets go.
+function showHeld(s, found, margins) {
+    panel(s, notesOf(s));
+    flags(s);
+    fillKey([find('#key'), find('#mini dl')], keyFigures(s, metricsOf(s, found), margins));
+    showPlots(s, found, true);
 }
 
 function show() {
@@ -321,14 +293,18 @@ function show() {
     const found = run(s);
     const good = found.n > 0;
     const margins = good ? marginsOf(s, found.results) : null;
+    if (held && good && mode === 'run') {
+        showHeld(s, found, margins);
+        return;
+    }
     const alone = good && mode === 'load' ? loadAlone(s) : null;
     const advice = adviceOf(s, found, margins);
     advice.warnings.push(...(alone === null ? [] : [restText(alone) ?? []].flat()));
     showHead(s);
     showModes(s);
     showAdvice(s, advice, mode === 'tune');
-    panel(s, good ? notesOf(s, found.results) : {});
-    showRecord(s);
+    panel(s, notesOf(s));
+    tools(s, good ? found.results : null, hasTuner(s));
     events(s);
     flags(s);
     if (good) {
@@ -483,78 +459,73 @@ function useHandStep(hardware, text, name) {
     useLines(text, name);
 }
 
-// --- A sensor -----------------------------------------------------------------------
-
-function sensorOfPage() {
-    const number = (id) => readNumber(find(id).value).value ?? NaN;
-    const scale = number('#s-scale');
-    return { kind: find('#s-kind').value, r25: number('#s-r25'), beta: number('#s-beta'), series: number('#s-series'),
-        supply: find('#s-supply').value !== '', bits: number('#s-bits'), microvolts: number('#s-microvolts'),
-        low: number('#s-low'), high: number('#s-high'), scale, points: number('#s-points') };
-}
-
-function showTable(found, s) {
-    const good = found?.points !== undefined;
-    find('#table').hidden = !good;
-    find('#copy-table').disabled = !good;
-    setText(find('#table'), good ? tableText(found, s.kind === 'ntc' ? 'ntc' : 'type_k', s.scale) : '');
-    setText(find('#table-found'), good ? `Worst error ${digits(found.error / s.scale)} °C, over every count, with ${found.points.length} points.` : found?.refused ?? '');
-    find('#table-found').classList.toggle('refused', found !== null && !good);
-}
-
-// What was chosen for other values is not shown beside these.
-function changeSensor(event) {
-    const { kind } = sensorOfPage();
-    if (event.target.id === 's-kind') {
-        find('#s-high').value = kind === 'ntc' ? 150 : 1372;
-        find('#s-scale').value = kind === 'ntc' ? 100 : 10;
-    }
-    for (const label of find('#sensor').querySelectorAll('[data-of]')) {
-        label.hidden = label.dataset.of !== kind;
-    }
-    showTable(null);
-}
-
-function chooseTable() {
-    const s = sensorOfPage();
-    showTable(tableOf(s), s);
-}
-
 // --- From the start -----------------------------------------------------------------
+
+function choosePreset(event) {
+    mode = 'run';
+    setCursor(null);
+    changeNow({ ...presetState(event.target.value), kept: currentState().kept });
+}
 
 function buildHead() {
     const [own, ...others] = [...PRESETS].reverse();
-    find('#presets').append(...[own, ...others.reverse()].map((one) => {
-        const button = make('button', { type: 'button', textContent: one.name, value: one.preset });
-        button.addEventListener('click', () => {
-            mode = 'run';
-            setCursor(null);
-            changeNow({ ...presetState(one.preset), kept: currentState().kept });
-        });
-        return button;
-    }));
-    const options = { 'reverse acting': OPTION.REVERSE, 'derivative on the error': OPTION.DERIVATIVE_ON_ERROR,
-        'P on the measurement': OPTION.PROPORTIONAL_ON_MEASUREMENT };
-    find('#options').append(...Object.entries(options).map(([text, bit]) => {
-        const box = make('input', { type: 'checkbox', value: bit });
-        box.addEventListener('change', () => {
-            const s = currentState();
-            change({ OPTIONS: box.checked ? s.OPTIONS | bit : s.OPTIONS & ~bit });
-        });
-        return make('div', {}, make('label', {}, box, ` ${text}`), helpFor(text, text));
-    }));
+    const option = ({ preset, name }) => make('option', { value: preset, textContent: name });
+    find('#preset').append(option(own), make('optgroup', { label: 'Examples' }, ...others.reverse().map(option)));
+    find('#preset').addEventListener('change', choosePreset);
     setText(find('#version'), VERSION);
-    clock = createField('c-clock', {}, { read: () => currentState().CLOCK, onInput: (value) => change({ CLOCK: value }), step: () => ({ least: 1 }) });
-    find('#clock label').after(' ', clock.field);
-    find('#clock').append(' ', clock.why);
+    showTour(find('#tour'));
+    listenForHelp(find('#explain'));
+}
+
+// A name that C can have is used; of another it is said why it is not.
+function nameLoop() {
+    const field = find('#loop');
+    const good = LOOP_NAME.test(field.value);
+    field.setAttribute('aria-invalid', String(!good));
+    setText(find('#loop-why'), good ? '' : `“${field.value}” is no name of C: take letters, digits and _.`);
+    if (good) {
+        change({ loop: field.value });
+    }
+}
+
+function leaveName() {
+    const field = find('#loop');
+    field.value = currentState().loop;
+    field.setAttribute('aria-invalid', 'false');
+    setText(find('#loop-why'), '');
+}
+
+// A button for a part of the page that few need.
+function opens(button, section) {
+    button.addEventListener('click', () => {
+        section.hidden = !section.hidden;
+        button.setAttribute('aria-expanded', String(!section.hidden));
+        if (!section.hidden) {
+            show();
+            section.scrollIntoView();
+        }
+    });
+}
+
+function letGo() {
+    if (held) {
+        held = false;
+        show();
+    }
+}
+
+function listenForHands() {
+    document.addEventListener('pointerdown', (event) => {
+        held = event.target.matches('input[type=range], .flag');
+    });
+    document.addEventListener('pointerup', letGo);
+    document.addEventListener('pointercancel', letGo);
 }
 
 function listen() {
     find('#plots').addEventListener('keydown', moveCursor);
     find('#keep').addEventListener('click', keep);
     find('#share').addEventListener('click', () => toClipboard(linkOf(currentState()), 'The link is copied: it has all settings.'));
-    find('#undo').addEventListener('click', () => past.travel(-1));
-    find('#redo').addEventListener('click', () => past.travel(1));
     document.addEventListener('keydown', (event) => {
         const way = wayOfKey(event);
         if (way !== 0) {
@@ -564,18 +535,23 @@ function listen() {
     });
     find('#experiment').addEventListener('change', (event) => change({ EXPERIMENT: Number(event.target.value) }));
     find('#copy-record').addEventListener('click', () => toClipboard(recordText(tuned.found.record), 'The record is copied.'));
-    find('#record').addEventListener('input', () => showRecord(currentState()));
+    find('#loop').addEventListener('input', nameLoop);
+    find('#loop').addEventListener('blur', leaveName);
     find('#copy').addEventListener('click', () => toClipboard(find('#header').textContent, 'The header is copied.'));
-    find('#save').addEventListener('click', () => download('loop_gains.h', find('#header').textContent, 'text/x-c'));
+    find('#save').addEventListener('click', () => download(fileOf(currentState()), find('#header').textContent, 'text/x-c'));
     for (const [id, act] of Object.entries({ png: savePng, svg: saveSvg, csv: saveCsv, json: saveJson, print: () => window.print() })) {
         find(`#take-${id}`).addEventListener('click', act);
     }
     find('#open-json').addEventListener('change', openJson);
-    find('#sensor').addEventListener('input', changeSensor);
-    find('#choose').addEventListener('click', chooseTable);
-    find('#copy-table').addEventListener('click', () => toClipboard(find('#table').textContent, 'The table is copied.'));
+    find('#judged').addEventListener('toggle', show);
+    opens(find('#open-live'), find('#live'));
+    opens(find('#open-tools'), find('#tools'));
+    listenForHands();
     window.addEventListener('popstate', () => past.arrived());
     window.addEventListener('hashchange', () => past.arrived());
+    matchMedia('print').addEventListener('change', ({ matches }) => ['#look', '#judged'].forEach((id) => {
+        find(id).open ||= matches;
+    }));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
         show();
         recorder.draw();
@@ -587,22 +563,18 @@ async function startPage() {
     await startEngine();
     buildHead();
     plots = createPlots(find('#plots'), setCursor, find('#mini canvas'));
-    followPlots(find('#plots'), find('#live'), find('#mini'));
+    followPlots(find('#plots'), find('#gains'), find('#mini'));
     pendulum = createPendulum(find('#picture'), (seconds) => plots.cursorAt(seconds));
     flags = createFlags(find('#flags'), plots, currentState, (next) => change({ events: next }));
     events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
-    panel = createPanel(find('#panel'), change);
-    past = createPast({ fragment: () => fragmentOf(currentState()), go: (fragment) => changeNow(stateOfFragment(fragment)),
-        changed: ({ undo, redo }) => {
-            find('#undo').disabled = !undo;
-            find('#redo').disabled = !redo;
-        } });
+    panel = createPanel(change);
+    past = createPast({ fragment: () => fragmentOf(currentState()), go: (fragment) => changeNow(stateOfFragment(fragment)) });
     recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX, rate: () => currentState().RATE });
     live = createLive(find('#live'), { gains: gainsOfPage, scene: currentState, onPlant: useBoard, onStep: useHandStep, onText: useLines, download });
+    tools = createTools(find('#tools'), { copy: toClipboard, useRecord });
     listen();
-    showTour(find('#tour'));
     onChange(show);
-    changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('oven'));
+    changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('own'));
     past.settle();
     // What the tests take hold of.
     window.tuner = { live, change, changeNow, currentState, fragmentOf };

@@ -6,18 +6,13 @@
 const QUIET_MS = 300;
 const TRAVEL_MS = 500; // after which the browser has no such entry, as it forgets old ones
 
-// `fragment()` is that of what is shown, `go(fragment)` shows another, `changed({ undo,
-// redo })` is told what can be done. Returns { later, settle, travel, arrived }.
-export function createPast({ fragment, go, changed, browser = window }) {
+// `fragment()` is that of what is shown, `go(fragment)` shows another. Returns { later,
+// settle, travel, arrived }.
+export function createPast({ fragment, go, browser = window }) {
     let entries = []; // fragments; the browser's history state has which one
     let at = -1;
     let waiting = 0; // for quiet, or 0
     let travelling = 0;
-
-    function tell() {
-        const pending = at >= 0 && fragment() !== entries[at];
-        changed({ undo: at > 0 || pending, redo: at < entries.length - 1 && !pending });
-    }
 
     function write(way) {
         try {
@@ -37,13 +32,11 @@ export function createPast({ fragment, go, changed, browser = window }) {
             at += 1;
             write(at === 0 ? 'replaceState' : 'pushState');
         }
-        tell();
     }
 
     function later() {
         browser.clearTimeout(waiting);
         waiting = browser.setTimeout(settle, QUIET_MS);
-        tell();
     }
 
     function show(to) {

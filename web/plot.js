@@ -8,8 +8,15 @@ const GUTTER = 56;
 const RIGHT = 14;
 const AXIS = 22;
 
+// A color of page.css; asked for once, until the screen's scheme is another.
+const colors = new Map();
+globalThis.matchMedia?.('(prefers-color-scheme: dark)').addEventListener('change', () => colors.clear());
+
 export function color(name) {
-    return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    if (!colors.has(name)) {
+        colors.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+    }
+    return colors.get(name);
 }
 
 // A step of 1, 2 or 5 times a power of ten that makes about `count` of them.
@@ -51,8 +58,8 @@ function extremes(pane) {
     return [low - room, high + room];
 }
 
-// Builds the panes; returns { element, show(view), cursorAt(seconds or null) }.
-// The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
+// Builds the panes; returns { element, show(view, first: only that pane), cursorAt(seconds or
+// null) }. The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
 // above each canvas: moving it draws nothing.
 export function createPlots(element, onCursor, mini) {
     const small = { canvas: mini, mark: cursorMark(), values: [] };
@@ -62,17 +69,24 @@ export function createPlots(element, onCursor, mini) {
     let cursor = null;
 
     function build(panes) {
-        element.replaceChildren();
         parts = panes.map((pane, i) => {
-            const legend = make('figcaption');
+            const { legend, places } = createLegend(pane);
             const canvas = make('canvas', { 'aria-hidden': 'true', className: i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}` });
-            const mark = cursorMark();
-            element.append(make('figure', { className: 'pane' }, legend, canvas, mark));
             canvas.addEventListener('pointermove', (event) => moved(event, canvas));
             canvas.addEventListener('pointerdown', (event) => moved(event, canvas));
             canvas.addEventListener('pointerleave', () => onCursor(null));
-            return { canvas, legend, mark, key: keyOf(pane), values: [] };
+            return { canvas, legend, places, mark: cursorMark(), key: keyOf(pane), values: [] };
         });
+        element.replaceChildren(...parts.map(({ legend, canvas, mark }) => make('figure', { className: 'pane' }, legend, canvas, mark)));
+        measure();
+    }
+
+    // Sizes are asked for here alone: in between each would have the browser lay out the page.
+    function measure() {
+        for (const part of [...parts, small]) {
+            const { offsetLeft, offsetTop, clientWidth, clientHeight } = part.canvas;
+            part.size = { left: offsetLeft, top: offsetTop, width: clientWidth, height: clientHeight };
+        }
     }
 
     function moved(event, canvas) {
@@ -82,31 +96,30 @@ export function createPlots(element, onCursor, mini) {
         onCursor(part < 0 || part > 1 ? null : part * view.duration);
     }
 
-    function keyOf(pane) {
-        return pane.series.map((one) => one.name).join();
-    }
-
-    function show(next) {
+    function show(next, first = false) {
         view = next;
         if (parts.map((part) => part.key).join('|') !== next.panes.map(keyOf).join('|')) {
             build(next.panes);
         }
-        draw();
+        draw(first);
     }
 
-    function draw() {
+    function draw(first) {
         if (view === null) {
             return;
         }
         const drawn = (part, pane, hasAxis) => {
-            drawPane(part.canvas, pane, view, hasAxis);
-            part.box = boxOf(part.canvas, hasAxis);
+            const { width, height } = part.size;
+            paintPane(blank(part.canvas, width, height).context, width, height, pane, view, hasAxis);
+            part.box = boxOf(part.size, hasAxis);
         };
         view.panes.forEach((pane, i) => {
-            drawn(parts[i], pane, i === view.panes.length - 1);
-            parts[i].values = fillLegend(parts[i].legend, pane);
+            parts[i].values = filled(pane).map((one, k) => ({ one, place: parts[i].places[k] }));
+            if (i === 0 || !first) {
+                drawn(parts[i], pane, i === view.panes.length - 1);
+            }
         });
-        if (mini.clientWidth > 0) {
+        if (small.size.width > 0) {
             drawn(small, view.panes[0], true);
         }
         placeCursor();
@@ -126,12 +139,19 @@ export function createPlots(element, onCursor, mini) {
         }
     }
 
-    const observer = new ResizeObserver(draw);
+    const observer = new ResizeObserver(() => {
+        measure();
+        draw(false);
+    });
     observer.observe(element);
     observer.observe(mini); // it is drawn when it comes to be seen
+    measure();
     return { element, show, cursorAt, gutter: GUTTER, right: RIGHT, paint: (context) => paintAll(context, view),
         size: () => [PICTURE_WIDTH, view.panes.reduce((sum, _, i) => sum + CAPTION + heightOf(i, view), 0)] };
 }
+
+const filled = (pane) => pane.series.filter((one) => one.data.length > 0);
+const keyOf = (pane) => [pane.title, pane.unit, ...filled(pane).map((one) => one.name)].join();
 
 // --- The cursor --------------------------------------------------------------------
 
@@ -140,9 +160,8 @@ function cursorMark() {
 }
 
 // Where the curves of a canvas are, in what it stands in.
-function boxOf(canvas, hasAxis) {
-    return { left: canvas.offsetLeft + GUTTER, width: canvas.clientWidth - GUTTER - RIGHT, top: canvas.offsetTop + 6,
-        height: canvas.clientHeight - 6 - (hasAxis ? AXIS : 6) };
+function boxOf({ left, top, width, height }, hasAxis) {
+    return { left: left + GUTTER, width: width - GUTTER - RIGHT, top: top + 6, height: height - 6 - (hasAxis ? AXIS : 6) };
 }
 
 function placeMark(mark, box, cursor, view) {
@@ -153,15 +172,14 @@ function placeMark(mark, box, cursor, view) {
     }
 }
 
-// Shows `small` while the first pane is out of sight, and keeps what has the focus from
-// under it. Where `other` shows plots of its own, it is not laid over them.
-export function followPlots(element, other, small) {
+// Shows `small` while the first pane is out of sight and `needs`, whose sliders move it, is not;
+// and keeps what has the focus from under it.
+export function followPlots(element, needs, small) {
     const follow = () => {
         const box = element.querySelector('canvas')?.getBoundingClientRect();
-        const there = other.getBoundingClientRect();
         const height = 0.3 * window.innerHeight;
-        const lies = there.top < height && there.bottom > 0 && other.querySelector('canvas')?.clientWidth > 0;
-        small.hidden = box === undefined || box.bottom > height || lies;
+        const there = needs.getBoundingClientRect();
+        small.hidden = box === undefined || box.bottom > height || there.bottom < height || there.top > window.innerHeight;
         document.documentElement.classList.toggle('followed', !small.hidden);
     };
     document.addEventListener('scroll', follow, { passive: true });
@@ -221,22 +239,15 @@ function valueAt(one, view, cursor) {
     return at > last ? null : one.data[Math.max(0, at)];
 }
 
-// Returns what shows the values: { one: the series, place }.
-function fillLegend(legend, pane) {
-    const values = pane.series.filter((one) => one.data.length > 0).map((one) => ({ one, place: make('span', { className: 'value' }) }));
-    const entries = values.map(({ one, place }) => {
-        const mark = make('i');
-        mark.style.borderTopColor = color(one.color);
-        mark.style.borderTopStyle = one.dash?.length > 0 ? 'dashed' : 'solid';
+// { legend, places: what shows the value of each series }
+function createLegend(pane) {
+    const entries = filled(pane).map((one) => ({ one, place: make('span', { className: 'value' }) }));
+    const marked = entries.map(({ one, place }) => {
+        const mark = make('i', { style: `border-top: 2px ${one.dash?.length > 0 ? 'dashed' : 'solid'} var(--${one.color})` });
         return make('span', { className: 'entry' }, mark, `${one.name} `, place);
     });
-    legend.replaceChildren(make('b', { textContent: pane.title }), make('small', { textContent: pane.unit }), ...entries);
-    return values;
-}
-
-function drawPane(canvas, pane, view, hasAxis) {
-    const { context, width, height } = blank(canvas);
-    paintPane(context, width, height, pane, view, hasAxis);
+    return { places: entries.map(({ place }) => place),
+        legend: make('figcaption', {}, make('b', { textContent: pane.title }), make('small', { textContent: pane.unit }), ...marked) };
 }
 
 // The same on any context that has what a canvas has.

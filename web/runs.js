@@ -57,16 +57,15 @@ export function keyFigures(s, found, margins) {
     return figureNamesOf(s).map(([key, name, text]) => [name, text(values[key]), changed(text, values[key], before?.[key])]);
 }
 
-// Into the first place with help; the second one is a picture of it. What is there stays,
-// so that a question mark keeps the focus.
+// Into the first place with help; the second one is a picture of it.
 export function fillKey([place, copy], figures) {
     const shownOf = ([, value, change]) => [value, ...(change ? [make('small', { textContent: ` ${change}`, title: 'Change to the last kept run' })] : [])];
     const wanted = figures.map(([name]) => name).join();
     if (place.dataset.names !== wanted) {
         place.dataset.names = wanted;
-        place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', {}, name, helpFor(name, name)), make('dd'))));
+        place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', { textContent: name }), make('dd'), helpFor(name))));
     }
-    figures.forEach((figure, i) => place.children[i].lastChild.replaceChildren(...shownOf(figure)));
+    figures.forEach((figure, i) => place.children[i].querySelector('dd').replaceChildren(...shownOf(figure)));
     copy.replaceChildren(...figures.map((figure) => make('div', {}, make('dt', { textContent: figure[0] }), make('dd', {}, ...shownOf(figure)))));
 }
 

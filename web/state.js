@@ -61,7 +61,7 @@ export const PRESETS = [
         OUTPUT_MIN: -1000, RATE: 256, DURATION: 12, SETPOINT: 0, KP: 900, KI: 80, KD: 800, CLOCK: 4,
         events: [{ at: 6, what: 'LOAD', a: 6 }],
     }),
-    withPlant(preset('own', 'Your own', 'Your plant on your hardware: first your sensor, your actuator and your rate, which stay whatever is fitted or tuned; then your plant, or a step that you recorded; then its gains.', {
+    withPlant(preset('own', 'Your own', 'Your plant on your hardware: paste a recorded step, move the slider, copy the header.', {
         SENSOR_BITS: 10, SENSOR_RANGE: 300, OUTPUT_MAX: 255, RATE: 10, START: 20, unit: '°C',
     }), plantOfKind({ SENSOR_RANGE: 300, RATE: 10 }, PLANT.LAGS)),
 ];

@@ -6,9 +6,9 @@ import { find, make } from './dom.js';
 const KEY = 'fixpid-tour';
 // [name, sentence, where it leads to: the first of these that is shown].
 const TOUR = [
-    ['1 Your plant', 'Take “Your own” and say what your hardware and your plant are, or paste a step that you recorded.', ['#presets button']],
-    ['2 Tune', 'Move one slider from calm to quick, ask for an Ms, or take a row of the autotuner.', ['#c-calm', '#c-kp']],
-    ['3 Take', 'Copy the header into your firmware: its integers are those that ran here; or connect a board and send them.', ['#copy']],
+    ['1 Your plant', 'Paste a step that you recorded, or write its numbers.', ['#recording']],
+    ['2 Tune', 'Move one slider from calm to quick.', ['#c-calm', '#c-kp']],
+    ['3 Take', 'Copy the header into your firmware.', ['#copy']],
 ];
 
 // A browser may refuse to remember.
@@ -20,14 +20,17 @@ function remembered(act) {
     }
 }
 
+// The place is in the middle of the window, has the focus, and its part of the page is marked
+// for a moment.
 function lead(selectors) {
     const place = selectors.map(find).find((one) => one !== null);
-    const section = place.closest('details');
-    if (section !== null) {
-        section.open = true;
-    }
-    place.scrollIntoView({ block: 'center' });
-    place.focus();
+    const part = place.closest('[data-title]') ?? place.closest('.card');
+    part.open = true;
+    place.focus({ preventScroll: true });
+    part.scrollIntoView({ block: 'nearest' });
+    part.classList.remove('led');
+    part.getBoundingClientRect(); // so that it is marked anew
+    part.classList.add('led');
 }
 
 export function showTour(place) {
@@ -41,7 +44,7 @@ export function showTour(place) {
     done.addEventListener('click', () => {
         place.hidden = true;
         remembered((storage) => storage.setItem(KEY, 'done'));
-        find('#presets [aria-pressed=true]').focus();
+        find('#preset').focus();
     });
     place.replaceChildren(make('ol', {}, ...steps), done);
 }

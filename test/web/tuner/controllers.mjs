@@ -2,7 +2,7 @@
 // Each controller on each plant: the notes' by their equations, done here again, and the
 // margins of their loops; what their limits take away, and what a step takes of the time.
 import { readFileSync } from 'node:fs';
-import { check, checkNone, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
+import { check, checkNone, choose, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
 
 const { PRESETS, ofLink, presetState, withController, withinReason } = await moduleOf('state');
 const { gainsFor, notesLimits, plantOfKind, withPlant } = await moduleOf('own');
@@ -119,6 +119,7 @@ const pendulum = presetState('an964');
 const row = costsOf(pendulum, {}).find(({ chip }) => chip === 'PIC16F684');
 check('the note’s loop takes a PIC16F684 at 4 MHz its steps’ part of a second', Math.abs(shareOf(row, pendulum) - row.most * 256 / 1e6) < 1e-12 && pendulum.CLOCK === 4);
 const here = await open('p=an964');
+await here.click('#open-tools');
 const cell = async (chip) => here.locator('#chips tbody tr').filter({ hasText: chip }).first().locator('td').last().textContent();
 check(`the card says ${await cell('PIC16F684')}`, (await cell('PIC16F684')) === `${Math.round(100 * shareOf(row, pendulum))} %`);
 await here.fill('#c-clock', '0,5');
@@ -127,14 +128,14 @@ check('a slow clock is said to be too slow', (await cell('PIC16F684')).endsWith(
 check('no part is said of instructions', (await cell('Cortex-M0')) === '–');
 check('the clock is in the link', (await fragment(here)).includes('clock=0.5'), await fragment(here));
 check('a pendulum has no other controller', await here.locator('#c-controller').count() === 0);
-await here.click('#presets button[value=flow]');
+await choose(here, 'flow');
 for (const controller of ['2', '1', '0']) {
     await here.selectOption('#c-controller', controller);
     await frame(here);
     check(`controller ${controller} is in use`, (await text(here, '#header')).includes(`#include "fixpid_${['pid', 'an937', 'an964'][controller]}.h"`));
     checkNone(`controller ${controller}: nothing is stale`, await stale(here));
 }
-await here.click('#presets button[value=own]');
+await choose(here, 'own');
 await here.selectOption('#c-controller', '2');
 await here.selectOption('#c-plant', '2');
 await frame(here);

@@ -70,7 +70,7 @@ for (const lang of ['en-US', 'de-DE']) {
     check(`${lang}: until the next number`, (await text(here, '#c-kp-why')) === '');
 
     // What the page limits is shown as limited.
-    await here.evaluate(() => document.querySelectorAll('#panel details').forEach((one) => {
+    await here.evaluate(() => document.querySelectorAll('#work details').forEach((one) => {
         one.open = true;
     }));
     await here.fill('#c-sensor_bits', '99');
@@ -83,6 +83,7 @@ for (const lang of ['en-US', 'de-DE']) {
     check(`${lang}: an event's time reads a comma`, (await here.evaluate(() => window.tuner.currentState().events[0].at)) === 250);
     await here.locator('#events .at input').first().fill('x');
     check(`${lang}: an event's field says why`, (await here.locator('#events .why').first().textContent()) === '“x” is no number.');
+    await here.click('#open-tools');
     await here.fill('#s-r25', '10,0');
     await here.click('#choose');
     check(`${lang}: a sensor's field reads a comma`, (await text(here, '#table-found')).startsWith('Worst error 0.146 °C'), await text(here, '#table-found'));

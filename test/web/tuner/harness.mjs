@@ -36,14 +36,20 @@ export async function press(here, ...keys) {
     await frame(here);
 }
 
+// Another plant, as its list has it.
+export async function choose(here, preset) {
+    await here.selectOption('#preset', preset);
+    await frame(here);
+}
+
 export const text = (here, selector) => here.locator(selector).first().textContent();
 
 // All that a person reads, but what is said in passing.
 function readable() {
     const texts = ['#story', '#advice', '#key', '#metrics', '#runs', '#found', '#rules', '#guard', '#stage', '#margins', '#off', '#header', '#chips-text', '#chips']
         .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
-    const legends = [...document.querySelectorAll('figcaption, #flags, #presets button[aria-pressed=true]')].map((one) => one.textContent);
-    const fields = [...document.querySelectorAll('#panel input, #events input, #events select, #options input')]
+    const legends = [...document.querySelectorAll('figcaption, #flags, #file')].map((one) => one.textContent);
+    const fields = [...document.querySelectorAll('#preset, #work .control input, #loop, #events input, #events select, #options input')]
         .map((one) => (one.type === 'checkbox' ? one.checked : one.inputMode === 'decimal' ? Number(one.value) : one.value));
     return [...texts, ...legends, `notes ${[...document.querySelectorAll('.control em')].map((one) => one.textContent)}`, `fields ${fields}`];
 }

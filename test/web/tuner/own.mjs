@@ -3,7 +3,7 @@
 // from Skogestad's table, and their margins; that what a person said of sensor, actuator
 // and rate stays, whatever is fitted or tuned; and one slider for all gains, and a wanted Ms,
 // against a lag's frequency response by its formula.
-import { check, checkNone, finish, fragment, frame, moduleOf, msByFormula, open, press, stale, text } from './harness.mjs';
+import { check, checkNone, choose, finish, fragment, frame, moduleOf, msByFormula, open, press, stale, text } from './harness.mjs';
 
 const { calmAt, calmGains, gainsForMs, hasLine, placeOf, wishText } = await moduleOf('calm');
 const { calmOf, simcGains, plantOfKind, withPlant } = await moduleOf('own');
@@ -105,10 +105,10 @@ for (const bits of [12, 10]) {
 // --- In the browser ------------------------------------------------------------------
 const state = (here) => here.evaluate(() => window.tuner.currentState());
 const here = await open('p=own');
-const titles = await here.locator('#panel summary').allTextContents();
-check('its tab is the first; then the hardware, the plant, the gains', (await text(here, '#presets button')) === 'Your own' && /^1 Your sensor.*,2 Your plant,3 Your gains,/.test(titles.join()), titles.join());
+const titles = await here.locator('#work summary').allTextContents();
+check('it is the first in the list; then the hardware, the plant, the gains', (await text(here, '#preset option')) === 'Your own' && /^1 Sensor, actuator, rate,2 Your plant,.*3 Gains,/.test(titles.join()), titles.join());
 const SET = { 'c-sensor_bits': '10', 'c-sensor_low': '-20', 'c-sensor_range': '320', 'c-output_min': '0', 'c-output_max': '255', 'c-rate': '4', 'c-noise': '0,5' };
-await here.evaluate(() => document.querySelectorAll('#panel details').forEach((one) => {
+await here.evaluate(() => document.querySelectorAll('#work details').forEach((one) => {
     one.open = true;
 }));
 for (const [id, value] of Object.entries(SET)) {
@@ -148,7 +148,7 @@ await here.click('#first-gains');
 await frame(here);
 check('the first gains are a button away', (await state(here)).KP === simcGains(now).KP);
 await here.fill('#c-gain', '150');
-await here.locator('#panel input[aria-label="kp, slider"]').dblclick({ position: { x: 20, y: 8 } });
+await here.locator('#work input[aria-label="kp, slider"]').dblclick({ position: { x: 20, y: 8 } });
 await frame(here);
 check('a double click has kp of the plant as it is now', (await state(here)).KP === simcGains({ ...now, GAIN: 150 }).KP);
 
@@ -158,7 +158,7 @@ now = await paste(60, '50');
 check('a direction that is set stays, and it is said', (now.OPTIONS & 0x80) !== 0 && (await text(here, '#advice')).includes('change “reverse acting”'), await text(here, '#advice'));
 
 // From another tab: what that had is kept, and the heading is another.
-await here.click('#presets button[value=flow]');
+await choose(here, 'flow');
 await here.evaluate((more) => window.tuner.changeNow({ ...window.tuner.currentState(), ...more }), wanted);
 now = await paste(60, '50');
 checkNone('from another tab it stays, too', lost(now));

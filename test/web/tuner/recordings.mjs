@@ -5,7 +5,7 @@
 //
 //   node test/web/tuner/recordings.mjs [words of a row's name]
 import { readFileSync, writeFileSync } from 'node:fs';
-import { check, checkNone, finish, frame, moduleOf, open, random, violations, WORK } from './harness.mjs';
+import { check, checkNone, choose, finish, frame, moduleOf, open, random, violations, WORK } from './harness.mjs';
 
 const { readCell } = await moduleOf('cells');
 const { modelAt, recordingOf } = await moduleOf('models');

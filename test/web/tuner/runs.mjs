@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The five figures that matter and their change, kept runs in the page and in its link, and the
 // load alone, against what an integral has to do for a load.
-import { check, checkNone, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
+import { check, checkNone, choose, finish, fragment, frame, moduleOf, open, press, stale, text } from './harness.mjs';
 
 const { PRESETS, fragmentOf, ofLink } = await moduleOf('state');
 const { keptWith, keyFigures, runOf } = await moduleOf('runs');
@@ -87,7 +87,7 @@ check('nothing is kept at first', !(await here.isVisible('#runs')));
 await here.click('#keep');
 await set('#c-kp', '1.2');
 const shown = await text(here, '#key');
-checkNone('the figures above the plot are these', after.filter(([name, value, change]) => !shown.includes(`${name}?${value} ${change}`)).map((one) => `${one} is not in ${shown}`));
+checkNone('the figures above the plot are these', after.filter(([name, value, change]) => !shown.includes(`${name}${value} ${change}`)).map((one) => `${one} is not in ${shown}`));
 await here.click('#keep');
 await set('#c-kp', '2');
 const legend = await text(here, 'figcaption');
@@ -99,7 +99,7 @@ const wanted = ['1.20', '0.110', '0.170', ...await fresh.locator('#key dd').allT
 await fresh.close();
 check('a kept run has all its figures', cells.slice(2).join() === wanted, `${cells.slice(2)} / ${wanted}`);
 checkNone('a link has the kept runs, and nothing is stale', await stale(here));
-await here.click('#presets button[value=oven]');
+await choose(here, 'oven');
 await frame(here);
 check('another plant keeps them in the table, but draws none of them', await row('A').count() === 1 && await row('Now').count() === 1 && !(await text(here, 'figcaption')).includes('kept'));
 await here.click('#runs button[aria-label="Use A"]');
@@ -109,9 +109,10 @@ check('a kept run can be used again', (await fragment(here)).startsWith('p=flow&
 await here.click('#runs button[aria-label="Drop A"]');
 await frame(here);
 check('and dropped', await row('B').count() === 0 && (await row('A').locator('td').nth(2).textContent()) === '1.20');
-await here.click('#undo');
+await press(here, 'Control+z');
 await here.waitForFunction(() => window.tuner.currentState().kept.length === 2);
-check('Ti is beside ki', /, Ti 5\.64 s$/.test(await text(here, '.control:has(#c-ki) em')) && /, Td 0\.274 s$/.test(await text(here, '.control:has(#c-kd) em')), await text(here, '.control:has(#c-ki) em'));
+check('Ti is beside ki', /^Ti 5\.64 s$/.test(await text(here, '.control:has(#c-ki) em')) && /^Td 0\.274 s$/.test(await text(here, '.control:has(#c-kd) em')), await text(here, '.control:has(#c-ki) em'));
+await here.click('#open-tools');
 check('costs are said to be bounds', (await text(here, '#chips-text')).includes('at most, by the code’s bound') && (await text(here, '#chips caption')).startsWith('At most, at 20 steps'));
 
 const metrics = () => text(here, '#metrics');

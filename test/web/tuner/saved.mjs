@@ -2,7 +2,7 @@
 // What is taken along: a run as CSV, PNG and SVG, all settings as JSON, which comes back
 // in, and what the header says of where it is from.
 import { readFileSync } from 'node:fs';
-import { check, checkNone, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
+import { check, checkNone, choose, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
 
 const { fragmentOf, ofLink, PRESETS } = await moduleOf('state');
 const { csvOf, jsonOf, stateOfJson } = await moduleOf('saved');
@@ -14,7 +14,7 @@ await startEngine();
 
 // --- Without a browser ---------------------------------------------------------------
 const links = [...PRESETS.map((one) => `p=${one.preset}`), 'p=own&plant=2&gain=-5&unit=a%26b%22&rule=PID', 'p=flow&kp=1.5&kept=p%3Dflow;p%3Daxis%26kp%3D2',
-    'p=oven&events=setpoint_1.5_30~limits_2_-5_100~auto_3', 'p=flow&events='].map((one) => fragmentOf(ofLink(one)));
+    'p=oven&loop=bed_2&events=setpoint_1.5_30~limits_2_-5_100~auto_3', 'p=flow&events='].map((one) => fragmentOf(ofLink(one)));
 const written = (link) => {
     const s = ofLink(link);
     const found = run(s);
@@ -56,6 +56,9 @@ checkNone('it is ASCII', PRESETS.filter((one) => /[^\x20-\x7E\n]/.test(says(`p=$
 // --- In the browser ------------------------------------------------------------------
 const here = await open('p=flow&kp=1.5&kept=p%3Dflow', { acceptDownloads: true });
 async function taken(id) {
+    if (id.startsWith('#take')) {
+        await here.locator('#menu').evaluate((menu) => { menu.open = true; });
+    }
     const [download] = await Promise.all([here.waitForEvent('download'), here.click(id)]);
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
 }
@@ -75,7 +78,7 @@ const csv = await taken('#take-csv');
 check(csv.name, csv.name === 'loop.csv' && csv.bytes.toString() === csvOf(ofLink('p=flow&kp=1.5'), run(ofLink('p=flow&kp=1.5'))));
 const json = await taken('#take-json');
 const before = await fragment(here);
-await here.click('#presets button[value=oven]');
+await choose(here, 'oven');
 await here.setInputFiles('#open-json', { name: json.name, mimeType: 'application/json', buffer: json.bytes });
 await here.waitForFunction((wanted) => window.tuner.fragmentOf(window.tuner.currentState()) === wanted, before);
 check('a JSON comes back in', json.name === 'loop.json' && (await text(here, '#said')) === 'loop.json is open.', await text(here, '#said'));
@@ -85,6 +88,9 @@ await here.waitForFunction(() => document.querySelector('#said').textContent.sta
 check('another JSON changes nothing', (await fragment(here)) === before);
 const gains = await taken('#save');
 check('the header is a file', gains.name === 'loop_gains.h' && gains.bytes.toString() === (await text(here, '#header')));
+await here.fill('#loop', 'Bed');
+await frame(here);
+check('a loop’s name is its file’s, too, and in its link', (await taken('#save')).name === 'loop_bed_gains.h' && /loop=Bed/.test(await fragment(here)));
 await here.fill('#c-kp', '900');
 await frame(here);
 checkNone('what is refused is not taken', (await Promise.all(['png', 'svg', 'csv', 'json'].map(async (id) => [id, await here.isDisabled(`#take-${id}`)]))).filter(([, off]) => !off));
@@ -92,8 +98,8 @@ await here.fill('#c-kp', '1');
 await frame(here);
 await here.emulateMedia({ media: 'print' });
 const paper = await here.evaluate(() => ({ shown: ['#plots', '#header', '#key'].every((one) => document.querySelector(one).offsetHeight > 0),
-    hidden: ['aside', '#share', '#take-png'].every((one) => document.querySelector(one).offsetHeight === 0),
-    cut: [...document.querySelectorAll('#header, #chips')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.id) }));
+    hidden: ['#plant', '#gains', '#share', '#take-png'].every((one) => document.querySelector(one).offsetHeight === 0),
+    cut: [...document.querySelectorAll('#header')].filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.id) }));
 check('on paper there are plots, figures and header, and no buttons', paper.shown && paper.hidden, JSON.stringify(paper));
 checkNone('and nothing of them is cut', paper.cut);
 checkNone('no error', here.noted.errors);

@@ -23,16 +23,24 @@ async function tabTo(selector) {
     return false;
 }
 
-check('a preset', await tabTo('#presets button[value=flow]'));
-await press(here, 'Enter');
-check('it is shown', (await text(here, '#presets [aria-pressed=true]')) === 'Lag and dead time' && await headerHas('FIXPID_PID_GAINS(0.62'));
+check('a plant of one’s own is the first', (await here.inputValue('#preset')) === 'own' && await here.isVisible('#plant #recording'));
+check('an example', await tabTo('#preset'));
+await press(here, 'L', 'a', 'g');
+check('it is shown', (await here.inputValue('#preset')) === 'flow' && await headerHas('FIXPID_PID_GAINS(0.62'));
 check('kp', await tabTo('#c-kp'));
 await press(here, 'Control+A', '1', ',', '5');
 check('what is typed is in the header', await headerHas('384u'), await text(here, '#header'));
 const before = await text(here, '#header');
-check('ki’s slider', await tabTo('#panel input[aria-label="ki, slider"]'));
-await press(here, 'ArrowRight', 'ArrowRight');
+check('one Tab further is ki, as the arrow keys do what a slider does', await tabTo('input') && await here.evaluate(() => document.activeElement.id === 'c-ki'));
+await press(here, 'ArrowUp', 'ArrowUp');
 check('it moves', (await text(here, '#header')) !== before && Number(await here.inputValue('#c-ki')) > 0.11);
+check('the slider from calm to quick', await tabTo('#c-calm'));
+await press(here, 'ArrowRight');
+check('moves them all', Number(await here.inputValue('#c-kp')) < 1.5);
+check('the loop’s name', await tabTo('#loop'));
+await press(here, 'b', 'e', 'd', '-');
+check('is in the header, as far as C has such a name', await headerHas('#define LOOP_BED_GAINS_H 0x') && (await text(here, '#loop-why')) === '“bed-” is no name of C: take letters, digits and _.' && (await text(here, '#file')).startsWith('loop_bed_gains.h'));
+await press(here, 'Tab');
 checkNone('nothing is stale', await stale(here));
 
 await here.evaluate(() => document.activeElement.blur());
@@ -57,6 +65,8 @@ check('the cursor', await tabTo('#plots'));
 const end = await text(here, 'figcaption');
 await press(here, 'Home');
 check('it moves', (await text(here, 'figcaption')) !== end);
+check('what happens', await tabTo('[data-title^="What happens"] summary'));
+await press(here, 'Enter');
 check('a new event', await tabTo('#events > button'));
 await press(here, 'Enter');
 check('it is there', (await here.locator('#flags button').count()) === 3);
