@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A step of a board that is recorded: of its setpoint, with the plant that fits it, or of its
 // output by hand, for the card of recordings.
-import { ALLOWED, LIMIT } from './built.js';
+import { ALLOWED, FIT_REASON, LIMIT } from './built.js';
 import { int16Bytes } from './ask.js';
 import { make, setText } from './dom.js';
 import { readNumber } from './fields.js';
-import { digits, percent, short, time, whole } from './format.js';
-import { fitLoop, simulated } from './loopfit.js';
+import { createFitter } from './fitter.js';
+import { digits, percent, short, whole } from './format.js';
+import { modelText, plantOfModel } from './models.js';
 import { createPlots } from './plot.js';
 import { hardwareOf } from './session.js';
 import { MISSED } from './trace.js';
@@ -23,19 +24,28 @@ function planned(trace, { byHand, size, steps }) {
     return { byHand, from, to: from + size, value: byHand ? from : from + size, wait: byHand ? before : 0, steps, begun: trace.places - outputs.length };
 }
 
-function fitText({ refused, gain, lag, dead, error, part }, missing, seconds) {
-    const found = refused ?? `Gain ${digits(gain)} counts per count of output, lag ${time(lag * seconds)}, dead time ${time(dead * seconds)}; ` +
-        `${digits(error)} counts are left on average, ${percent(part)} of the swing. The loop was closed, so the fit knows only what the controller excited.`;
+function fitText({ models, chosen, reason, sentence }, missing) {
+    const model = models?.[chosen] ?? null;
+    const found = reason !== FIT_REASON.USABLE ? sentence : `${modelText(model.plant, null, 'counts')}; ` +
+        `${digits(model.error)} counts are left on average, ${percent(model.part)} of what the output moved. The loop was closed, so the fit knows only what the controller excited.`;
     return `${found}${missing > 0 ? ` ${whole(missing)} steps did not come, and are as the one before.` : ''}`;
+}
+
+// A curve's value at a time, as its last point before has it.
+function at({ t, y }, seconds) {
+    const next = t.findIndex((one) => one > seconds);
+    return y[next < 0 ? t.length - 1 : Math.max(0, next - 1)];
 }
 
 // { begin(), show(), drop(), record(byHand), goOn(stopped): now and then, useFit() }
 export function createBoardStep({ own, say, refresh }, session, connection, { may, tell, hasConfig }, { onPlant, onStep, onText }) {
     const plots = createPlots(own('fit-plots'), () => {}, make('canvas'));
-    let [recording, fit] = [null, null];
+    let [recording, columns, fit] = [null, null, null]; // columns: { u, y, missing } of the last one
+    const fitter = createFitter(showFit);
 
     function begin() {
-        [recording, fit] = [null, null];
+        fitter.stop();
+        [recording, columns, fit] = [null, null, null];
         own('fit').hidden = true;
     }
 
@@ -83,14 +93,17 @@ export function createBoardStep({ own, say, refresh }, session, connection, { ma
         }
     }
 
-    function showFit(u, y, missing) {
+    function showFit(found) {
         const { seconds } = session;
-        fit = fitLoop(u, y);
+        const { u, y, missing } = columns;
+        fit = found;
+        const good = fit.reason === FIT_REASON.USABLE;
         own('fit').hidden = false;
-        setText(own('fit-said'), fitText(fit, missing, seconds));
-        own('fit-said').className = fit.refused ? 'refused' : 'good';
-        own('fit-use').disabled = Boolean(fit.refused);
-        const fitted = fit.lag === undefined ? new Float64Array(0) : simulated(fit, u);
+        setText(own('fit-said'), fitText(fit, missing));
+        own('fit-said').className = good ? 'good' : 'refused';
+        own('fit-use').disabled = !good;
+        const { curve = { t: [0], y: [NaN] } } = fit.models?.[fit.chosen] ?? {};
+        const fitted = Float64Array.from(y, (_, i) => at(curve, i * seconds));
         plots.show({ seconds, events: [], duration: y.length * seconds, panes: [
             { title: 'Measurement', unit: 'counts', leastSpan: 8, series: [{ name: 'recorded', color: 'setpoint', data: y }, { name: 'fitted', color: 'measured', dash: [5, 3], data: fitted }] },
             { title: 'Output', unit: 'counts', series: [{ name: 'recorded', color: 'output', held: true, data: u }] }] });
@@ -114,17 +127,17 @@ export function createBoardStep({ own, say, refresh }, session, connection, { ma
             handOver(u, y);
         } else {
             await tell(ASK.SETPOINT, int16Bytes(from), `The setpoint is ${from} again.`);
-            showFit(u, y, missing);
+            columns = { u, y, missing };
+            fitter.ask({ lines: { t: Float64Array.from(u, (_, i) => i * session.seconds), u, y }, before: null });
         }
         refresh();
     }
 
     function useFit() {
         if (hasConfig()) {
-            const { seconds } = session;
             const { OUTPUT_MIN, OUTPUT_MAX } = boardConfig();
-            const round = (x) => Number(x.toPrecision(4));
-            onPlant(hardwareOf(session), { GAIN: round(fit.gain * Math.max(OUTPUT_MAX, -OUTPUT_MIN)), T1: round(fit.lag * seconds), T2: 0, DEAD: round(fit.dead * seconds), START: round(fit.rest) });
+            const full = Math.max(OUTPUT_MAX, -OUTPUT_MIN);
+            onPlant(hardwareOf(session), plantOfModel(fit.models[fit.chosen], full), { plants: fit.plants, full });
         }
     }
     return { begin, show, record, goOn, useFit, drop: () => { recording = null; } };

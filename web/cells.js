@@ -131,7 +131,13 @@ function formOf(lines) {
     const from = Math.max(0, Math.min(20, withDigits.length - 40)); // head lines are at the start
     const sample = withDigits.slice(from, from + SAMPLE);
     return FORMS.map((form) => ({ ...form, ...scoreOf(form, sample) }))
-        .reduce((best, one) => (one.score > best.score + 1e-9 ? one : best), { score: 0, width: 0 });
+        .reduce((best, one) => (one.score > best.score + 1e-9 ? one : best), alone(sample));
+}
+
+// One number on each line.
+function alone(sample) {
+    const numbers = sample.filter((line) => readCell(line.replace(LABEL, ''), '.').kind === 'number').length;
+    return { name: 'single numbers', cut: '\n', decimal: '.', width: 1, score: numbers > 0.9 * sample.length ? 0.5 : 0 };
 }
 
 function headOf(cells, width) {
@@ -158,19 +164,15 @@ function refusalOf(lines) {
     if (first < 0) {
         return `No line has a number; line ${at + 1} is “${lines[at].slice(0, 30)}”.`;
     }
-    const { kind } = readCell(lines[first].replace(LABEL, ''), '.');
-    if (kind !== 'text' && kind !== 'hole') {
-        return `Line ${first + 1} has one number only: a line needs its time, too.`;
-    }
     const whyOf = (line) => line.split(/[,;\t]/).map((cell) => readCell(cell.trim().replace(LABEL, ''), '.').why).find(Boolean);
     const bad = lines.findIndex((line) => /\d/.test(line) && !isComment(line) && whyOf(line) !== undefined);
     return `Line ${(bad < 0 ? first : bad) + 1} is no row of numbers: ${whyOf(lines[bad] ?? '') ?? `“${lines[first].slice(0, 30)}”`}.`;
 }
 
-// The table of a text, by and by as it may be long:
+// The table of a text:
 // { names, columns (arrays with NaN for holes), kinds, lines (their numbers), skipped:
 // [{ line, why }], form }, or { refused }.
-export function* readTable(text) {
+export function readTable(text) {
     const lines = text.replace(/^\ufeff/, '').split(/\r\n|\n|\r/).map(tidyLine);
     const form = formOf(lines);
     if (form.score < 0.3) {
@@ -187,9 +189,6 @@ export function* readTable(text) {
     const skipped = [];
     let names = [];
     for (const [at, line] of lines.entries()) {
-        if (at % 500 === 499) {
-            yield;
-        }
         if (isComment(line)) {
             continue;
         }
@@ -204,7 +203,7 @@ export function* readTable(text) {
         }
         const read = cells.map((cell) => readCell(cell, decimal));
         const wrong = read.find((one) => one.why !== undefined);
-        if (wrong !== undefined && read.filter((one) => one.why === undefined).length < 2) {
+        if (wrong !== undefined && read.filter((one) => one.why === undefined).length < Math.min(2, width)) {
             skipped.push({ line: at + 1, why: wrong.why });
             continue;
         }

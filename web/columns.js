@@ -1,264 +1,291 @@
 // SPDX-License-Identifier: MIT
-// What the columns of a recording are: the time, the drive and the measurement,
-// the moment of the step, and which values are none.
+// What the columns of a recording are: the time, the setpoint, the drive and the measurement. What
+// its text decides is taken, and why is said; what it does not is a question with its answers; what
+// cannot be is refused.
 import { readTable } from './cells.js';
+import { digits, short, time } from './format.js';
 
 export const LEAST_ROWS = 8;
-const POINTS_KEPT = 2000;
-const PREVIEW = 5;
-const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
+const POINTS_KEPT = 1500; // for the plot
+const PREVIEW = 3;
+const MOST_VALUES = 4; // columns that are tried as the measurement
+export const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
 const TIME_NAME = /^(t|x|time|zeit|sec(ond)?s?|sekunden?|s|ms|millis|min(ute)?s?|timestamp|date|epoch|uptime)\b/i;
-const DRIVE_NAME = /^(u|out(put)?|op|co|drive|duty|pwm|power|heat(er)?|valve|stell\w*|ausgang)\b/i;
-const GOAL_NAME = /^(sp|set ?point|set|soll\w*|ref(erence)?|goal|target|r|w)\b/i;
+const DRIVES = /^(u|out|output|op|co|drive|duty|pwm|power|heat|heater|heating|valve|q|fan|pump|ssr|relay|stell.*|ausgang)$/;
+const GOALS = /^(t?set|t?sp|setpoint|t?soll.*|t?ref|reference|goal|target|wanted|desired)$/;
+const FULLS = [255, 1023, 4095, 10000, 32767, 65535];
 
-export function quantile(values, part) {
+function quantile(values, part) {
     const sorted = Float64Array.from(values).sort();
-    return sorted[Math.min(sorted.length - 1, Math.max(0, Math.round(part * (sorted.length - 1))))];
+    return sorted[Math.round(part * (sorted.length - 1))];
 }
 
-export function median(values) {
-    return quantile(values, 0.5);
-}
-
+const median = (values) => quantile(values, 0.5);
 const knownOf = (column) => column.filter((value) => !Number.isNaN(value));
-
-// Every so many: enough to judge a column by.
-function sampled(column, most) {
-    const every = Math.max(1, Math.floor(column.length / most));
-    return every === 1 ? column : column.filter((_, i) => i % every === 0);
+const differences = (column) => column.slice(1).map((value, i) => value - column[i]);
+const rangeOf = (column) => column.reduce(([low, high], one) => [Math.min(low, one), Math.max(high, one)], [Infinity, -Infinity]);
+// With holes as the value before them.
+function held(column) {
+    let last = column.find((value) => !Number.isNaN(value));
+    return column.map((value) => (last = Number.isNaN(value) ? last : value));
 }
+
+const swingOf = (column) => rangeOf(column).reduce((low, high) => high - low);
+
+// The words of a name, without its unit, with digits and capitals as ends.
+const wordsOf = (name) => name.replace(/[[(].*?[\])]/g, ' ').replace(/([a-z])([A-Z])/g, '$1 $2').toLowerCase().split(/[^a-zäöüß]+/).filter(Boolean);
+const isDriveName = (name) => wordsOf(name).some((word) => DRIVES.test(word));
+const isGoalName = (name) => wordsOf(name).some((word, _, all) => GOALS.test(word) || (word === 'w' && all.length === 1));
+
+// --- The time -----------------------------------------------------------------------
 
 // The share of a column's steps that do not go back; 0 where it mostly stands still.
 function risingPart(column) {
-    const values = knownOf(column);
-    let [forward, still] = [0, 0];
-    for (let i = 1; i < values.length; i++) {
-        forward += values[i] >= values[i - 1] ? 1 : 0;
-        still += values[i] === values[i - 1] ? 1 : 0;
-    }
-    return values.length < 2 || still > 0.5 * values.length ? 0 : forward / (values.length - 1);
+    const steps = differences(knownOf(column));
+    const still = steps.filter((step) => step === 0).length;
+    return steps.length < 1 || still > 0.5 * steps.length ? 0 : steps.filter((step) => step >= 0).length / steps.length;
+}
+
+// Lines come more evenly than a measurement rises.
+function isEven(column) {
+    const steps = differences(knownOf(column)).filter((step) => step > 0);
+    return steps.length > 0 && quantile(steps, 0.9) < 5 * quantile(steps, 0.1);
 }
 
 function timeColumn({ names, columns, kinds }) {
     const clock = kinds.findIndex((kind) => kind !== 'number');
-    if (clock >= 0) {
+    if (clock >= 0 || columns.length < 2) {
         return clock;
     }
     const rising = columns.map(risingPart);
     const named = names.findIndex((name, i) => TIME_NAME.test(name) && rising[i] > 0.9);
-    return named >= 0 ? named : rising.findIndex((part) => part > 0.98);
+    return named >= 0 ? named : rising.findIndex((part, i) => part > 0.98 && isEven(columns[i]));
 }
 
-// The jump of a column that stands still before and after it: { at, next: where it
-// moves again, from, to }, or null. A measurement moves all the time.
-export function jumpOf(column) {
-    let [at, most] = [-1, 0];
-    const moves = [];
-    for (let i = 1; i < column.length; i++) {
-        const move = Math.abs(column[i] - column[i - 1]);
-        if (move > 0) {
-            moves.push(i);
-        }
-        if (move > most * (1 + 1e-9)) {
-            [at, most] = [i, move];
-        }
+// 5 ms, 1.5 s, 3 min 20 s, 1 h 40 min
+function lasting(seconds) {
+    const [large, small, size] = seconds < 5400 ? ['min', 's', 60] : ['h', 'min', 3600];
+    if (seconds < 120) {
+        return time(seconds);
     }
-    if (at < 0) {
-        return null;
-    }
-    const large = moves.filter((i) => Math.abs(column[i] - column[i - 1]) > 0.25 * most);
-    const first = large.filter((i) => i < at).at(-1) ?? 0;
-    const next = large.find((i) => i > at) ?? column.length;
-    const [from, to] = [median(column.slice(first, at)), median(column.slice(at, next))];
-    const still = (value, level) => Math.abs(value - level) <= 0.05 * Math.abs(to - from);
-    const quiet = column.filter((value, i) => i >= first && i < next && still(value, i < at ? from : to)).length;
-    return large.length <= 6 && quiet >= 0.97 * (next - first) && next - at >= LEAST_ROWS ? { at, first, next, from, to } : null;
+    const rest = Math.round((seconds % size) / (size / 60));
+    return `${Math.floor(seconds / size)} ${large}${rest > 0 ? ` ${rest} ${small}` : ''}`;
 }
 
-function driveColumn({ names, columns }, time, value) {
-    const found = columns.map((column, i) => ({ i, name: names[i],
-        fits: i !== time && i !== value && jumpOf(column) !== null })).filter(({ fits }) => fits);
-    return (found.find(({ name }) => DRIVE_NAME.test(name)) ?? found.find(({ name }) => !GOAL_NAME.test(name)) ?? { i: -1 }).i;
-}
-
-// The first column that is left and moves, but not as a drive does.
-function valueColumn({ names, columns }, time, drive) {
-    const left = columns.map((column, i) => ({ i, moves: new Set(sampled(knownOf(column), 200)).size > 1, name: names[i] }))
-        .filter(({ i }) => i !== time && i !== drive);
-    const own = left.filter(({ i, name, moves }) => moves && !GOAL_NAME.test(name) && !DRIVE_NAME.test(name) && (left.length < 2 || jumpOf(columns[i]) === null));
-    return (own[0] ?? left.find(({ moves }) => moves) ?? left[0] ?? { i: -1 }).i;
-}
-
-// { unit, why }: of a column of times, from its name, its size or its steps.
+// { unit, why }, of a column of times, or { unit, ask } where whole numbers tell nothing.
 export function unitOfTime(name, kind, column) {
     if (kind !== 'number') {
-        return { unit: 's', why: 'it is a clock’s time' };
+        return { unit: 's', why: 'a clock’s time' };
     }
     const named = /(?:^|[^a-z])(ns|µs|us|ms|millis\w*|sec\w*|s|min\w*|h)[\])]?$/i.exec(name.trim());
     if (named !== null) {
         const word = named[1].toLowerCase();
         const unit = word.startsWith('milli') ? 'ms' : word.startsWith('sec') ? 's' : word.startsWith('min') ? 'min' : word === 'us' ? 'µs' : word;
-        return { unit, why: `its name is “${name}”` };
+        return { unit, why: 'by its name' };
     }
-    const size = Math.abs(median(sampled(column, 1000)));
+    const size = Math.abs(median(column.slice(0, 1000)));
     if (size > 1e9) {
         return { unit: size > 1e17 ? 'ns' : size > 1e14 ? 'µs' : size > 1e11 ? 'ms' : 's', why: 'it counts from 1970' };
     }
-    const head = column.slice(0, 1000);
-    const step = median(head.slice(1).map((value, i) => value - head[i]).filter((one) => one > 0));
-    const whole = head.every(Number.isInteger);
-    if (whole && step >= 5 && step % 60 !== 0 && step !== 15 && step !== 30) {
-        return { unit: 'ms', why: `its lines are whole numbers, ${step} apart` };
+    if (!column.every(Number.isInteger)) {
+        return { unit: 's', why: 'its steps have fractions' };
     }
-    return { unit: 's', why: 'nothing speaks for another' };
+    const steps = differences(column).filter((step) => step > 0);
+    const step = median(steps);
+    const regular = step === 1 || steps.every((one) => one % step === 0); // missing lines are whole steps
+    const all = swingOf(column);
+    const answers = [['s', 1], ['ms', 1e-3]].map(([value, scale]) => ({ value, text: `${value}: ${lasting(step * scale)} apart, ${lasting(all * scale)} in all` }));
+    return { unit: regular ? 's' : 'ms', ask: { key: 'unit', text: 'Are the times seconds or milliseconds? They are whole numbers without a unit.', answers, chosen: regular ? 's' : 'ms' } };
 }
 
-// The places of values that stand alone, far from the neighbours on both sides, which
-// agree.
-export function* outliersOf(values) {
-    const reach = 3;
-    const residuals = new Float64Array(values.length);
-    for (let i = 1; i < values.length - 1; i++) {
-        if (i % 5000 === 0) {
-            yield;
-        }
-        residuals[i] = values[i] - median(values.slice(Math.max(0, i - reach), i + reach + 1));
-    }
-    const sizes = residuals.map(Math.abs);
-    const range = quantile(values, 0.95) - quantile(values, 0.05);
-    const limit = Math.max(8 * 1.4826 * median(sizes), 0.15 * range);
-    const alone = (i) => {
-        const [before, behind] = [median(values.slice(Math.max(0, i - reach), i)), median(values.slice(i + 1, i + 1 + reach))];
-        return Math.abs(before - behind) < 0.3 * Math.min(Math.abs(values[i] - before), Math.abs(values[i] - behind));
+// From one line at which the time goes back to the next: [{ from, to }], places of rows.
+function partsOf(times) {
+    const starts = [0, ...differences(times).flatMap((step, i) => (step < 0 ? [i + 1] : [])), times.length];
+    return starts.slice(1).map((to, i) => ({ from: starts[i], to }));
+}
+
+// The rows that are used, in the order in which they were written: { t (seconds from the first),
+// columns, lines, ask: a question, or null }.
+function rowsOf(table, times, scale, choice) {
+    const at = [...times.keys()].filter((i) => !Number.isNaN(times[i]));
+    const parts = partsOf(at.map((i) => times[i]));
+    const longest = parts.reduce((best, one, k) => (one.to - one.from > parts[best].to - parts[best].from ? k : best), 0);
+    const { from, to } = parts[choice ?? longest] ?? parts[longest];
+    const used = at.slice(from, to);
+    const line = (place) => table.lines[at[place]];
+    const ask = parts.length < 2 ? null : { key: 'part', text: `The time goes back in line ${line(parts[1].from)}. Which part is the recording?`, chosen: String(longest),
+        answers: parts.slice(0, 6).map((part, k) => ({ value: String(k), text: `lines ${line(part.from)} to ${line(part.to - 1)}` })) };
+    return { t: used.map((i) => (times[i] - times[used[0]]) * scale), columns: table.columns.map((column) => used.map((i) => column[i])), lines: used.map((i) => table.lines[i]), ask };
+}
+
+// --- The setpoint, the drive and the measurement --------------------------------------
+
+// Where a column that stands still by stretches ends each of them: places.
+const stretchEnds = (column) => [...differences(column).flatMap((step, i) => (step !== 0 ? [i] : [])), column.length - 1];
+
+// Whether it moves seldom and far, as a drive that is stepped by hand; a measurement moves all the time.
+function isStepped(column) {
+    const moves = differences(column).filter((step) => step !== 0).map(Math.abs);
+    return moves.length > 0 && (new Set(column).size === 2 || (moves.length <= 0.2 * column.length && median(moves) >= 0.1 * swingOf(column)));
+}
+
+// Whether a measurement comes to what this column says, at the end of most of its stretches.
+function isFollowed(column, value) {
+    const ends = stretchEnds(column);
+    return ends.filter((i) => Math.abs(value[i] - column[i]) <= 0.1 * swingOf(value)).length > 0.5 * ends.length;
+}
+
+// { time, goals, drive, values, asked: columns of which one is the drive, or [], whys }. A drive of -1 is
+// none.
+function rolesOf({ names, columns }, time, choices) {
+    const others = columns.map((column, i) => ({ i, name: names[i], column: held(column), moves: swingOf(held(column)) > 0, named: isDriveName(names[i]) }))
+        .filter(({ i, column }) => i !== time && column[0] !== undefined);
+    const movers = others.filter(({ moves }) => moves);
+    const whys = {};
+    const isGoal = ({ i, name, column, named, moves }) => {
+        const followers = named || !moves || !isStepped(column) ? [] : movers.filter((one) => one.i !== i && !one.named && !isStepped(one.column) && isFollowed(column, one.column));
+        const why = i === choices.drive || i === choices.value ? null : isGoalName(name) ? 'a setpoint, by its name' : followers.length > 0 ? 'a setpoint: the measurement comes to it' : null;
+        whys[i] = why;
+        return why !== null;
     };
-    const far = [...sizes.keys()].filter((i) => sizes[i] > limit && alone(i));
-    return far.length > 0.05 * values.length ? [] : far;
+    const goals = others.filter(isGoal).map(({ i }) => i);
+    const left = movers.filter(({ i }) => !goals.includes(i) && i !== choices.value);
+    const following = left.filter(({ column }) => others.some((goal) => goals.includes(goal.i) && goal.moves && isFollowed(goal.column, column)));
+    const followed = following.length === 1 ? following[0] : undefined;
+    const named = left.filter((one) => one.named);
+    const stepped = left.filter(({ column }) => isStepped(column));
+    const alone = left.filter((one) => one !== followed);
+    const [candidates, why] = named.length > 0 ? [named, 'by its name'] : stepped.length > 0 ? [stepped, 'it stands still and steps']
+        : followed !== undefined || choices.value !== null ? [alone, 'the only other one that moves'] : left.length > 1 ? [left, ''] : [[], ''];
+    const still = others.find((one) => one.named && !goals.includes(one.i));
+    const drive = choices.drive ?? (candidates.length === 1 ? candidates[0].i : candidates.length === 0 && still !== undefined ? still.i : -1);
+    whys[drive] = choices.drive !== null ? 'as you chose' : candidates.length === 1 ? why : 'by its name';
+    const measured = left.filter(({ i, named: is }) => i !== drive && !is);
+    const values = choices.value !== null ? [choices.value] : (measured.length > 0 ? measured : left.filter(({ i }) => i !== drive)).slice(0, MOST_VALUES).map(({ i }) => i);
+    return { time, goals, drive, values, asked: choices.drive === null && candidates.length > 1 ? candidates.map(({ i }) => i) : [], whys,
+        loads: drive < 0 ? [] : named.filter(({ i }) => i !== drive).map(({ i }) => i) };
 }
 
-// Means of neighbours, so that at most `most` points are left.
-export function thinned(times, values, most = POINTS_KEPT) {
-    const every = Math.ceil(times.length / most);
-    const means = (list) => Array.from({ length: Math.ceil(list.length / every) }, (_, i) => {
+// Whether an on/off drive switches faster than it is logged: its runs are mostly one line, and do not
+// come in windows of some lines.
+function isAliased(drive) {
+    const ends = stretchEnds(drive);
+    const runs = ends.map((end, k) => end - (ends[k - 1] ?? -1));
+    const windows = runs.slice(2).map((run, k) => run + runs[k + 1]);
+    const usual = windows.length > 0 ? median(windows) : 0;
+    const regular = usual > 3 && windows.filter((one) => Math.abs(one - usual) <= 1).length > 0.8 * windows.length;
+    return new Set(drive).size === 2 && runs.length >= 8 && !regular && runs.filter((length) => length === 1).length >= 0.4 * runs.length;
+}
+
+// What full drive is, in the recording's numbers: { full, why } or { ask }.
+export function fullOf(name, drive, most) {
+    const high = Math.max(...rangeOf(drive).map(Math.abs));
+    if (/%|percent|prozent|pct/i.test(name)) {
+        return { full: 100, why: 'percent, by its name' };
+    }
+    if (drive.every((one) => one === 0 || one === 1)) {
+        return { full: 1, why: 'on and off' };
+    }
+    const near = FULLS.find((one) => Math.abs(high / one - 1) <= 0.01);
+    if (near !== undefined) {
+        return { full: near, why: `it goes to ${short(high)}` };
+    }
+    const own = most > 0 && !FULLS.includes(most) && most !== 100 ? [[most, `${most}, this page’s highest output`]] : [];
+    const all = [[1, '1'], [100, '100 %'], [255, '255'], [1023, '1023'], [4095, '4095'], ...own];
+    const answers = [...all, ...(all.some(([value]) => value === high) ? [] : [[high, `${short(high)}, the highest here`]])].filter(([value]) => value >= high && (value > 1 || high <= 1))
+        .map(([value, text]) => ({ value: String(value), text }));
+    return { ask: { key: 'full', text: `The drive goes up to ${short(high)}. How much is full drive?`, answers, other: 'another number', chosen: drive.includes(100) ? '100' : undefined } };
+}
+
+// --- All of it ------------------------------------------------------------------------
+
+// Means of neighbours, so that POINTS_KEPT points are left for a plot.
+export function thinned(list) {
+    const every = Math.ceil(list.length / POINTS_KEPT);
+    return every <= 1 ? list : Array.from({ length: Math.ceil(list.length / every) }, (_, i) => {
         const part = list.slice(i * every, (i + 1) * every);
         return part.reduce((sum, one) => sum + one, 0) / part.length;
     });
-    return every <= 1 ? { times, values } : { times: means(times), values: means(values) };
 }
 
-// Where no column is a time, one is added with a line for each step, if the rate is known.
-// Its place, or -1.
-function withLineTimes(table, rate) {
-    if (!(rate > 0) || timeColumn(table) >= 0) {
-        return -1;
-    }
-    table.names.push('lines');
-    table.kinds.push('number');
-    return table.columns.push(table.lines.map((_, i) => i / rate)) - 1;
+// Lines of one measurement: { t, u, y, holes }.
+export function linesOf({ t, columns, drive }, value) {
+    const y = columns[value];
+    const at = [...t.keys()].filter((i) => !Number.isNaN(y[i]));
+    return { t: at.map((i) => t[i]), u: at.map((i) => drive[i]), y: at.map((i) => y[i]), holes: t.length - at.length };
 }
 
-function rolesOf(table, choices) {
-    const own = (asked, found) => (Number.isInteger(asked) && asked < table.columns.length ? asked : found());
-    const time = own(choices.time, () => timeColumn(table));
-    const drive = own(choices.drive, () => (table.columns.length < 3 ? -1 : driveColumn(table, time, choices.value)));
-    const value = own(choices.value, () => valueColumn(table, time, drive));
-    return { time, drive, value };
-}
-
-// Rows in the order of their times, without those that lack one of them.
-function rowsOf(table, roles, scale) {
-    const [t, y] = [table.columns[roles.time], table.columns[roles.value]];
-    const u = table.columns[roles.drive];
-    let order = t.map((_, i) => i).filter((i) => !Number.isNaN(t[i]));
-    const holes = order.filter((i) => Number.isNaN(y[i])).length;
-    order = order.filter((i) => !Number.isNaN(y[i]));
-    const back = order.find((i, k) => k > 0 && t[i] < t[order[k - 1]]);
-    if (back !== undefined) {
-        order.sort((a, b) => t[a] - t[b]);
-    }
-    const start = order.length > 0 ? t[order[0]] : 0;
-    return { times: order.map((i) => (t[i] - start) * scale), values: order.map((i) => y[i]), drive: u && order.map((i) => u[i]),
-        lines: order.map((i) => table.lines[i]), holes, back: back === undefined ? null : table.lines[back] };
-}
-
-function without(rows, places) {
-    const gone = new Set(places);
-    const left = (list) => list && list.filter((_, i) => !gone.has(i));
-    return { ...rows, times: left(rows.times), values: left(rows.values), drive: left(rows.drive), lines: left(rows.lines) };
-}
-
-// What has to be said of the reading.
-function readingNotes(table, rows, far, { unit, why }, chosen) {
+function readingNotes(table, names, { loads, goals, whys }) {
     const plural = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
-    const notes = [`Time is in ${unit}, ${chosen ? 'as you chose' : `as ${why}`}.`];
-    const say = (yes, text) => yes && notes.push(text);
-    say(table.form.decimal === ',', 'Decimals have a comma.');
-    say(far.length > 0, `Left out as outliers: ${far.slice(0, 4).map((i) => `${rows.values[i]} in line ${rows.lines[i]}`).join(', ')}${far.length > 4 ? ` and ${far.length - 4} more` : ''}.`);
-    say(rows.holes > 0, `${plural(rows.holes, 'line')} without a measurement left out.`);
-    say(rows.back !== null, `Sorted by time, as line ${rows.back} goes back.`);
-    table.skipped.slice(0, 3).forEach(({ line, why: reason }) => notes.push(`Line ${line}: ${reason}.`));
-    say(table.skipped.length > 3, `${plural(table.skipped.length - 3, 'more line')} of this kind.`);
-    return notes;
+    return [...goals.map((i) => `${nameOf(names, i)} is ${whys[i]}.`), ...loads.map((i) => `${nameOf(names, i)} moves, too: to this fit it is a load.`),
+        ...(table.form.decimal === ',' ? ['Decimals have a comma.'] : []), ...table.skipped.slice(0, 3).map(({ line, why }) => `Line ${line}: ${why}.`),
+        ...(table.skipped.length > 3 ? [`${plural(table.skipped.length - 3, 'more line')} of this kind.`] : [])];
 }
 
-// The step of the drive as a part of what it can be: 30 of 100 %, 76 of 255, 0.3 of 1.
-export function partOfDrive({ from, to }, name, most) {
-    const high = Math.max(Math.abs(from), Math.abs(to));
-    const full = high <= 1 ? 1 : /%/.test(name) ? 100 : most >= high && most !== 1000 ? most
-        : [100, 255, 1000, 1023, 4095, 10000, 32767, 65535].find((one) => one >= high) ?? high;
-    return { full, step: (to - from) / full, rest: from / full };
+export const nameOf = (names, i) => (names[i] ? `“${names[i]}”` : `Column ${i + 1}`);
+
+// A drive that is not in the recording, from a step that was told: { drive, before, ask }.
+function toldDrive(t, step) {
+    const ask = { key: 'step', text: 'No column is the drive. What was stepped, and when?', step: true };
+    return step === null ? { drive: t.map(() => 100), before: 0, ask } : { drive: t.map((one) => (one >= step.at ? step.to : step.from)), before: step.from };
 }
 
-// What is understood of a text: { refused } or { names, roles, unit, notes, preview, times,
-// values (thinned, in seconds from the first line), outliers, stepAt, by: how that was
-// found, jump: { from, to } of the drive or null, every: seconds between lines }.
-export function* understood(text, choices = {}) {
-    const table = yield* readTable(text);
+function timesOf(table, choices) {
+    const at = choices.time ?? timeColumn(table);
+    if (at >= 0) {
+        const found = unitOfTime(table.names[at], table.kinds[at], knownOf(table.columns[at]));
+        return { at, times: table.columns[at], ...found, ...(choices.unit === null ? {} : { unit: choices.unit, why: 'as you chose', ask: undefined }) };
+    }
+    const every = choices.every ?? 1 / choices.rate;
+    const ask = { key: 'every', text: 'No column is a time. How many seconds are the lines apart?', other: 'seconds', chosen: String(every),
+        answers: [{ value: String(every), text: `${digits(every)} s, this page’s step` }] };
+    return { at: -1, times: table.lines.map((_, i) => i * every), unit: 's', why: 'lines are evenly apart', ask: choices.every === null ? ask : undefined };
+}
+
+const NO_CHOICE = { time: null, drive: null, value: null, unit: null, full: null, before: null, part: null, every: null, step: null, rate: 1, most: 0 };
+
+// What is understood of a text: { refused } or { names, roles, unit, full, whys, questions, notes,
+// preview, t, columns, drive, before: a number, or null where it is not known }. `choices` are what a
+// person said, null where nothing.
+export function understood(text, more = {}) {
+    const choices = { ...NO_CHOICE, ...more };
+    const table = readTable(text);
     if (table.refused !== undefined) {
         return { refused: table.refused };
     }
-    const timed = withLineTimes(table, choices.rate);
-    const refused = (sentence) => ({ refused: sentence, names: table.names, roles, notes: table.skipped.slice(0, 3).map(({ line, why }) => `Line ${line}: ${why}.`) });
-    const roles = rolesOf(table, choices);
+    const { names } = table;
     const bad = table.skipped.filter(({ why }) => !why.endsWith('is read'));
     if (bad.length > 0.1 * (table.lines.length + bad.length)) {
-        return refused(`${bad.length} of ${table.lines.length + bad.length} lines cannot be read: line ${bad[0].line}: ${bad[0].why}.`);
+        return { refused: `${bad.length} of ${table.lines.length + bad.length} lines cannot be read: line ${bad[0].line}: ${bad[0].why}.` };
     }
-    if (table.lines.length < LEAST_ROWS) {
-        return refused(`${table.lines.length} lines can be read; at least ${LEAST_ROWS} are needed.`);
+    const { at: time, times, unit, why, ask } = timesOf(table, choices);
+    const rows = rowsOf(table, times, UNITS[unit], choices.part);
+    const roles = rolesOf({ names, columns: rows.columns }, time, choices);
+    const found = { names, roles, unit, whys: { ...roles.whys, time: why, drive: roles.drive < 0 ? '' : roles.whys[roles.drive] }, notes: readingNotes(table, names, roles), t: rows.t, columns: rows.columns,
+        questions: [ask, choices.part === null ? rows.ask : null].filter(Boolean),
+        preview: rows.lines.slice(0, PREVIEW).map((line, i) => ({ line, cells: rows.columns.map((column) => column[i]) })) };
+    return { ...found, ...drivenBy(found, choices) };
+}
+
+// What drove it: { drive, before, full, questions } or { refused }.
+function drivenBy({ names, roles, t, columns, whys, questions }, choices) {
+    if (roles.values.length === 0) {
+        return { questions: [], refused: 'No column is left for the measurement, or it never moves: choose another.' };
     }
-    if (roles.time < 0) {
-        return refused('No column rises from line to line: choose the one that is the time.');
+    if (roles.asked.length > 0) {
+        return { questions: [...questions, { key: 'drive', text: 'More than one column moves. Which one drove the plant?', answers: [...roles.asked.map((i) => ({ value: String(i), text: nameOf(names, i) })), { value: '-1', text: 'none of them' }] }] };
     }
-    if (roles.value < 0 || roles.value === roles.time) {
-        return refused('No column is left for the measurement: choose another.');
+    if (roles.drive < 0 && choices.drive === null && roles.goals.length > 0) {
+        return { questions: [], refused: `${nameOf(names, roles.goals[0])} is a setpoint, which drives nothing: log the output, too. A closed loop without it tells nothing.` };
     }
-    yield;
-    const found = choices.unit in UNITS ? { unit: choices.unit }
-        : roles.time === timed ? { unit: 's', why: 'no column rises: each line is a step of this page’s rate, which is set first' }
-            : unitOfTime(table.names[roles.time], table.kinds[roles.time], knownOf(table.columns[roles.time]));
-    const all = rowsOf(table, roles, UNITS[found.unit]);
-    if (all.times.length < LEAST_ROWS || all.times.at(-1) <= 0) {
-        return refused(all.times.length < LEAST_ROWS ? `${all.times.length} lines have a time and a measurement; at least ${LEAST_ROWS} are needed.`
-            : 'The time stands still.');
+    if (roles.drive < 0) {
+        const { ask, ...told } = toldDrive(t, choices.step);
+        return { ...told, full: 100, questions: ask === undefined ? questions : [...questions, ask] };
     }
-    yield;
-    const far = yield* outliersOf(all.values);
-    yield;
-    const notes = readingNotes(table, all, far, found, choices.unit in UNITS);
-    const rows = without(all, far);
-    const jump = rows.drive ? jumpOf(rows.drive) : null;
-    if (roles.drive >= 0 && jump === null) {
-        notes.push('The drive has no step between two values that stand still.');
+    const drive = held(columns[roles.drive]);
+    if (isAliased(drive)) {
+        return { questions: [], refused: `${nameOf(names, roles.drive)} switches faster than it is logged: log its duty, or log faster.` };
     }
-    const [from, to] = jump === null ? [0, rows.times.length] : [jump.first, jump.next];
-    if (to < rows.times.length) {
-        notes.push(`Used up to line ${rows.lines[to - 1]}, where the drive moves again.`);
-    }
-    const asked = Number.isFinite(choices.stepAt) ? choices.stepAt : null;
-    const stepAt = asked ?? (jump === null ? 0 : (rows.times[jump.at - 1] + rows.times[jump.at]) / 2);
-    const steps = rows.times.slice(1).map((t, i) => t - rows.times[i]);
-    return { names: table.names, roles, unit: found.unit, notes, every: median(steps), count: table.lines.length,
-        preview: Array.from({ length: Math.min(PREVIEW, table.lines.length) }, (_, i) => ({ line: table.lines[i], cells: table.columns.map((column) => column[i]) })),
-        outliers: far.map((i) => ({ t: all.times[i], value: all.values[i] })), stepAt, by: asked !== null ? 'you' : jump === null ? 'start' : 'drive',
-        jump, ...thinned(rows.times.slice(from, to), rows.values.slice(from, to)) };
+    const { full = null, why = '', ask } = choices.full === null ? fullOf(names[roles.drive], drive, choices.most) : { full: choices.full, why: 'as you chose' };
+    return { drive, before: choices.before, full, whys: { ...whys, full: why }, questions: ask === undefined ? questions : [...questions, ask] };
 }

@@ -38,3 +38,9 @@ export function identifySimc(plant, step, calm) {
     exported().identify_simc(at + 24, step, calm, at);
     return [...doubles(at, 3)];
 }
+
+// What is said of a recording that is refused for this reason; '' of a usable one.
+export function sentenceOf(reason) {
+    const bytes = new Uint8Array(exported().memory.buffer, exported().verdict_sentence(reason));
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+}

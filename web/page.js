@@ -3,11 +3,13 @@
 import { CONTROLLER, EXPERIMENT, LIMIT, OPTION, PLANT, VERSION } from './built.js';
 import { adviceOf, notesOf } from './advice.js';
 import { figuresOf, fillFigures, fillRules, marginFigures } from './cards.js';
+import { calmGains } from './calm.js';
 import { createPanel } from './controls.js';
 import { find, make, setText } from './dom.js';
 import { experiment, run, startEngine } from './engine.js';
 import { createEventList, createFlags } from './events.js';
 import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
+import { serveFits } from './fitter.js';
 import { digits, whole } from './format.js';
 import { fillGuard } from './guard.js';
 import { fileOf, wholeHeaderOf } from './header.js';
@@ -21,7 +23,7 @@ import { plantOfKind } from './own.js';
 import { createPast, wayOfKey } from './past.js';
 import { createPlots, color, followPlots } from './plot.js';
 import { recordText } from './record.js';
-import { createRecorder, serveRecordings } from './recorder.js';
+import { createRecorder } from './recorder.js';
 import { drawBode, drawNyquist, offText } from './response.js';
 import { gainsOfRule } from './rules.js';
 import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
@@ -30,6 +32,7 @@ import { LOOP_NAME, PRESETS, change, changeNow, currentState, fragmentOf, onChan
 import { createSvg } from './svg.js';
 import { createTools } from './tools.js';
 import { showTour } from './tour.js';
+import { createVerdict, rememberPlants } from './verdict.js';
 
 let plots = null;
 let flags = null;
@@ -40,6 +43,7 @@ let past = null;
 let recorder = null;
 let live = null;
 let tools = null;
+let judge = null;
 let held = false; // a hand drags a slider or a flag
 let mode = 'run'; // or 'load', or 'tune': what the plots show
 let cursor = null;
@@ -237,9 +241,10 @@ function showHead(s) {
     }
 }
 
+// While a question of the recording is open, no gains leave the page.
 function allowTaking(allowed) {
-    for (const id of ['copy', 'save', 'keep', 'take-png', 'take-svg', 'take-csv', 'take-json']) {
-        find(`#${id}`).disabled = !allowed;
+    for (const id of ['copy', 'save', 'share', 'keep', 'take-png', 'take-svg', 'take-csv', 'take-json']) {
+        find(`#${id}`).disabled = !allowed || recorder.asks();
     }
 }
 
@@ -254,6 +259,7 @@ function showRefused(s, found) {
         find(`#${id}`).getContext('2d').clearRect(0, 0, 1e4, 1e4);
     }
     setText(find('#off'), '');
+    find('#verdict').hidden = true;
     find('#header').textContent = '';
     setText(find('#file'), fileOf(s));
     allowTaking(false);
@@ -272,7 +278,11 @@ function showRun(s, found, margins, alone) {
     showPlots(alone?.s ?? s, experimenting ?? alone?.found ?? found);
     showPicture(s, found);
     showMargins(s, margins);
-    setText(find('#header'), wholeHeaderOf(s, results, margins));
+    const { text = null, warning = null } = judge(s, results, margins) ?? {};
+    setText(find('#verdict'), [text && `${text}.`, warning].filter(Boolean).join(' '));
+    find('#verdict').hidden = text === null;
+    find('#verdict').classList.toggle('risky', warning !== null);
+    setText(find('#header'), wholeHeaderOf(s, results, margins, [text, warning && `Warning: ${warning}`].filter(Boolean)));
     setText(find('#file'), `${fileOf(s)}: kp ${results.KP}, ki ${results.KI}, kd ${results.KD}`);
     allowTaking(true);
 }
@@ -422,9 +432,13 @@ async function openJson(event) {
 
 // --- A recording --------------------------------------------------------------------
 
-function useRecorded(plant) {
+// With gains as calm as its recording wants them.
+function useRecorded(plant, allowed) {
     mode = 'run';
-    changeNow(ownState(currentState(), plant));
+    const next = ownState(currentState(), plant);
+    changeNow({ ...next, ...(next.CONTROLLER === CONTROLLER.PID ? calmGains(next, allowed.calm) : {}) });
+    rememberPlants(currentState(), allowed);
+    show();
     find('#view').scrollIntoView();
     say('The plant is the one that was recorded; sensor, output and rate are yours.');
 }
@@ -438,12 +452,16 @@ function gainsOfPage() {
 }
 
 // The board's hardware and gains, on a plant that was found there or the page's own.
-function useBoard(hardware, plant) {
+function useBoard(hardware, plant, allowed = null) {
     const s = { ...currentState(), ...hardware };
     const own = s.preset === 'own' && s.PLANT !== PLANT.PENDULUM ? {} : plantOfKind(s, PLANT.LAGS);
     const { KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX, OPTIONS } = hardware;
     mode = 'run';
     changeNow({ ...ownState(s, plant ?? own), CONTROLLER: CONTROLLER.PID, KP, KI, KD, FILTER, WEIGHT, INTEGRAL_MIN, INTEGRAL_MAX, OPTIONS });
+    if (allowed !== null) {
+        rememberPlants(currentState(), allowed);
+        show();
+    }
     find('#view').scrollIntoView();
     say(plant === null ? 'Rate, limits and gains are the board’s; the plant is this page’s.' : 'Plant, rate, limits and gains are the board’s: what is shown is a prediction.');
 }
@@ -455,7 +473,6 @@ function useLines(text, name) {
 
 function useHandStep(hardware, text, name) {
     useBoard(hardware, null);
-    find('#record-unit').value = 'counts';
     useLines(text, name);
 }
 
@@ -569,7 +586,9 @@ async function startPage() {
     events = createEventList(find('#events'), currentState, (next) => change({ events: next }));
     panel = createPanel(change);
     past = createPast({ fragment: () => fragmentOf(currentState()), go: (fragment) => changeNow(stateOfFragment(fragment)) });
-    recorder = createRecorder(find('#recorder'), { onUse: useRecorded, outputMost: () => currentState().OUTPUT_MAX, rate: () => currentState().RATE });
+    recorder = createRecorder(find('#recorder'), { onUse: useRecorded, onAsk: () => allowTaking(find('#header').textContent !== ''),
+        outputMost: () => currentState().OUTPUT_MAX, rate: () => currentState().RATE, unit: () => currentState().unit });
+    judge = createVerdict(show);
     live = createLive(find('#live'), { gains: gainsOfPage, scene: currentState, onPlant: useBoard, onStep: useHandStep, onText: useLines, download });
     tools = createTools(find('#tools'), { copy: toClipboard, useRecord });
     listen();
@@ -581,9 +600,9 @@ async function startPage() {
     document.body.dataset.ready = 'yes';
 }
 
-// A worker that fits recordings has this script, too, and no document.
+// A worker that makes fits has this script, too, and no document.
 if (typeof document === 'undefined') {
-    serveRecordings();
+    serveFits();
 } else {
     startPage();
 }

@@ -1,198 +1,100 @@
 // SPDX-License-Identifier: MIT
-// The card of a recording: what is pasted, dropped or opened is read and fitted by a
-// worker, or in short parts where there is none; what was understood is shown, and a
-// model that fits can be taken as the plant.
-import { PLANT } from './built.js';
-import { partOfDrive } from './columns.js';
-import { blank, find, make, setText, table } from './dom.js';
-import { digits, percent } from './format.js';
-import { KIND_NAMES, modelAt, modelText, recordingOf } from './models.js';
+// The card of a recording: what is pasted, dropped or opened is read and fitted by a worker. What its
+// columns are taken for stands beside them and can be changed, what nobody can know is asked, and a
+// model that is safe to tune for can be taken as the plant.
+import { FIT_REASON } from './built.js';
+import { blank, make, setText, table } from './dom.js';
+import { readNumber } from './fields.js';
+import { createFitter } from './fitter.js';
+import { digits } from './format.js';
+import { fitNotes, KIND_NAMES, modelText, plantOfModel } from './models.js';
 import { color, drawGrid } from './plot.js';
 
 const LONG = 100000; // characters that a text field shows without holding the page
 const PAUSE = 80; // milliseconds
-const SLICE = 12; // milliseconds of a part
 const PLOT = { left: 56, right: 14, top: 8, bottom: 24 };
 const ROLES = { time: 'Time', drive: 'Drive', value: 'Measurement' };
-const CHOICES = ['#record-time', '#record-drive', '#record-value', '#record-seconds', '#record-at'];
-
-// What the worker does: this page's script is its script, too.
-export function serveRecordings() {
-    self.onmessage = ({ data: { id, text, choices } }) => {
-        const parts = recordingOf(text, choices);
-        let part = parts.next();
-        while (!part.done) {
-            part = parts.next();
-        }
-        self.postMessage({ id, found: part.value });
-    };
-}
-
-let workerAddress = null;
-
-function makeWorker() {
-    workerAddress ??= URL.createObjectURL(new Blob(['"use strict";', find('#code').textContent], { type: 'text/javascript' }));
-    return new Worker(workerAddress);
-}
-
-// { ask(text, choices), stop(), works() }: `onFound` gets what was found for what was asked
-// last.
-function createReader(onFound) {
-    let [worker, broken, asked, waiting] = [null, false, 0, null];
-
-    async function inSlices(id, { text, choices }) {
-        const parts = recordingOf(text, choices);
-        for (let part = { done: false }; id === asked;) {
-            const until = performance.now() + SLICE;
-            while (!part.done && performance.now() < until) {
-                part = parts.next();
-            }
-            if (part.done) {
-                answer(id, part.value);
-                return;
-            }
-            await new Promise((go) => {
-                setTimeout(go, 0);
-            });
-        }
-    }
-
-    function answer(id, found) {
-        if (id === asked) {
-            waiting = null;
-            onFound(found);
-        }
-    }
-
-    function fail(event) {
-        event?.preventDefault?.();
-        [worker, broken] = [null, true];
-        if (waiting !== null) {
-            inSlices(asked, waiting);
-        }
-    }
-
-    // What is not needed any more.
-    function stop() {
-        asked += 1;
-        if (waiting !== null && worker !== null) {
-            worker.terminate();
-            worker = null;
-        }
-        waiting = null;
-    }
-
-    function ask(text, choices) {
-        stop();
-        waiting = { text, choices };
-        try {
-            if (!broken && worker === null) {
-                worker = makeWorker();
-                worker.onmessage = ({ data }) => answer(data.id, data.found);
-                worker.onerror = fail;
-            }
-        } catch {
-            broken = true;
-        }
-        if (broken) {
-            inSlices(asked, waiting);
-        } else {
-            worker.postMessage({ id: asked, text, choices });
-        }
-    }
-
-    return { ask, stop, works: () => (broken ? 'slices' : 'worker') };
-}
 
 // --- The plot ---------------------------------------------------------------------
 
-function limitsOf({ times, values, outliers }) {
-    const all = [...values, ...outliers.map(({ value }) => value)].filter(Number.isFinite);
-    const seen = all.length > 0 ? values : [0, 1];
-    const [low, high] = seen.reduce(([a, b], one) => [Math.min(a, one), Math.max(b, one)], [Infinity, -Infinity]);
-    const room = 0.08 * (high - low) || 1;
-    return { low: low - room, high: high + room, duration: times.at(-1) };
-}
-
 // Where a number of the plot is on the canvas.
-function scalesOf(read, width, height) {
-    const { low, high, duration } = limitsOf(read);
+function scalesOf({ points, range }, width, height) {
+    const room = 0.08 * (range.high - range.low) || 1;
+    const [low, high, duration] = [range.low - room, range.high + room, points.t.at(-1) || 1];
     const area = { left: PLOT.left, right: width - PLOT.right, top: PLOT.top, bottom: height - PLOT.bottom };
     return { low, high, duration, area, hasAxis: true, x: (t) => area.left + (area.right - area.left) * t / duration,
-        y: (value) => area.bottom - (area.bottom - area.top) * (value - low) / (high - low) };
+        y: (value) => Math.min(area.bottom, Math.max(area.top, area.bottom - (area.bottom - area.top) * (value - low) / (high - low))) };
 }
 
-function drawRecording(canvas, read, fit, kind) {
+// What drove it, held, in the lowest fifth.
+function drawDrive(context, { points: { t, u } }, { x, area }) {
+    const most = u.reduce((high, one) => Math.max(high, Math.abs(one)), 0) || 1;
+    const y = (drive) => area.bottom - (area.bottom - area.top) / 5 * Math.abs(drive) / most;
+    context.beginPath();
+    t.forEach((one, i) => {
+        context.lineTo(x(one), y(u[Math.max(0, i - 1)]));
+        context.lineTo(x(one), y(u[i]));
+    });
+    context.strokeStyle = color('output');
+    context.lineWidth = 1;
+    context.stroke();
+}
+
+function drawRecording(canvas, read, shown, chosen) {
     const { context, width, height } = blank(canvas);
     const scales = scalesOf(read, width, height);
-    const { x, y, area, duration } = scales;
+    const { x, y } = scales;
     drawGrid(context, scales);
+    drawDrive(context, read, scales);
     context.fillStyle = color('setpoint');
-    read.times.forEach((t, i) => context.fillRect(x(t) - 1.25, y(read.values[i]) - 1.25, 2.5, 2.5));
-    context.strokeStyle = color('bad');
-    context.lineWidth = 1.5;
-    for (const { t, value } of read.outliers) { // at the edge where they are beyond it
-        const at = Math.min(area.bottom, Math.max(area.top, y(value)));
-        context.strokeRect(x(t) - 3, at - 3, 6, 6);
-    }
-    context.setLineDash([6, 4]);
-    context.strokeStyle = color('output');
-    context.beginPath();
-    context.moveTo(x(read.stepAt), area.top);
-    context.lineTo(x(read.stepAt), area.bottom);
-    context.stroke();
-    context.setLineDash([]);
-    const shown = fit?.models?.filter((model) => model.kind === kind || model.refused === null) ?? [];
-    for (const model of [...shown].sort((a) => (a.kind === kind ? 1 : -1))) {
-        const chosen = model.kind === kind;
-        context.strokeStyle = color(chosen ? 'measured' : 'kept');
-        context.lineWidth = chosen ? 2 : 1;
+    read.points.t.forEach((t, i) => context.fillRect(x(t) - 1.25, y(read.points.y[i]) - 1.25, 2.5, 2.5));
+    for (const model of [...shown].sort((a) => (a === chosen ? 1 : -1))) {
+        context.strokeStyle = color(model === chosen ? 'measured' : 'kept');
+        context.lineWidth = model === chosen ? 2 : 1;
         context.beginPath();
-        for (let i = 0; i <= 400; i++) {
-            const t = duration * i / 400;
-            context.lineTo(x(t), Math.min(area.bottom, Math.max(area.top, y(modelAt(model, t - read.stepAt)))));
-        }
+        model.curve.t.forEach((t, i) => context.lineTo(x(t), y(model.curve.y[i])));
         context.stroke();
     }
 }
 
+// --- Questions --------------------------------------------------------------------
+
+const numberField = (label, value = '') => make('input', { type: 'text', inputMode: 'decimal', size: 6, value, 'aria-label': label });
+
+// A question: its answers as buttons, and a field where another number may be one. onAnswer(value).
+function questionRow({ key, text, answers = [], chosen, other, step }, onAnswer) {
+    const button = (textContent, value, more = {}) => {
+        const made = make('button', { type: 'button', textContent, ...more });
+        made.addEventListener('click', () => onAnswer(typeof value === 'function' ? value() : value));
+        return made;
+    };
+    const fields = step ? [['from', '0'], ['to', ''], ['at', '0']].map(([name, value]) => [name, numberField(`The step: ${name}`, value)]) : [];
+    const field = numberField(`${text} ${other}`);
+    const valid = (found) => (Object.values(found).every(Number.isFinite) ? found : null);
+    const told = () => valid(Object.fromEntries(fields.map(([name, one]) => [name, readNumber(one.value).value])));
+    const rest = step ? [...fields.flatMap(([name, one]) => [` ${name} `, one, name === 'at' ? ' s ' : ' % ']), button('Take it', told)]
+        : other ? [`${other} `, field, ' ', button('Take it', () => valid({ value: readNumber(field.value).value })?.value ?? null)] : [];
+    return make('div', { className: 'ask', role: 'group', 'aria-label': text }, make('p', { textContent: text }),
+        ...answers.map((one) => button(one.text, one.value, { className: one.value === chosen ? 'likely' : '', value: `${key} ${one.value}` })), ...rest);
+}
+
 // --- The card ---------------------------------------------------------------------
 
-function numberOf(field) {
-    const text = field.value.trim().replace(',', '.').replace('−', '-');
-    return text === '' ? NaN : Number(text);
-}
-
-// What a state calls a model that was recorded with a step of this part of full drive,
-// from `rest`.
-export function plantOfModel(model, { step, rest }) {
-    const round = (x) => Number(x.toPrecision(4));
-    const gain = model.rise / step;
-    const plant = { GAIN: round(gain), T1: round(model.T1 ?? 1), T2: round(model.T2 ?? 0), DEAD: round(model.dead), START: round(model.start - gain * rest) };
-    switch (model.kind) {
-    case 'integrating': return { ...plant, PLANT: PLANT.INTEGRATOR, START: round(model.start) };
-    case 'ringing': return { ...plant, PLANT: PLANT.OSCILLATOR, DAMPING: round(model.damping) };
-    default: return { ...plant, PLANT: PLANT.LAGS };
-    }
-}
-
-// Fills the card `section`. onUse(plant, unit, { low, high }) takes a plant; outputMost()
-// is the highest output that the page has, rate() its steps per second.
-export function createRecorder(section, { onUse, outputMost, rate }) {
+// Fills the card `section`. onUse(plant, { plants, full, calm }, range) takes a plant; onAsk(open) is
+// told whether a question is open; outputMost() is the highest output that the page has, rate() its
+// steps per second, unit() that of its measurement.
+export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }) {
     const own = (id) => section.querySelector(id);
     const field = own('#recording');
     const canvas = own('#fit-plot');
     let held = null; // a text that is too long for the field
+    let answers = {}; // by the keys of questions and columns
     let [found, kind, timer] = [null, null, 0];
-    const reader = createReader(show);
+    const fitter = createFitter(show);
 
     const text = () => held ?? field.value;
-
-    function choices() {
-        const column = (id) => (own(id).value === '' ? null : Number(own(id).value));
-        return { time: column('#record-time'), drive: column('#record-drive'), value: column('#record-value'),
-            unit: own('#record-seconds').value, stepAt: numberOf(own('#record-at')), rate: rate() };
-    }
+    const questions = () => found?.read.questions ?? [];
+    const chosen = () => found?.fit?.models?.[kind] ?? null;
 
     // Whether a plant can be taken is not known until it is fitted.
     function wait() {
@@ -200,13 +102,19 @@ export function createRecorder(section, { onUse, outputMost, rate }) {
         section.dataset.busy = 'yes';
     }
 
+    function choices() {
+        const numbers = Object.fromEntries(['time', 'drive', 'value', 'full', 'every', 'part'].filter((key) => key in answers).map((key) => [key, Number(answers[key])]));
+        const before = answers.before === undefined || answers.before === 'moving' ? answers.before ?? null : Number(answers.before);
+        return { ...numbers, unit: answers.unit ?? null, step: answers.step ?? null, before, rate: rate(), most: outputMost() };
+    }
+
     function ask() {
         wait();
         if (text().trim() === '') {
-            reader.stop();
+            fitter.stop();
             show(null);
         } else {
-            reader.ask(text(), choices());
+            fitter.ask({ text: text(), choices: choices() });
         }
     }
 
@@ -217,149 +125,114 @@ export function createRecorder(section, { onUse, outputMost, rate }) {
         wait();
     }
 
-    // What was chosen for another recording is not kept for a new one.
+    // What was said of another recording is not kept for a new one.
     function take(next, name, anew = true) {
         held = next.length > LONG ? next : null;
         field.readOnly = held !== null;
-        own('#record-clear').hidden = held === null;
         const lines = held === null ? 0 : next.split('\n').length;
         const seen = held === null ? next : `${next.slice(0, 2000).split('\n').slice(0, 20).join('\n')}\n… ${name}, ${lines} lines`;
         if (field.value !== seen) {
             field.value = seen;
         }
-        if (anew) {
-            for (const id of CHOICES) {
-                own(id).value = '';
-            }
-            own('#record-step').dataset.own = '';
-        }
+        answers = anew ? {} : answers;
         ask();
     }
 
-    function stepOf() {
-        const { read } = found;
-        const size = numberOf(own('#record-step')) / 100;
-        const jump = read?.jump ?? null;
-        const rest = jump === null ? 0 : size * jump.from / (jump.to - jump.from);
-        return { step: size, rest };
-    }
-
-    function chosen() {
-        return found?.fit?.models?.find((model) => model.kind === kind) ?? null;
+    // Another answer; null or '' is none.
+    function say(key, value) {
+        answers = Object.fromEntries(Object.entries({ ...answers, [key]: value }).filter(([, one]) => one !== null && one !== ''));
+        ask();
     }
 
     function show(next) {
         found = next;
         kind = next?.fit?.chosen ?? null;
         delete section.dataset.busy;
-        section.dataset.done = reader.works();
-        const jump = next?.read.jump ?? null;
-        if (jump !== null && own('#record-step').dataset.own !== 'yes') {
-            const { step } = partOfDrive(jump, next.read.names[next.read.roles.drive] ?? '', outputMost());
-            own('#record-step').value = String(Number((100 * step).toPrecision(4)));
-        }
+        section.dataset.done = fitter.works();
+        own('#record-clear').hidden = next === null;
+        own('#record-asks').replaceChildren(...questions().map((one) => questionRow(one, (value) => say(one.key, value))), ...againButtons());
         showColumns(next?.read ?? null);
         showFit();
+        onAsk(questions().length > 0);
+    }
+
+    // What was answered, and is in no field beside a column, can be asked again.
+    function againButtons() {
+        const names = { part: 'the part', every: 'the time between lines', before: 'what was before', step: 'the step' };
+        return Object.entries(names).filter(([key]) => key in answers).map(([key, name]) => {
+            const button = make('button', { type: 'button', className: 'quiet', textContent: `Ask again for ${name}` });
+            button.addEventListener('click', () => say(key, null));
+            return button;
+        });
     }
 
     function showColumns(read) {
         const columns = read?.names ?? [];
-        own('#record-roles').hidden = columns.length === 0;
+        own('#record-roles').hidden = read?.roles === undefined;
+        if (read?.roles === undefined) {
+            return;
+        }
+        const { roles, whys, unit: seconds, full } = read;
+        const names = columns.map((name, i) => `${i + 1}${name === '' ? '' : `: ${name}`}`);
+        const places = { time: roles.time, drive: roles.drive, value: read.value ?? -1 };
         for (const [role, word] of Object.entries(ROLES)) {
             const select = own(`#record-${role}`);
-            const asked = select.value;
-            const names = columns.map((name, i) => `${i + 1}${name === '' ? '' : `: ${name}`}`);
-            const is = read?.roles?.[role] ?? -1;
-            const auto = `found: ${is >= 0 ? names[is] ?? '–' : 'none'}`;
-            select.replaceChildren(make('option', { value: '', textContent: asked === '' ? auto : 'by itself' }),
-                ...(role === 'drive' ? [make('option', { value: '-1', textContent: 'none' })] : []),
-                ...names.map((name, i) => make('option', { value: String(i), textContent: name })));
-            select.value = asked;
+            select.replaceChildren(make('option', { value: role === 'drive' ? '-1' : '', textContent: 'none' }), ...names.map((name, i) => make('option', { value: String(i), textContent: name })));
+            select.value = places[role] < 0 ? select.options[0].value : String(places[role]);
             select.setAttribute('aria-label', `Column of the ${word.toLowerCase()}`);
+            setText(own(`#record-${role}-why`), whys[role] ?? '');
         }
-        own('#record-seconds').firstChild.textContent = read?.unit === undefined || own('#record-seconds').value !== '' ? 'by itself' : `found: ${read.unit}`;
-        own('#record-at').placeholder = read?.stepAt === undefined ? '' : digits(read.stepAt, 4);
-        const known = read?.preview !== undefined;
-        own('#record-preview').hidden = !known;
-        if (known) {
-            const heads = read.names.map((name, i) => {
-                const role = Object.keys(ROLES).find((one) => read.roles[one] === i);
-                return `${role === undefined ? 'not used' : ROLES[role]}${name === '' ? '' : ` (${name})`}${role === 'time' ? `, ${read.unit}` : ''}`;
-            });
-            own('#record-lines').replaceChildren(table('The first lines as they are understood', ['Line', ...heads],
-                read.preview.map(({ line, cells }) => ({ cells: [String(line), ...cells.map((cell) => (Number.isNaN(cell) ? 'none' : String(Number(cell.toPrecision(12)))))] }))));
+        own('#record-seconds').value = seconds;
+        if (document.activeElement !== own('#record-full')) {
+            own('#record-full').value = full ?? '';
         }
+        setText(own('#record-full-why'), whys.full ?? '');
+    }
+
+    function worthText(model) {
+        if (model.reason !== FIT_REASON.USABLE) {
+            return model.sentence;
+        }
+        const slower = model.calm > 1 ? `, made ${model.calm} times slower as not all is known,` : '';
+        return `SIMC’s gains${slower} have Ms of ${digits(model.ms)} or less for nine of ten plants that the recording allows.`;
     }
 
     function showFit() {
         const { read = null, fit = null } = found ?? {};
         const model = chosen();
-        const { step } = found === null ? { step: NaN } : stepOf();
-        const unit = own('#record-unit').value;
-        const noStep = !(Number.isFinite(step) && step !== 0) ? 'How far was the output stepped? A step of 0 % moves nothing.' : null;
-        const refused = found === null ? null : read.refused ?? fit.refused ?? model.refused ?? noStep;
-        setText(own('#fit'), found === null ? '' : refused ?? sentenceOf(model, step, unit, read));
-        own('#fit').className = refused !== null ? 'refused' : model === null ? '' : model.word === 'fits well' ? 'good' : 'fair';
-        own('#use-fit').disabled = found === null || refused !== null || 'busy' in section.dataset;
-        own('#record-notes').replaceChildren(...(read?.notes ?? []).map((note) => make('li', { textContent: note })));
-        const drawn = read?.times !== undefined;
-        canvas.hidden = !drawn;
-        if (drawn) {
-            drawRecording(canvas, read, fit, kind);
+        const open = questions().length > 0;
+        const refused = read?.refused ?? (model === null ? fit?.sentence ?? null : model.reason === FIT_REASON.USABLE ? null : model.sentence);
+        const about = model === null ? '' : `${modelText(model.plant, read.full, unit())}. R² is ${model.r2.toFixed(4)}. `;
+        setText(own('#fit'), read === null ? '' : refused !== null ? `${refused}${model === null ? '' : ` Not to be used: ${about}`}` : model === null ? 'Answer the question first.' : `${about}${worthText(model)}`);
+        own('#fit').className = refused !== null ? 'refused' : model === null ? '' : open || model.calm > 1 ? 'fair' : 'good';
+        own('#use-fit').disabled = model === null || refused !== null || open || 'busy' in section.dataset;
+        own('#record-notes').replaceChildren(...[...read?.notes ?? [], ...fit === null ? [] : fitNotes(fit)].map((note) => make('li', { textContent: note })));
+        const usable = fit?.models?.filter((one, i) => i === fit.chosen || one.reason === FIT_REASON.USABLE) ?? [];
+        canvas.hidden = read?.points === undefined;
+        if (!canvas.hidden) {
+            drawRecording(canvas, read, usable, model);
         }
-        fillModels(fit?.models ?? [], Number.isFinite(step) && step !== 0 ? step : 1);
+        fillModels(usable, read?.full ?? null);
     }
 
-    function sentenceOf(model, step, unit, read) {
-        const worth = `It ${model.word}: ${percent(model.part)} of the rise is left on average, R² is ${model.r2.toFixed(4)}`;
-        const rest = read.by === 'start' && model.dead > 0.3 * (model.T1 ?? 0) && model.dead > 5 * read.every
-            ? ' The first line is taken as the moment of the step: if there was rest before it, say when the step was.' : '';
-        const slow = model.kind === 'integrating' ? ' A lag far longer than the recording would look the same, and gets the same gains.' : '';
-        return `${modelText(model, step, unit)}. ${worth}.${slow}${rest}`;
-    }
-
-    function fillModels(models, step) {
-        own('#record-models').hidden = models.length === 0;
-        const button = (model) => {
-            const made = make('button', { type: 'button', textContent: 'Show', 'aria-pressed': String(model.kind === kind), 'aria-label': `Show ${KIND_NAMES[model.kind]}` });
+    function fillModels(models, full) {
+        own('#record-models').hidden = models.length < 2;
+        const button = ({ plant }) => {
+            const made = make('button', { type: 'button', textContent: 'Show', 'aria-pressed': String(plant.kind === kind), 'aria-label': `Show ${KIND_NAMES[plant.kind]}` });
             made.addEventListener('click', () => {
-                ({ kind } = model);
+                ({ kind } = plant);
                 showFit();
-                own(`#record-models [aria-label="Show ${KIND_NAMES[model.kind]}"]`).focus();
+                own(`#record-models [aria-label="Show ${KIND_NAMES[kind]}"]`).focus();
             });
             return made;
         };
-        const lags = ({ kind: of, T1, T2, damping }) => ({ first: () => digits(T1), second: () => `${digits(T1)}, ${digits(T2)}`, integrating: () => digits(T2),
-            ringing: () => `${digits(T1)}, ζ ${digits(damping, 2)}` })[of]();
-        own('#record-models').replaceChildren(table('Gain at full drive; times in seconds',
-            ['Model', 'Look', 'Worth', 'Gain', 'Lags', 'Dead time', 'R²', 'Left'], models.map((model) => ({ chosen: model.kind === kind, cells: [KIND_NAMES[model.kind], button(model),
-                model.refused === null ? model.word : 'refused', digits(model.rise / step), lags(model), digits(model.dead), model.r2.toFixed(4), percent(Math.min(9.99, model.part))] }))));
+        own('#record-models').replaceChildren(table('Models that may be used', ['Model', 'Look', 'Plant', 'Ms', 'R²'], models.map((model) => ({ chosen: model.plant.kind === kind,
+            cells: [KIND_NAMES[model.plant.kind], button(model), modelText(model.plant, full, unit()), model.calm > 0 ? digits(model.ms) : '–', model.r2.toFixed(4)] }))));
     }
 
     function use() {
-        const { read } = found;
-        const range = read.values.reduce(({ low, high }, one) => ({ low: Math.min(low, one), high: Math.max(high, one) }), { low: Infinity, high: -Infinity });
-        onUse({ ...plantOfModel(chosen(), stepOf()), unit: own('#record-unit').value }, range);
-    }
-
-    // The line of the step is gripped within 12 pixels of it.
-    function grip(event) {
-        const { x, area, duration } = scalesOf(found.read, canvas.clientWidth, canvas.clientHeight);
-        const at = (one) => (one.clientX - canvas.getBoundingClientRect().left - area.left) / (area.right - area.left) * duration;
-        if (Math.abs(x(at(event)) - x(found.read.stepAt)) > 12) {
-            return;
-        }
-        canvas.setPointerCapture(event.pointerId);
-        canvas.onpointermove = (one) => {
-            found.read.stepAt = Math.min(duration, Math.max(0, at(one)));
-            own('#record-at').value = String(Number(found.read.stepAt.toPrecision(4)));
-            drawRecording(canvas, found.read, null, null);
-        };
-        canvas.onpointerup = () => {
-            canvas.onpointermove = null;
-            canvas.onpointerup = null;
-            ask();
-        };
+        const { read, fit } = found;
+        onUse(plantOfModel(chosen(), read.full), { plants: fit.plants, full: read.full, calm: chosen().calm }, read.range);
     }
 
     async function takeFile(file) {
@@ -394,13 +267,11 @@ export function createRecorder(section, { onUse, outputMost, rate }) {
             take(event.dataTransfer.getData('text'), 'dropped');
         }
     });
-    CHOICES.forEach((id) => own(id).addEventListener('input', () => later(ask)));
-    own('#record-step').addEventListener('input', () => {
-        own('#record-step').dataset.own = 'yes';
-        showFit();
-    });
-    own('#record-unit').addEventListener('input', showFit);
+    for (const role of Object.keys(ROLES)) {
+        own(`#record-${role}`).addEventListener('change', (event) => say(role, event.target.value));
+    }
+    own('#record-seconds').addEventListener('change', (event) => say('unit', event.target.value));
+    own('#record-full').addEventListener('change', (event) => say('full', readNumber(event.target.value).value > 0 ? readNumber(event.target.value).value : null));
     own('#use-fit').addEventListener('click', use);
-    canvas.addEventListener('pointerdown', grip);
-    return { draw: showFit, take };
+    return { draw: showFit, take, asks: () => questions().length > 0 };
 }

@@ -11,12 +11,12 @@ module Sources
   # Without contraction each operation rounds as IEEE 754 says, on every machine.
   EXACT = %w[-std=c99 -Wall -Wextra -Werror -ffp-contract=off].freeze
 
-  INTERFACES = %w[sim/tuner/tuner.h sim/tuner/margins.h sim/identify/identify.h sim/link/link_page.h].freeze
+  INTERFACES = %w[sim/tuner/tuner.h sim/tuner/margins.h sim/identify/identify.h sim/identify/verdict.h sim/link/link_page.h].freeze
 
   class << self
     # Its functions are those of these headers.
     def wasm(output)
-      exports = INTERFACES.flat_map { |path| File.read(path).scan(/^\w.*?((?:tuner_|live_|identify)\w*)\(/).flatten }
+      exports = INTERFACES.flat_map { |path| File.read(path).scan(/^\w.*?((?:tuner_|live_|identify|verdict_sentence)\w*)\(/).flatten }
       ['clang', '--target=wasm32', '-O2', *EXACT, '-ffreestanding', '-nostdlib', '-mbulk-memory', *PATHS, *LIBRARY,
        *PLANTS, *TUNER, *LINK, '-Wl,--no-entry,--strip-all,--gc-sections',
        *exports.map { |name| "-Wl,--export=#{name}" }, '-o', output]
