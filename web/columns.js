@@ -129,11 +129,13 @@ function isStepped(column) {
     return moves.length > 0 && (new Set(column).size === 2 || (moves.length <= 0.2 * column.length && median(moves) >= 0.1 * swingOf(column)));
 }
 
-// Whether a measurement comes to what this column says, at the end of most of its stretches.
-function isFollowed(column, value) {
-    const ends = stretchEnds(column);
-    return ends.filter((i) => Math.abs(value[i] - column[i]) <= 0.1 * swingOf(value)).length > 0.5 * ends.length;
+// How near a measurement comes to what this column says at the end of most of its stretches, as a part
+// of its swing.
+function distanceOf(column, value) {
+    return quantile(stretchEnds(column).map((i) => Math.abs(value[i] - column[i])), 0.5) / swingOf(value);
 }
+
+const isFollowed = (column, value) => distanceOf(column, value) <= 0.1;
 
 // { time, goals, drive, values, asked: columns of which one is the drive, or [], whys }. A drive of -1 is
 // none.
@@ -150,8 +152,9 @@ function rolesOf({ names, columns }, time, choices) {
     };
     const goals = others.filter(isGoal).map(({ i }) => i);
     const left = movers.filter(({ i }) => !goals.includes(i) && i !== choices.value);
-    const following = left.filter(({ column }) => others.some((goal) => goals.includes(goal.i) && goal.moves && isFollowed(goal.column, column)));
-    const followed = following.length === 1 ? following[0] : undefined;
+    const goal = others.find(({ i, moves }) => moves && goals.includes(i));
+    const [nearest, second] = left.filter(() => goal !== undefined).map((one) => ({ one, away: distanceOf(goal.column, one.column) })).sort((a, b) => a.away - b.away);
+    const followed = nearest?.away <= 0.1 && !(second?.away <= Math.min(0.1, 5 * nearest.away)) ? nearest.one : undefined;
     const named = left.filter((one) => one.named);
     const stepped = left.filter(({ column }) => isStepped(column));
     const alone = left.filter((one) => one !== followed);

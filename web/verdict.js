@@ -15,29 +15,28 @@ export function rememberPlants(s, allowed) {
     allowances.set(plantKey(s), allowed);
 }
 
-// { low, high } of the Ms of nine of ten, which are sorted.
-export function ninthOf(each) {
-    return { low: each[0], high: each[Math.floor(0.9 * each.length)] };
+// { text, warning: a sentence, or null }, of the loop's own Ms and of that with each plant in their
+// order, infinite where it is unstable. Python's package says the same.
+export function verdictOfEach(own, each) {
+    const most = each[Math.floor(0.9 * each.length)];
+    const above = each.filter((one) => one > MOST_MS).length;
+    const said = Number.isFinite(most) ? `${digits(each[0], 2)} to ${digits(most, 2)} for nine of ten plants` : 'unstable for more than one of ten plants';
+    return { text: `${Number.isFinite(own) ? `Ms ${digits(own, 2)}` : 'unstable'}; ${said} that the recording allows`,
+        warning: most <= MOST_MS ? null : `${above} of ${each.length} plants that the recording allows have Ms above ${MOST_MS} with these gains: take calmer ones, or record again.` };
 }
 
-export function verdictText(ms, { low, high }) {
-    return `Ms ${digits(ms)}; ${digits(low)} to ${Number.isFinite(high) ? digits(high) : 'unstable'} for nine of ten plants that the recording allows`;
-}
-
-export const isRisky = ({ high }) => !(high <= MOST_MS);
-
-// A function of the state, its results and its margins: { low, high }, or null where nothing is
-// recorded or it is not known yet: onKnown() is called then.
+// A function of the state, its results and its margins: what verdictOfEach says, or null where nothing
+// is recorded or it is not known yet: onKnown() is called then.
 export function createVerdict(onKnown) {
     let [key, found, timer] = ['', null, 0];
-    return (s, results) => {
+    return (s, results, { stable, ms }) => {
         const allowed = allowances.get(plantKey(s));
         const now = allowed === undefined ? '' : JSON.stringify([{ ...s, kept: [], events: [] }, results]);
         if (now !== key) {
             clearTimeout(timer);
             [key, found] = [now, null];
             timer = allowed === undefined ? 0 : setTimeout(() => {
-                found = ninthOf(msOfEach(s, results, allowed.plants, allowed.full));
+                found = verdictOfEach(stable ? ms : Infinity, msOfEach(s, results, allowed.plants, allowed.full));
                 onKnown();
             }, REST_MS);
         }
