@@ -25,7 +25,7 @@ const knownOf = (column) => column.filter((value) => !Number.isNaN(value));
 const differences = (column) => column.slice(1).map((value, i) => value - column[i]);
 const rangeOf = (column) => column.reduce(([low, high], one) => [Math.min(low, one), Math.max(high, one)], [Infinity, -Infinity]);
 // With holes as the value before them.
-function held(column) {
+function holesFilled(column) {
     let last = column.find((value) => !Number.isNaN(value));
     return column.map((value) => (last = Number.isNaN(value) ? last : value));
 }
@@ -140,7 +140,7 @@ const isFollowed = (column, value) => distanceOf(column, value) <= 0.1;
 // { time, goals, drive, values, asked: columns of which one is the drive, or [], whys }. A drive of -1 is
 // none.
 function rolesOf({ names, columns }, time, choices) {
-    const others = columns.map((column, i) => ({ i, name: names[i], column: held(column), moves: swingOf(held(column)) > 0, named: isDriveName(names[i]) }))
+    const others = columns.map((column, i) => ({ i, name: names[i], column: holesFilled(column), moves: swingOf(holesFilled(column)) > 0, named: isDriveName(names[i]) }))
         .filter(({ i, column }) => i !== time && column[0] !== undefined);
     const movers = others.filter(({ moves }) => moves);
     const whys = {};
@@ -285,7 +285,7 @@ function drivenBy({ names, roles, t, columns, whys, questions }, choices) {
         const { ask, ...told } = toldDrive(t, choices.step);
         return { ...told, full: 100, questions: ask === undefined ? questions : [...questions, ask] };
     }
-    const drive = held(columns[roles.drive]);
+    const drive = holesFilled(columns[roles.drive]);
     if (isAliased(drive)) {
         return { questions: [], refused: `${nameOf(names, roles.drive)} switches faster than it is logged: log its duty, or log faster.` };
     }
