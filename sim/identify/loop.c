@@ -21,13 +21,17 @@ struct matrix {
     double of[SIZE][SIZE];
 };
 
-// x[n + 1] = phi x[n] + now u[n - steps] + before u[n - steps - 1]
+// x[n + 1] - x[n] = change x[n] + now u[n - steps] + before u[n - steps - 1],
+// and the polynomials of z - 1 that this is from u to y.
 struct sampled {
     int states;
     int steps;
-    double phi[LOOP_STATES][LOOP_STATES];
+    struct matrix change;
     double now[LOOP_STATES];
     double before[LOOP_STATES];
+    double top[LOOP_STATES];
+    double top_before[LOOP_STATES];
+    double bottom[LOOP_STATES];
     const double *c;
     const struct loop_controller *controller;
 };
@@ -115,78 +119,89 @@ void loop_plant_of(struct loop_plant *to, const struct identify_plant *from,
     }
 }
 
-static struct matrix identity(void)
+// product a b + share c
+static struct matrix combined(const struct matrix *a, const struct matrix *b,
+                              double product, const struct matrix *c,
+                              double share)
 {
-    struct matrix m = {{{0.0}}};
-    for (int i = 0; i < SIZE; i++) {
-        m.of[i][i] = 1.0;
-    }
-    return m;
-}
-
-// factor a b
-static struct matrix multiplied(const struct matrix *a, const struct matrix *b,
-                                double factor)
-{
-    struct matrix m = {{{0.0}}};
+    struct matrix to;
     for (int i = 0; i < SIZE; i++) {
         for (int j = 0; j < SIZE; j++) {
+            double sum = 0.0;
             for (int k = 0; k < SIZE; k++) {
-                m.of[i][j] += factor * a->of[i][k] * b->of[k][j];
+                sum += a->of[i][k] * b->of[k][j];
             }
+            to.of[i][j] = (product * sum) + (share * c->of[i][j]);
         }
     }
-    return m;
+    return to;
 }
 
-static double largest_row(const struct matrix *a)
+// How the states change in some seconds, and by an input of 1 meanwhile:
+// exp - 1, by Taylor's series of a part of it that is below 1/8, doubled again.
+static struct matrix moved(const struct loop_plant *plant, double seconds)
 {
+    struct matrix rates = {{{0.0}}};
+    struct matrix sum = rates;
     double largest = 0.0;
-    for (int i = 0; i < SIZE; i++) {
-        double row = 0.0;
-        for (int j = 0; j < SIZE; j++) {
-            row += fabs(a->of[i][j]);
+    double part = seconds;
+    int doublings = 0;
+
+    for (int i = 0; i < plant->states; i++) {
+        double row = fabs(plant->b[i]);
+        for (int j = 0; j < plant->states; j++) {
+            rates.of[i][j] = plant->a[i][j];
+            row += fabs(plant->a[i][j]);
         }
+        rates.of[i][INPUT] = plant->b[i];
         largest = larger(largest, row);
     }
-    return largest;
-}
-
-// exp(a), by Taylor's series of a part of it that is below 1/8, squared again.
-static struct matrix exponential(const struct matrix *a)
-{
-    const struct matrix one = identity();
-    struct matrix sum = one;
-    double part = 1.0;
-    int halvings = 0;
-
-    while ((largest_row(a) * part > 0.125) && (halvings < 60)) {
+    while ((largest * part > 0.125) && (doublings < 60)) {
         part /= 2.0;
-        halvings++;
+        doublings++;
     }
     for (int k = 16; k > 0; k--) {
-        sum = multiplied(a, &sum, part / k);
-        for (int i = 0; i < SIZE; i++) {
-            sum.of[i][i] += 1.0;
-        }
+        sum = combined(&rates, &sum, part / k, &rates, part / k);
     }
-    for (int i = 0; i < halvings; i++) {
-        sum = multiplied(&sum, &sum, 1.0);
+    for (int i = 0; i < doublings; i++) {
+        sum = combined(&sum, &sum, 1.0, &sum, 2.0);
     }
     return sum;
 }
 
-// How the plant moves in some seconds, and with an input of 1 meanwhile.
-static struct matrix moved(const struct loop_plant *plant, double seconds)
+// c m b
+static double through(const struct sampled *s, const struct matrix *m,
+                      const double *b)
 {
-    struct matrix rates = {{{0.0}}};
-    for (int i = 0; i < plant->states; i++) {
-        for (int j = 0; j < plant->states; j++) {
-            rates.of[i][j] = plant->a[i][j] * seconds;
+    double sum = 0.0;
+    for (int i = 0; i < s->states; i++) {
+        for (int j = 0; j < s->states; j++) {
+            sum += s->c[i] * m->of[i][j] * b[j];
         }
-        rates.of[i][INPUT] = plant->b[i] * seconds;
     }
-    return exponential(&rates);
+    return sum;
+}
+
+// The polynomials, by Leverrier's method. Of a slow plant z - 1 is small, and
+// polynomials of z would lose all digits.
+static void divide(struct sampled *s)
+{
+    struct matrix m = {{{0.0}}};
+    double last = 1.0;
+    for (int k = 0; k < s->states; k++) {
+        double trace = 0.0;
+        for (int i = 0; i < s->states; i++) {
+            m.of[i][i] += last;
+        }
+        s->top[k] = through(s, &m, s->now);
+        s->top_before[k] = through(s, &m, s->before);
+        m = combined(&s->change, &m, 1.0, &m, 0.0);
+        for (int i = 0; i < s->states; i++) {
+            trace += m.of[i][i];
+        }
+        last = -trace / (k + 1);
+        s->bottom[k] = last;
+    }
 }
 
 static void sample(struct sampled *s, const struct loop_plant *plant,
@@ -196,14 +211,13 @@ static void sample(struct sampled *s, const struct loop_plant *plant,
     s->c = plant->c;
     s->steps = (int)floor((plant->dead / step_s) + 1e-9);
     const double late = larger(plant->dead - (s->steps * step_s), 0.0);
-    const struct matrix whole = moved(plant, step_s);
     const struct matrix after = moved(plant, step_s - late);
     const struct matrix during = moved(plant, late);
+    s->change = moved(plant, step_s);
     for (int i = 0; i < s->states; i++) {
         s->now[i] = after.of[i][INPUT];
-        s->before[i] = 0.0;
+        s->before[i] = during.of[i][INPUT];
         for (int j = 0; j < s->states; j++) {
-            s->phi[i][j] = whole.of[i][j];
             s->before[i] += after.of[i][j] * during.of[j][INPUT];
         }
     }
@@ -211,64 +225,22 @@ static void sample(struct sampled *s, const struct loop_plant *plant,
 
 // --- Its response and the controller's -------------------------------------
 
-typedef struct number equations[LOOP_STATES][SIZE];
-
-// Of n equations one without the k-th unknown: row minus a part of the k-th.
-static void reduce(struct number *row, const struct number *by, int k, int n)
-{
-    const struct number factor = quotient(row[k], by[k]);
-    for (int j = k; j <= n; j++) {
-        const struct number part = product(factor, by[j]);
-        row[j].re -= part.re;
-        row[j].im -= part.im;
-    }
-}
-
-// The equation with the largest k-th coefficient becomes the k-th.
-static void pivot(equations m, int k, int n)
-{
-    int at = k;
-    for (int i = k + 1; i < n; i++) {
-        at = (size_of(m[i][k]) > size_of(m[at][k])) ? i : at;
-    }
-    for (int j = k; j <= n; j++) {
-        const struct number kept = m[k][j];
-        m[k][j] = m[at][j];
-        m[at][j] = kept;
-    }
-}
-
-// c (z - phi)^-1 (now + before z^-1) z^-steps.
 static struct number plant_at(const struct sampled *s, double angle)
 {
-    const int n = s->states;
     const struct number one = back(angle, 1);
-    struct number sum = {0.0, 0.0};
-    equations m;
+    const struct number back_one = change(angle, 1);
+    const struct number d = {-back_one.re, back_one.im}; // z - 1
+    struct number top = {0.0, 0.0};
+    struct number bottom = {1.0, 0.0};
 
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) {
-            m[i][j] = (struct number){-s->phi[i][j], 0.0};
-        }
-        m[i][i].re += one.re;
-        m[i][i].im -= one.im;
-        m[i][n].re = s->now[i] + (s->before[i] * one.re);
-        m[i][n].im = s->before[i] * one.im;
+    for (int k = 0; k < s->states; k++) {
+        top = product(top, d);
+        top.re += s->top[k] + (s->top_before[k] * one.re);
+        top.im += s->top_before[k] * one.im;
+        bottom = product(bottom, d);
+        bottom.re += s->bottom[k];
     }
-    for (int k = 0; k < n; k++) {
-        pivot(m, k, n);
-        for (int i = 0; i < n; i++) {
-            if (i != k) {
-                reduce(m[i], m[k], k, n);
-            }
-        }
-    }
-    for (int i = 0; i < n; i++) {
-        const struct number state = quotient(m[i][n], m[i][i]);
-        sum.re += s->c[i] * state.re;
-        sum.im += s->c[i] * state.im;
-    }
-    return product(sum, back(angle, s->steps));
+    return product(quotient(top, bottom), back(angle, s->steps));
 }
 
 // What the derivative's factor is multiplied with.
@@ -278,7 +250,7 @@ static struct number derivative_at(const struct loop_controller *c,
     if (c->derivative == LOOP_THREE) {
         return change(angle, 3);
     }
-    if (c->derivative == LOOP_PERIODIC) { // on average: held for its period
+    if (c->derivative == LOOP_PERIODIC) { // on average, held for its period
         struct number held = {0.0, 0.0};
         for (int k = 0; k < c->period; k++) {
             held.re += back(angle, k).re / c->period;
@@ -307,56 +279,58 @@ static struct number loop_at(const struct sampled *s, double angle)
 // The loop without limits and rounding.
 struct run {
     double x[LOOP_STATES];
-    double y[4]; // of the last steps, the newest first
+    double y[4]; // of the last steps, by the two lowest bits of their number
     double integral;
     double derivative;
     double seen; // at the last sample of the derivative
 };
 
+static double measured(const struct run *run, const struct sampled *s)
+{
+    double y = 0.0;
+    for (int i = 0; i < s->states; i++) {
+        y += s->c[i] * run->x[i];
+    }
+    return y;
+}
+
 static void differentiate(struct run *run, const struct loop_controller *c,
                           int step)
 {
+    const double y = run->y[step & 3];
+
     if (c->derivative == LOOP_THREE) {
-        run->derivative = c->kd * (run->y[0] - run->y[3]);
+        run->derivative = c->kd * (y - run->y[(step + 1) & 3]);
     } else if (c->derivative == LOOP_FILTERED) {
-        run->derivative =
-            (c->keep * run->derivative) + (c->kd * (run->y[0] - run->y[1]));
+        run->derivative = (c->keep * run->derivative) +
+                          (c->kd * (y - run->y[(step + 3) & 3]));
     } else if ((step % c->period) == 0) {
-        run->derivative = c->kd * (run->y[0] - run->seen);
-        run->seen = run->y[0];
+        run->derivative = c->kd * (y - run->seen);
+        run->seen = y;
     }
 }
 
-// The output of a step, at which the measurement is `more` than the plant's.
-static double answered(struct run *run, const struct sampled *s, int step,
-                       double more)
+static double answered(struct run *run, const struct loop_controller *c,
+                       int step, double y)
 {
-    const struct loop_controller *c = s->controller;
-
-    for (int k = 3; k > 0; k--) {
-        run->y[k] = run->y[k - 1];
-    }
-    run->y[0] = more;
-    for (int k = 0; k < s->states; k++) {
-        run->y[0] += s->c[k] * run->x[k];
-    }
-    run->integral += c->ki * run->y[0];
+    run->y[step & 3] = y;
+    run->integral += c->ki * y;
     differentiate(run, c, step);
-    return -((c->kp * run->y[0]) + run->integral + run->derivative);
+    return -((c->kp * y) + run->integral + run->derivative);
 }
 
-static void move(struct run *run, const struct sampled *s, double u,
-                 double earlier)
+static void move(struct run *run, const struct sampled *s, const double u[2])
 {
-    double next[LOOP_STATES];
+    double change[LOOP_STATES];
+
     for (int i = 0; i < s->states; i++) {
-        next[i] = (s->now[i] * u) + (s->before[i] * earlier);
+        change[i] = (s->now[i] * u[1]) + (s->before[i] * u[0]);
         for (int j = 0; j < s->states; j++) {
-            next[i] += s->phi[i][j] * run->x[j];
+            change[i] += s->change.of[i][j] * run->x[j];
         }
     }
     for (int i = 0; i < s->states; i++) {
-        run->x[i] = next[i];
+        run->x[i] += change[i];
     }
 }
 
@@ -376,55 +350,82 @@ static bool settles(const struct sampled *s, int n)
         run.x[k] = s->now[k];
     }
     for (int i = 0; i < n; i++) {
-        const double output = answered(&run, s, i, (i == 0) ? 1.0 : 0.0);
-        const double size = fabs(run.y[0]);
-        if (!(size < 1e100)) {
+        const double y = measured(&run, s) + ((i == 0) ? 1.0 : 0.0);
+        const double output = answered(&run, s->controller, i, y);
+        if (!(fabs(y) < 1e100)) {
             return false;
         }
         if (i < n - s->steps) { // what comes later is not looked at
             driven[i + s->steps + 1] = output;
         }
-        move(&run, s, driven[i + 1], driven[i]);
-        most[(4 * i) / n] = larger(most[(4 * i) / n], size);
+        move(&run, s, &driven[i]);
+        most[(4 * i) / n] = larger(most[(4 * i) / n], fabs(y));
     }
     return (most[3] < (0.999 * most[1])) || (most[3] < 1e-9);
 }
 
-// How many steps of a push are looked at.
-static int watched(const struct loop_controller *c, double scale_steps)
+// Nearly the same controller with so many of its steps as one.
+static struct loop_controller slower(const struct loop_controller *c, int steps)
 {
-    const double reset = (c->ki != 0.0) ? fabs(c->kp / c->ki) : 0.0;
-    const double slowest = smaller(reset, 20.0 * scale_steps);
-    const double wanted = 60.0 * larger(scale_steps, slowest);
-    return (int)floor(smaller(larger(wanted, LEAST_STEPS), MOST_STEPS) + 0.5);
+    const bool filtered = (c->derivative == LOOP_FILTERED) && (c->keep > 0.0);
+    const double keep =
+        filtered ? exp(larger(steps * log(c->keep), -100.0)) : 0.0;
+    const double slopes[] = {(1.0 - keep) / (1.0 - c->keep), c->period, 3.0};
+
+    return (struct loop_controller){
+        .kp = c->kp,
+        .ki = c->ki * steps,
+        .kd = c->kd * slopes[c->derivative] / steps,
+        .derivative = LOOP_FILTERED,
+        .keep = keep,
+    };
+}
+
+// A push is looked at for 60 times what matters of the plant and the integral.
+// Where that takes too many steps, several are as one: as many as are short
+// beside what the loop does up to `fastest`, the last angle at which its gain
+// is
+// 1. Half of what they are longer comes off the dead time.
+static bool is_stable(const struct loop_plant *plant,
+                      const struct loop_controller *controller, double step_s,
+                      double fastest)
+{
+    const double scale = plant->scale / step_s;
+    const double reset =
+        (controller->ki != 0.0) ? fabs(controller->kp / controller->ki) : 0.0;
+    const double slowest = larger(scale, smaller(reset, 20.0 * scale));
+    const double wanted = larger(60.0 * slowest, LEAST_STEPS);
+    const int steps =
+        (int)larger(smaller(wanted / MOST_STEPS, 0.05 / fastest), 1.0);
+    const struct loop_controller by =
+        (steps > 1) ? slower(controller, steps) : *controller;
+    struct loop_plant nearer = *plant;
+    struct sampled s = {.controller = &by};
+
+    nearer.dead = larger(plant->dead - (0.5 * (steps - 1) * step_s), 0.0);
+    sample(&s, &nearer, step_s * steps);
+    return settles(&s, (int)floor(smaller(wanted / steps, MOST_STEPS) + 0.5));
 }
 
 // --- Margins ---------------------------------------------------------------
 
-// Above 0 on one side of a crossing: of the real axis, or of the unit circle.
-typedef double side(struct number at);
-
-static double above_axis(struct number at)
+static bool is_beyond(struct number at, bool circle)
 {
-    return at.im;
+    return circle ? (size_of(at) > 1.0) : (at.im > 0.0);
 }
 
-static double outside_circle(struct number at)
-{
-    return size_of(at) - 1.0;
-}
-
-// The angle between two points of the curve at which it changes the side.
-static double crossing(const struct sampled *s, side *of,
-                       const struct loop_margins *m, int point)
+// The angle between two points of the curve at which it crosses the real axis,
+// or the unit circle.
+static double crossing(const struct sampled *s, const struct loop_margins *m,
+                       int point, bool circle)
 {
     double low = m->angles[point - 1];
     double high = m->angles[point];
-    const bool above = of(loop_at(s, low)) > 0.0;
+    const bool beyond = is_beyond(loop_at(s, low), circle);
 
     for (int i = 0; i < 50; i++) {
         const double middle = sqrt(low * high);
-        if ((of(loop_at(s, middle)) > 0.0) == above) {
+        if (is_beyond(loop_at(s, middle), circle) == beyond) {
             low = middle;
         } else {
             high = middle;
@@ -520,22 +521,26 @@ static void draw(const struct sampled *s, struct loop_margins *m, double lowest)
     }
 }
 
-static void cross(const struct sampled *s, struct loop_margins *m,
-                  double step_s)
+// Returns the last angle at which the gain is 1, or next to 0.
+static double cross(const struct sampled *s, struct loop_margins *m,
+                    double step_s)
 {
+    double fastest = 1e-9;
+
     for (int i = 1; i < LOOP_POINTS; i++) {
         const struct number from = {m->re[i - 1], m->im[i - 1]};
         const struct number to = {m->re[i], m->im[i]};
-        if (((from.im > 0.0) != (to.im > 0.0)) &&
+        if ((is_beyond(from, false) != is_beyond(to, false)) &&
             ((from.re < 0.0) || (to.re < 0.0))) {
-            const double angle = crossing(s, above_axis, m, i);
+            const double angle = crossing(s, m, i, false);
             limit(m, loop_at(s, angle), angle);
         }
-        if ((size_of(from) > 1.0) != (size_of(to) > 1.0)) {
-            const double angle = crossing(s, outside_circle, m, i);
-            turn(m, loop_at(s, angle), angle, step_s);
+        if (is_beyond(from, true) != is_beyond(to, true)) {
+            fastest = crossing(s, m, i, true);
+            turn(m, loop_at(s, fastest), fastest, step_s);
         }
     }
+    return fastest;
 }
 
 // A real number is a crossing at both ends of the band, too: at pi, and at the
@@ -561,6 +566,7 @@ void loop_margins(const struct loop_plant *plant,
     const double lowest = smaller(0.01, 0.02 / scale_steps);
 
     sample(&s, plant, step_s);
+    divide(&s);
     *to = (struct loop_margins){.phase_degrees = NONE,
                                 .delay_s = NONE,
                                 .gain = NONE,
@@ -569,11 +575,11 @@ void loop_margins(const struct loop_plant *plant,
                                 .turnover = NONE,
                                 .dead_steps = s.steps};
     draw(&s, to, lowest);
-    cross(&s, to, step_s);
+    const double fastest = cross(&s, to, step_s);
     end(&s, to, lowest);
     to->ms = highest(&s, to, 0.0);
     to->off_ms = highest(&s, to, LOOP_OFF);
-    to->stable = settles(&s, watched(controller, scale_steps));
+    to->stable = is_stable(plant, controller, step_s, fastest);
     to->off_stable = to->stable && ((1.0 - LOOP_OFF) > to->lower_gain) &&
                      ((to->gain < 0.0) || ((1.0 + LOOP_OFF) < to->gain));
 }

@@ -5,7 +5,8 @@ import { readFileSync } from 'node:fs';
 import { check, checkNone, finish, loopByFormula, moduleOf, msByFormula } from './harness.mjs';
 
 const { run, startEngine } = await moduleOf('engine');
-const { OFF, countsGain, marginsOf, scaleSeconds } = await moduleOf('margins');
+const { OFF, countsGain, marginsOf, msOfEach, scaleSeconds } = await moduleOf('margins');
+const { identifySimc } = await moduleOf('identify');
 const { bodeOf, bodeText, betweenAngles, offText } = await moduleOf('response');
 const { calmGains } = await moduleOf('calm');
 const { PRESETS, ofLink, presetState, withController, withinReason } = await moduleOf('state');
@@ -97,6 +98,25 @@ check('a loop that is stable, and not with a gain that is off', marginsOf(quick,
     !marginsOf(quick, run(quick).results).off.stable);
 const unstable = { ...quick, KP: 6 };
 check('a loop with too much gain is unstable', !marginsOf(unstable, run(unstable).results).stable);
+
+// --- A slow plant under a quick controller -------------------------------------------
+// Plants of a recording, with SIMC's gains: Ms is nearly the same at any rate, and with 25 times
+// the gain no rate makes them stable. A push lasts up to 10 000 000 steps.
+const PLANTS = [[0, 1, 140, 0, 0, 9], [1, 1, 140, 20, 0, 9], [2, 0.01, 0, 5, 0, 9], [3, 1, 10, 0, 0.1, 3], [0, 1, 10, 0, 0, 50], [0, -1, 1000, 0, 0, 10]];
+
+function msAtRate(plant, rate, factor) {
+    const s = { ...presetState('own'), RATE: rate };
+    const perCount = factor * s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1) / (100 / s.OUTPUT_MAX);
+    const [kp, ki, kd] = identifySimc(plant, 1 / rate, 1);
+    return msOfEach(s, { KP: kp * perCount * 256, KI: ki * perCount / rate * 2 ** 24, KD: kd * perCount * rate * 256, FILTER: 0 }, [plant], 100)[0];
+}
+
+for (const [kind, gain, lag, lag2, damping, dead] of PLANTS) {
+    const plant = { kind, gain, lag, lag2, damping, dead };
+    const [slow, ...quick] = [10, 100, 1000, 10000].map((rate) => msAtRate(plant, rate, 1));
+    check(`kind ${kind} with ${dead} s of dead time: Ms ${slow.toFixed(3)} at any rate`, slow < 2.2 && quick.every((ms) => Math.abs(ms / slow - 1) < 0.02), `${quick}`);
+    check(`kind ${kind} with ${dead} s of dead time: unstable at any rate`, [10, 100, 1000, 10000].every((rate) => msAtRate(plant, rate, 25) === Infinity));
+}
 
 // --- By the formula ------------------------------------------------------------------------
 const LAG = { ...presetState('own'), GAIN: 100, T1: 10, T2: 0, SENSOR_BITS: 12, SENSOR_RANGE: 100, OUTPUT_MAX: 1000, RATE: 10 };
