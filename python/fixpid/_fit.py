@@ -10,7 +10,7 @@ from ._library import ffi, lib
 from ._plant import Plant
 from ._units import number
 
-MOST_MS, UNSTABLE = 2.2, 1e9  # as verdict.h has them
+MOST_MS, UNSTABLE = 2.2, 1e9  # as identify.h has them
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 # What each kind has besides gain and dead time, in the order of enum identify_kind.
 KINDS = {"first": ("lag",), "second": ("lag", "lag2"), "integrating": ("lag2",), "ringing": ("lag", "damping")}
@@ -136,7 +136,12 @@ class Fit:
     def plants(self) -> Tuple[Plant, ...]:
         """Plants of which the recording allows each as much as the next, for an output of 1 at most."""
         return tuple(_plant_of(one, 1.0, self._stood - (0 if one.kind == lib.IDENTIFY_INTEGRATING else one.gain * self._driven))
-                     for one in ffi.from_buffer("struct identify_plant[]", self._c_plants))
+                     for one in self._allowed())
+
+    def _allowed(self) -> List[Any]:
+        """The same as C has them, by their pointers."""
+        first = ffi.from_buffer("struct identify_plant[]", self._c_plants)
+        return [first + i for i in range(len(first))]
 
     def plot(self, axes: Any = None) -> Any:
         """The recording and the model, by matplotlib. Returns its axes."""

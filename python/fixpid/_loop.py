@@ -47,7 +47,7 @@ class Loop:
         self.verdict: Optional[str] = None
         self._warning: Optional[str] = None
         if fit is not None:
-            each = ms_of_each(state, run["results"], fit._c_plants, actuator.full or actuator.most)
+            each = ms_of_each(state, run["results"], fit._allowed(), actuator.full or actuator.most)
             own = self.margins["ms"]
             self.verdict, self._warning = verdict_of(math.inf if own is None else own, each)
             self.advice += [self._warning] * (self._warning is not None)
