@@ -15,6 +15,7 @@ Structures come back as dictionaries, and are given as keywords.
 Who passes what is no whole number gets a TypeError, what does not fit an OverflowError, and
 what C refuses by returning false a ValueError; each names the value.
 """
+from . import _nouns
 from ._core import __version__
 from ._fit import Fit, fit
 from ._library import ffi, lib
@@ -26,3 +27,8 @@ from ._nouns import *  # noqa: F403, the constants, and the classes that C alone
 from ._pid import Pid, pid_gains
 from ._plant import Plant
 from ._units import Actuator, Sensor
+
+__all__ = ["__version__", "Actuator", "Autotune", "AutotuneCause", "AutotuneState", "Difference", "Fit", "Link", "Loop", "Pid",
+           "Plant", "Reaction", "ReactionState", "Sensor", "Step", "Table", "ffi", "fit", "gains_from_milli", "gains_to_milli",
+           "guard_config", "lib", "pid_gains", "record_pack", "record_unpack", "sat16", "simulate", "slew_rate", "table", "tune"]
+__all__ += _nouns.__all__

@@ -3,15 +3,21 @@
 import enum
 import operator
 import textwrap
+from typing import Any, Callable, Dict, Iterable, Optional, Tuple, Union
 
 from . import _headers, _nouns
 from ._core import accept as _accept, each, ffi, fields_of as _fields, lib, new as _new
 
 
-def _causes(name):
+class Cause(enum.IntEnum):
     """An enum of C, whose members' `advice` is what the header says: what it is, and what to do."""
+
+    advice: str
+
+
+def _causes(name: str) -> Any:
     prefix = f"FIXPID_{name.split('_')[0].upper()}_"
-    made = enum.IntEnum("".join(map(str.capitalize, name.split("_"))), {
+    made = Cause("".join(map(str.capitalize, name.split("_"))), {
         one[len(prefix):]: value for value, one in sorted(ffi.typeof(f"enum fixpid_{name}").elements.items())}, module=__name__)
     for member in made:
         member.advice = _headers.FIELDS[f"fixpid_{name}"][prefix + member.name]
@@ -28,33 +34,33 @@ class Autotune(_nouns.Autotune):
     words, AUTOTUNE_QUICK, AUTOTUNE_SAFE and AUTOTUNE_CALM.
     """
 
-    def status(self):
+    def status(self) -> Cause:
         """An AutotuneState, whose `advice` says what to do about it."""
         return AutotuneState(lib.fixpid_autotune_status(self.c))
 
-    def progress(self):
+    def progress(self) -> Dict[str, int]:
         """How far it is: phase, done, expected and period, as a dictionary."""
         stage = _new("autotune_stage", {})
         lib.fixpid_autotune_progress(self.c, stage)
         return _fields(stage[0])
 
-    def model(self):
+    def model(self) -> Optional[Dict[str, Any]]:
         """The process that was found, as a dictionary, or None."""
         process = _new("autotune_process", {})
         return _fields(process[0]) if lib.fixpid_autotune_model(self.c, process) else None
 
-    def result(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE, **config):
+    def result(self, rule: int, robustness_q4: int = lib.FIXPID_AUTOTUNE_SAFE, **config: Any) -> Optional[Dict[str, Any]]:
         """What Pid takes, by a rule: the fields of `config`, as the output's range, with the
         gains that were found. None if there are none: `reason` says why."""
         config = _new("pid_config", config)
         found = lib.fixpid_autotune_result(self.c, rule, robustness_q4, config)
         return _fields(config[0]) if found else None
 
-    def reason(self, rule, robustness_q4=lib.FIXPID_AUTOTUNE_SAFE):
+    def reason(self, rule: int, robustness_q4: int = lib.FIXPID_AUTOTUNE_SAFE) -> Cause:
         """Why there is no result: an AutotuneCause, whose `advice` says what to do about it."""
         return AutotuneCause(lib.fixpid_autotune_reason(self.c, rule, robustness_q4))
 
-    def pack(self):
+    def pack(self) -> bytes:
         """A record of the experiment, as bytes. ValueError while it runs."""
         record = _new("autotune_record", {})
         if not lib.fixpid_autotune_pack(self.c, record):
@@ -62,7 +68,7 @@ class Autotune(_nouns.Autotune):
         return bytes(record.bytes)
 
     @classmethod
-    def unpack(cls, record):
+    def unpack(cls, record: Union[str, bytes]) -> "Autotune":
         """The experiment as it ended, maybe on a chip: from a record, as bytes or as
         hexadecimal text with any white space."""
         if isinstance(record, str):
@@ -86,16 +92,16 @@ class Reaction(_nouns.Reaction):
     words, REACTION_QUICK, REACTION_SAFE and REACTION_CALM.
     """
 
-    def status(self):
+    def status(self) -> Cause:
         """A ReactionState, whose `advice` says what to do about it."""
         return ReactionState(lib.fixpid_reaction_status(self.c))
 
-    def model(self):
+    def model(self) -> Optional[Dict[str, Any]]:
         """The process that was found, as a dictionary, or None."""
         process = _new("reaction_process", {})
         return _fields(process[0]) if lib.fixpid_reaction_model(self.c, process) else None
 
-    def result(self, rule, robustness_q4=lib.FIXPID_REACTION_SAFE):
+    def result(self, rule: int, robustness_q4: int = lib.FIXPID_REACTION_SAFE) -> Optional[Dict[str, int]]:
         """The gains that Pid takes, by a rule. None if there are none: it has not measured, or
         one of them is out of its range. They want a setpoint_weight_q8 of 128."""
         gains = _new("pid_gains", {})
@@ -105,28 +111,28 @@ class Reaction(_nouns.Reaction):
 class Table:
     """A curve from points: fixpid_table.h. `points` are pairs (x, y) of integers, whose x rise."""
 
-    error = None  # where `table` has found the points: the worst one, in counts
+    error: Optional[float] = None  # where `table` has found the points: the worst one, in counts
 
-    def __init__(self, points):
+    def __init__(self, points: Iterable[Tuple[int, int]]) -> None:
         self.points = tuple((operator.index(x), operator.index(y)) for x, y in points)
         self._points = ffi.new("struct fixpid_table_point[]", self.points)
         self._table = _new("table", {"points": self._points, "count": len(self.points)})
         _accept(lib.fixpid_table_valid(self._table),
                 f"points = {self.points}, fewer than 2 or whose x do not rise,")
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Table({list(self.points)})"
 
     def __reduce__(self):
         return Table, (self.points,), {"error": self.error}
 
-    def at(self, x):
+    def at(self, x: Any) -> Any:
         """The curve at x; of an array or a list, an array."""
         if hasattr(x, "__iter__"):
             return each("fixpid_table_at", self._table, (x,))
         return lib.fixpid_table_at(self._table, operator.index(x))
 
-    def c(self, name):
+    def c(self, name: str) -> str:
         """The table in C: the array, and what fixpid_table_at takes."""
         points = textwrap.wrap(", ".join(f"{{{x},_{y}}}" for x, y in self.points), 76)
         error = "" if self.error is None else f", within {self.error:.4g} counts"
@@ -138,7 +144,8 @@ class Table:
             f"static const struct fixpid_table {name} = FIXPID_TABLE({name}_points);", ""])
 
 
-def table(function, first, last, points=None, error=None):
+def table(function: Callable[[int], float], first: int, last: int, points: Optional[int] = None,
+          error: Optional[float] = None) -> Table:
     """The Table that follows a function best: 16 points, so many, or as few as an error allows.
 
     `function(x)` is the value in counts, as a float, for all whole x from first to last. The
@@ -158,12 +165,12 @@ def table(function, first, last, points=None, error=None):
     return found
 
 
-def sat16(value):
+def sat16(value: int) -> int:
     """A number of 32 bits, limited to -32768..32767: a setpoint or a measurement."""
     return lib.fixpid_sat16(operator.index(value))
 
 
-def slew_rate(counts_per_second, steps_per_second):
+def slew_rate(counts_per_second: float, steps_per_second: float) -> int:
     """What the macro FIXPID_SLEW_RATE makes of it."""
     _accept(steps_per_second > 0, f"steps_per_second = {steps_per_second}")
     rate = counts_per_second * 65536.0 / steps_per_second
@@ -171,7 +178,7 @@ def slew_rate(counts_per_second, steps_per_second):
     return int(rate + 0.5)
 
 
-def guard_config(model, output_min, output_max, **config):
+def guard_config(model: Dict[str, Any], output_min: int, output_max: int, **config: int) -> Dict[str, int]:
     """What Guard takes for a plant, by fixpid_guard_from_model.
 
     `model` is a dictionary as Autotune.model gives it, maybe with `bands`, and `config` is all
@@ -190,7 +197,7 @@ def guard_config(model, output_min, output_max, **config):
     return chosen
 
 
-def gains_from_milli(kp, ki, kd, rate_milli, filter=0):
+def gains_from_milli(kp: int, ki: int, kd: int, rate_milli: int, filter: int = 0) -> Dict[str, int]:
     """Gains from thousandths, as fixpid_gains.h has them."""
     gains, milli = _new("pid_gains", {}), _new("gains_milli", {"kp": kp, "ki": ki, "kd": kd})
     _accept(lib.fixpid_gains_from_milli(gains, milli, rate_milli, filter),
@@ -198,7 +205,7 @@ def gains_from_milli(kp, ki, kd, rate_milli, filter=0):
     return _fields(gains[0])
 
 
-def gains_to_milli(gains, rate_milli):
+def gains_to_milli(gains: Dict[str, int], rate_milli: int) -> Dict[str, int]:
     """The way back."""
     milli = _new("gains_milli", {})
     _accept(lib.fixpid_gains_to_milli(milli, _new("pid_gains", gains), rate_milli),
@@ -206,14 +213,14 @@ def gains_to_milli(gains, rate_milli):
     return _fields(milli[0])
 
 
-def record_pack(**config):
+def record_pack(**config: Any) -> bytes:
     """A configuration of Pid as bytes: fixpid_record.h."""
     record = _new("record", {})
     lib.fixpid_record_pack(record, _new("pid_config", config))
     return bytes(record.bytes)
 
 
-def record_unpack(record):
+def record_unpack(record: bytes) -> Dict[str, Any]:
     """The configuration of a record; ValueError for another version or a wrong check."""
     config = _new("pid_config", {})
     if len(record) != lib.FIXPID_RECORD_SIZE:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The general-purpose controller, in counts as C has it and in real units."""
 import math
+from typing import Any, Dict, Optional, Tuple
 
 from . import _nouns
 from ._core import accept, each, ffi, lib, new
@@ -22,7 +23,7 @@ def _folded(name, value, scaled, least, most):
     return int(scaled + 0.5)
 
 
-def pid_gains(kp, ki=0.0, kd=0.0, rate=1.0, filter=0):
+def pid_gains(kp: float, ki: float = 0.0, kd: float = 0.0, rate: float = 1.0, filter: int = 0) -> Dict[str, int]:
     """What the macro FIXPID_PID_GAINS makes of gains in real units: the field `gains`."""
     kp, ki, kd, rate = (number(*one) for one in (("kp", kp), ("ki", ki), ("kd", kd), ("rate", rate)))
     if not rate > 0:
@@ -50,8 +51,10 @@ class Pid(_nouns.Pid):
     and the others, always take counts.
     """
 
-    def __init__(self, *, kp=None, ki=0.0, kd=0.0, rate=None, output_limits=None, setpoint=None,
-                 sensor=None, actuator=None, filter=0, setpoint_weight=1.0, integral_limits=None, **config):
+    def __init__(self, *, kp: Optional[float] = None, ki: float = 0.0, kd: float = 0.0, rate: Optional[float] = None,
+                 output_limits: Optional[Tuple[float, float]] = None, setpoint: Optional[float] = None,
+                 sensor: Optional[Sensor] = None, actuator: Optional[Actuator] = None, filter: int = 0, setpoint_weight: float = 1.0,
+                 integral_limits: Optional[Tuple[float, float]] = None, **config: Any) -> None:
         known = dict(ffi.typeof("struct fixpid_pid_config").fields)
         for name in config:
             if name not in known:
@@ -97,7 +100,7 @@ class Pid(_nouns.Pid):
     # ---- counts and units ----
 
     @property
-    def counts_per_unit(self):
+    def counts_per_unit(self) -> float:
         """What a gain in real units is multiplied by: output counts per measurement count."""
         per_sensor = 1.0 if self.sensor is None else self.sensor.unit_per_count
         return per_sensor / (1.0 if self.actuator is None else self.actuator.unit_per_count)
@@ -132,12 +135,12 @@ class Pid(_nouns.Pid):
     # ---- in real units ----
 
     @property
-    def setpoint(self):
+    def setpoint(self) -> float:
         """What the next call is to reach; what the sensor never shows is refused."""
         return self._setpoint
 
     @setpoint.setter
-    def setpoint(self, setpoint):
+    def setpoint(self, setpoint: float) -> None:
         self._setpoint = numbers("setpoint", setpoint, *self._reach)
         self._wanted = self._counts(self._setpoint)
 
@@ -145,13 +148,13 @@ class Pid(_nouns.Pid):
     def _reach(self):
         return (-32768.0, 32767.0) if self.sensor is None else (self.sensor.low, self.sensor.high)
 
-    def __call__(self, measurement, setpoint=None):
+    def __call__(self, measurement: float, setpoint: Optional[float] = None) -> float:
         """One step, once per sample period: the output for this measurement."""
         if setpoint is not None and setpoint != self._setpoint:
             self.setpoint = setpoint
         return self._driven(self.step(self._wanted, self._counts(number("measurement", measurement))))
 
-    def run(self, setpoints, measurements):
+    def run(self, setpoints: Any, measurements: Any) -> Any:
         """A call for each element of arrays or lists: the outputs, as an array if there is
         numpy. The last setpoint stays."""
         wanted, measured = numbers("setpoints", setpoints, *self._reach), numbers("measurements", measurements)
@@ -163,7 +166,7 @@ class Pid(_nouns.Pid):
         return list(map(self._driven, outputs)) if isinstance(outputs, list) else self._driven(outputs)
 
     @property
-    def tunings(self):
+    def tunings(self) -> Tuple[float, float, float]:
         """kp, ki and kd in real units; they may be set, and then hold from the next step on."""
         if self._tunings is None:
             if self.rate is None:
@@ -176,7 +179,7 @@ class Pid(_nouns.Pid):
         return self._tunings
 
     @tunings.setter
-    def tunings(self, tunings):
+    def tunings(self, tunings: Tuple[float, float, float]) -> None:
         try:
             kp, ki, kd = tunings
         except (TypeError, ValueError):
@@ -192,7 +195,7 @@ class Pid(_nouns.Pid):
             raise
         self._tunings = now
 
-    def set_gains(self, **gains):
+    def set_gains(self, **gains: int) -> None:
         """New gains for the next step, as pid_gains makes them. What is not named stays."""
         gains = {**self._said[1].get("gains", {}), **gains}
         accept(lib.fixpid_pid_set_gains(self.c, new("pid_gains", gains)),
@@ -200,46 +203,46 @@ class Pid(_nouns.Pid):
         self._said = ((), {**self._said[1], "gains": gains})
         self._tunings = None
 
-    def state(self):
+    def state(self) -> bytes:
         """All that the next step depends on besides the configuration, as bytes."""
         state = ffi.new("uint8_t[]", lib.FIXPID_PID_STATE_SIZE)
         lib.fixpid_pid_state(self.c, state)
         return bytes(state)
 
-    def restore(self, state):
+    def restore(self, state: bytes) -> None:
         """Goes on from what `state` returned, of a controller with the same configuration."""
         if len(state) != lib.FIXPID_PID_STATE_SIZE:
             raise ValueError(f"a state has {lib.FIXPID_PID_STATE_SIZE} bytes, not {len(state)}")
         accept(lib.fixpid_pid_restore(self.c, ffi.new("uint8_t[]", list(state))), "the state")
 
     @property
-    def output_limits(self):
+    def output_limits(self) -> Tuple[float, float]:
         """The lowest and the highest output; they may be set."""
         return self._driven(self.c.output_min), self._driven(self.c.output_max)
 
     @output_limits.setter
-    def output_limits(self, limits):
+    def output_limits(self, limits: Tuple[float, float]) -> None:
         low, high = self._ends("output_limits", limits)
         self.set_limits(low, high)
         self._said = ((), {**self._said[1], "output_min": low, "output_max": high})
 
     @property
-    def components(self):
+    def components(self) -> Tuple[float, float, float]:
         """The proportional, integral and derivative terms of the last step, as outputs."""
         per_count = 1.0 if self.actuator is None else self.actuator.unit_per_count
         return (self.proportional() / 256 * per_count, self.integral() / 65536 * per_count,
                 self.derivative() / 256 * per_count)
 
     @property
-    def auto_mode(self):
+    def auto_mode(self) -> bool:
         """False while the output is held by hand. Setting it makes no bump."""
         return not self.flags() & PID_MANUAL
 
     @auto_mode.setter
-    def auto_mode(self, enabled):
+    def auto_mode(self, enabled: bool) -> None:
         self.set_auto_mode(enabled)
 
-    def set_auto_mode(self, enabled, last_output=None):
+    def set_auto_mode(self, enabled: bool, last_output: Optional[float] = None) -> None:
         """Automatic, from `last_output` on if it is given; or by hand, at `last_output`, or
         at what the last step returned."""
         if last_output is not None:
@@ -252,7 +255,7 @@ class Pid(_nouns.Pid):
             self.seed(held)
         self.set_auto()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self._tunings is None:
             return super().__repr__()
         kp, ki, kd = self._tunings

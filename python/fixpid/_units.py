@@ -2,12 +2,12 @@
 """What a count is in real units: the sensor's, and the actuator's."""
 import math
 from dataclasses import dataclass
-from typing import Optional
+from typing import Any, Optional
 
 from ._core import numpy
 
 
-def number(name, value):
+def number(name: str, value: Any) -> float:
     """A finite float; who passes another one is told which."""
     try:
         found = float(value)
@@ -65,26 +65,26 @@ class Sensor:
     bits: int = 12
     unit: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         pair("(low, high)", (self.low, self.high))
         if self.bits not in range(6, 16):
             raise ValueError(f"bits = {self.bits!r} is refused: 6..15 are wanted")
 
     @property
-    def top(self):
+    def top(self) -> int:
         """The last count."""
         return 2**self.bits - 1
 
     @property
-    def unit_per_count(self):
+    def unit_per_count(self) -> float:
         """Units of a count."""
         return (self.high - self.low) / self.top
 
-    def counts(self, value):
+    def counts(self, value: Any) -> Any:
         """The nearest count; what is beyond the range is its end."""
         return nearest((value - self.low) / (self.high - self.low) * self.top, 0, self.top)
 
-    def units(self, count):
+    def units(self, count: Any) -> Any:
         """What a count stands for."""
         return self.low + count * self.unit_per_count
 
@@ -99,7 +99,7 @@ class Actuator:
     full: Optional[float] = None
     unit: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("lowest", "highest"):
             value = getattr(self, name)
             if value not in range(-32768, 32768):
@@ -109,19 +109,19 @@ class Actuator:
             raise ValueError(f"full = {self.full} is refused: it is not above 0")
 
     @property
-    def most(self):
+    def most(self) -> int:
         """Counts of full drive."""
         return max(self.highest, -self.lowest)
 
     @property
-    def unit_per_count(self):
+    def unit_per_count(self) -> float:
         """Units of a count."""
         return 1.0 if self.full is None else self.full / self.most
 
-    def counts(self, value):
+    def counts(self, value: Any) -> Any:
         """The nearest count within the range."""
         return nearest(value / self.unit_per_count, self.lowest, self.highest)
 
-    def units(self, count):
+    def units(self, count: Any) -> Any:
         """What a count stands for: the count itself where a unit is one."""
         return count if self.full is None else count * self.unit_per_count
