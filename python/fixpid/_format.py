@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Numbers as the tuner page writes them: web/format.js, and what JavaScript itself does."""
 import math
-import re
 from decimal import ROUND_HALF_UP, Decimal
 
 
@@ -65,11 +64,6 @@ def digits(value, figures=3):
 
 def percent(part, places=1):
     return f"{fixed(100 * part, places)} %".replace("-", "−")
-
-
-def whole(value):
-    """Thousands apart, by a narrow space."""
-    return re.sub(r"\B(?=(\d{3})+$)", "\u202f", number(float(math.floor(value + 0.5)))).replace("-", "−")
 
 
 def shortest(value, fold):

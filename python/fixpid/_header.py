@@ -6,8 +6,7 @@ import re
 from ._core import __version__
 from ._format import digits, number, short
 from ._library import lib
-from ._margins import error_per_count
-from ._scene import CONTROLLER, DERIVATIVE_ON_ERROR, PLANT, PROPORTIONAL_ON_MEASUREMENT, REVERSE
+from ._scene import DERIVATIVE_ON_ERROR, PLANT, PROPORTIONAL_ON_MEASUREMENT, REVERSE
 
 NAME = re.compile(r"[A-Za-z0-9_]{0,31}")
 KI_FINE = 0x7FFF7F  # the largest without FIXPID_PID_HAS_COARSE_KI
@@ -61,40 +60,6 @@ def _pid(s, r, loop):
             (option(PROPORTIONAL_ON_MEASUREMENT), "proportional_on_measurement", "")])]
 
 
-def _an937(s, r, loop):
-    return [f"// static const struct fixpid_an937_config config = {loop}_CONFIG;",
-            *_initialiser(f"{loop}_CONFIG", [
-                (f"{number(r['KP'])}u", "kp_q4", short(r["KP"] / 16)),
-                (f"{number(r['KI'])}u", "ki_q4", f"{short(r['KI'] / 16)} per tick"),
-                (f"{number(r['KD'])}u", "kd_q4", short(r["KD"] / 16)),
-                (f"{number(s['INTEGRAL_MAX'])}u", "accumulated_error_limit", ""),
-                (f"{number(r['FILTER'])}u", "derivative_period_ticks", "")])]
-
-
-def _an964(_, r, loop):
-    return [f"// static const struct fixpid_an964_gains gains = {loop}_CONFIG;",
-            *_initialiser(f"{loop}_CONFIG", [(f"{number(r['KP'])}u", "kp", short(r["KP"] / 1024)),
-                                          (f"{number(r['KI'])}u", "ki", ""), (f"{number(r['KD'])}u", "kd", "")])]
-
-
-def _error(s):
-    """What the loop passes to a note's controller."""
-    if s["PLANT"] == PLANT["PENDULUM"]:
-        return "// Its error is the angle, with the drift offset of examples/pendulum."
-    scale = error_per_count(s) if s["CONTROLLER"] == CONTROLLER["AN937"] else 1
-    error = "measurement - setpoint" if int(s["OPTIONS"]) & REVERSE else "setpoint - measurement"
-    return f"// Its error is {error if scale == 1 else f'({error}) * {scale}'}, in counts."
-
-
-def _limits():
-    limits = [(f"FIXPID_AN964_{name}_LIMIT", getattr(lib, f"FIXPID_AN964_{name}_LIMIT")) for name in ("SUM", "TERM", "OUTPUT")]
-    lines = ["// Its limits are chosen when it is compiled; the page has run with these:",
-             *(f"// -D{name}={value}" for name, value in limits)]
-    for name, value in limits:
-        lines += [f"#if {name} != {value}", f'#error "these gains are for {name} {value}"', "#endif"]
-    return lines
-
-
 def _plain(text):
     """What a header may say: nothing that ends a comment or is not ASCII."""
     return re.sub(r"[\\*?]", "", re.sub(r"[^\x20-\x7E]", "", text))
@@ -103,10 +68,6 @@ def _plain(text):
 def _plant(s, unit):
     gain, lag, lag2 = short(s["GAIN"]), short(s["T1"]), short(s["T2"])
     dead = f"dead time {short(s['DEAD'])} s"
-    if s["PLANT"] == PLANT["MOTOR"]:
-        return f"motor of {gain} V, inertia {lag}e-6 kg m2, friction {lag2} mN m"
-    if s["PLANT"] == PLANT["PENDULUM"]:
-        return f"pendulum of {lag2} m on a base of {gain} m/s"
     if s["PLANT"] == PLANT["INTEGRATOR"]:
         return f"integrator, {gain} {unit}/s at full drive, lag {lag2} s, {dead}"
     if s["PLANT"] == PLANT["OSCILLATOR"]:
@@ -159,14 +120,10 @@ def header_of(s, results, margins, link, name="", said=()):
     that has it. `name` is that of the loop, or none."""
     if not NAME.fullmatch(name):
         raise ValueError(f"name = {name!r} is refused: at most 31 letters, digits and _ are legal")
-    noun, lines = {CONTROLLER["PID"]: ("fixpid_pid", _pid), CONTROLLER["AN937"]: ("fixpid_an937", _an937),
-                   CONTROLLER["AN964"]: ("fixpid_an964", _an964)}[s["CONTROLLER"]]
     unit, loop = _plain(s["unit"]) or "units", f"LOOP_{name.upper()}" if name else "LOOP"
     return "\n".join([
         f"""// Gains of {f'the loop "{name}"' if name else 'a loop'}, by the tuner page of fixpid {__version__}""",
         f"// {short(s['RATE'])} steps per second; sensor: {number(s['SENSOR_BITS'])} bits, {short(s['SENSOR_RANGE'])} {unit}",
         f"// Plant: {_plant(s, unit)}", f"// Margins: {_margins(margins)}", *(f"// {_plain(text)}" for text in said),
         f"// The page has it with #{_plain(link)}",
-        *_guarded(name, loop, [
-            f'#include "{noun}.h"', "", *_scale(s, unit, loop), *([] if noun == "fixpid_pid" else [_error(s)]),
-            *(_limits() if noun == "fixpid_an964" else []), *lines(s, results, loop), ""])])
+        *_guarded(name, loop, ['#include "fixpid_pid.h"', "", *_scale(s, unit, loop), *_pid(s, results, loop), ""])])

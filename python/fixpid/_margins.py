@@ -4,7 +4,7 @@ scene's plant and the controller's integers."""
 import math
 
 from ._library import ffi, lib
-from ._scene import PLANT, RESULT, lock, put
+from ._scene import RESULT, lock, put
 
 MARGINS = {"gain_margin": "gain", "lower_gain_margin": "lower_gain", "phase_margin": "phase_degrees", "delay_margin": "delay_s"}
 
@@ -37,11 +37,6 @@ def ms_of_each(s, results, plants, full):
         _put(s, results)
         found = [lib.tuner_ms(plant, full) for plant in plants]
     return sorted(math.inf if ms < 0 else ms for ms in found)
-
-
-def error_per_count(s):
-    """What AN937's loop multiplies the error with: its motor has 4000 counts where the sensor has 1023."""
-    return 4 if s["PLANT"] == PLANT["MOTOR"] else 1
 
 
 def scale_seconds(s):

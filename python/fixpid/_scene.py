@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A scene of the tuner page: its parameters by their names in sim/tuner/tuner.h, and a run of
-it in the same C, bit for bit. web/engine.js and a part of web/state.js in Python."""
+it in the same C, bit for bit. web/engine.js in Python."""
 import math
 import threading
 from urllib.parse import quote
@@ -21,7 +21,6 @@ VALUE = _names("tuner_value", "VALUE_")
 RESULT = _names("tuner_result", "RESULT_")
 EVENT = _names("tuner_event", "EVENT_")
 EXPERIMENT = _names("tuner_experiment_kind", "EXPERIMENT_")
-CONTROLLER = {name: value for name, value in _names("tuner_controller", "TUNER_").items() if name != "S"}
 PLANT = _names("tuner_plant", "TUNER_")
 RULE = {"PI": lib.FIXPID_AUTOTUNE_PI, "PID": lib.FIXPID_AUTOTUNE_PID}
 WORD = {"QUICK": lib.FIXPID_AUTOTUNE_QUICK, "SAFE": lib.FIXPID_AUTOTUNE_SAFE, "CALM": lib.FIXPID_AUTOTUNE_CALM}
@@ -129,7 +128,7 @@ def gains_of_rule(s, results):
 
 
 # The page's own plants, by what a link begins with; it says all the rest.
-PRESETS = {"LAGS": "flow", "OSCILLATOR": "spring", "INTEGRATOR": "axis", "OVEN": "oven", "MOTOR": "motor"}
+PRESETS = {"LAGS": "flow", "OSCILLATOR": "spring", "INTEGRATOR": "axis", "OVEN": "oven"}
 
 
 def fragment(s):

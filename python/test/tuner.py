@@ -377,7 +377,7 @@ def tuning_is_on_the_hardware_that_is_given():
     near(state["KP"] / state["KI"], min(state["T1"], 4 * wanted), "ti", 1e-3)
     near(state["KP"] / per_count, loop.gains[0], "kp in units")
     down = fixpid.fit(recording()[0], recording()[1], [-one for one in recording()[2]])
-    loop = fixpid.tune(down, "PI", rate=2)
+    loop = fixpid.tune(down, "PI", rate=2, actuator=ACTUATOR)
     assert loop.state["OPTIONS"] == _scene.REVERSE and loop.margins["stable"] and loop.pid._said[1]["reverse"], loop
 
 
@@ -533,10 +533,10 @@ def two_loops_in_a_firmware_have_two_names():
 
 def numbers_are_written_as_on_the_page():
     for value, expected in (
-            (2.5, ["2.5", "2.5", "2.50", "250.0 %", "3"]), (-0.00001234567, ["-0.00001234567", "-0.0000123457", "\u22121.23 e\u22125", "\u22120.0 %", "0"]),
-            (1234567.0, ["1234567", "1234570", "1.23 e+6", "123456700.0 %", "1\u202f234\u202f567"]), (0.30000000000000004, ["0.30000000000000004", "0.3", "0.300", "30.0 %", "0"]),
-            (1e21, ["1e+21", "1e+21", "1.00 e+21", "1e+23 %", "1e+21"]), (0.0, ["0", "0", "0", "0.0 %", "0"]), (99.95, ["99.95", "99.95", "100.0", "9995.0 %", "100"])):
-        same((value, [_format.number(value), _format.short(value), _format.digits(value), _format.percent(value), _format.whole(value)]), (value, expected))
+            (2.5, ["2.5", "2.5", "2.50", "250.0 %"]), (-0.00001234567, ["-0.00001234567", "-0.0000123457", "\u22121.23 e\u22125", "\u22120.0 %"]),
+            (1234567.0, ["1234567", "1234570", "1.23 e+6", "123456700.0 %"]), (0.30000000000000004, ["0.30000000000000004", "0.3", "0.300", "30.0 %"]),
+            (1e21, ["1e+21", "1e+21", "1.00 e+21", "1e+23 %"]), (0.0, ["0", "0", "0", "0.0 %"]), (99.95, ["99.95", "99.95", "100.0", "9995.0 %"])):
+        same((value, [_format.number(value), _format.short(value), _format.digits(value), _format.percent(value)]), (value, expected))
 
 
 def plots_have_what_they_show():
