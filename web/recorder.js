@@ -212,22 +212,22 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
         if (!canvas.hidden) {
             drawRecording(canvas, read, usable, model);
         }
-        fillModels(usable, read?.full ?? null);
+        fillModels(usable);
     }
 
-    function fillModels(models, full) {
+    function fillModels(models) {
         own('#record-models').hidden = models.length < 2;
         const button = ({ plant }) => {
-            const made = make('button', { type: 'button', textContent: 'Show', 'aria-pressed': String(plant.kind === kind), 'aria-label': `Show ${KIND_NAMES[plant.kind]}` });
+            const made = make('button', { type: 'button', textContent: KIND_NAMES[plant.kind], 'aria-pressed': String(plant.kind === kind) });
             made.addEventListener('click', () => {
                 ({ kind } = plant);
                 showFit();
-                own(`#record-models [aria-label="Show ${KIND_NAMES[kind]}"]`).focus();
+                own('#record-models [aria-pressed=true]').focus();
             });
             return made;
         };
-        own('#record-models').replaceChildren(table('Models that may be used', ['Model', 'Look', 'Plant', 'Ms', 'R²'], models.map((model) => ({ chosen: model.plant.kind === kind,
-            cells: [KIND_NAMES[model.plant.kind], button(model), modelText(model.plant, full, unit()), model.calm > 0 ? digits(model.ms) : '–', model.r2.toFixed(4)] }))));
+        own('#record-models').replaceChildren(table('Models that may be used', ['Model', 'Ms, nine of ten', 'R²'], models.map((model) => ({ chosen: model.plant.kind === kind,
+            cells: [button(model), model.calm > 0 ? digits(model.ms) : '–', model.r2.toFixed(4)] }))));
     }
 
     function use() {
