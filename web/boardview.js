@@ -7,7 +7,7 @@ import { digits, percent, time, whole } from './format.js';
 import { createPlots } from './plot.js';
 import { stepFigures } from './predicted.js';
 import { MISSED } from './trace.js';
-import { twinCounts } from './twin.js';
+import { LINK_VERSION, twinCounts } from './twin.js';
 
 const SHOWN = 60; // seconds
 const SHOWN_MOST = 60000; // steps
@@ -17,13 +17,16 @@ export function boardText({ name, library, seconds, allowed, manualSteps, versio
     const may = (bit, word) => ((allowed & bit) !== 0 ? `${word}: yes` : `${word}: no`);
     const hand = (allowed & ALLOWED.MANUAL) !== 0 && manualSteps > 0 ? `output by hand: for ${time(manualSteps * seconds)} at a time` : 'output by hand: no';
     const other = library === VERSION ? '' : ` This page is ${VERSION}: where the arithmetic of the two differs, so do their steps.`;
-    const form = version === 1 ? '' : ` Its link is version ${version}, and this page knows version 1: what is shown may be wrong.`;
+    const form = version === LINK_VERSION ? '' : ` Its link is version ${version}, and this page knows version ${LINK_VERSION}: it is sent no command, and what is shown may be wrong.`;
     return `“${name}”, fixpid ${library}, ${digits(1 / seconds)} steps per second. Allowed: ${may(ALLOWED.SETPOINT, 'setpoint')}, ${may(ALLOWED.GAINS, 'gains')}, ` +
         `${may(ALLOWED.LIMITS, 'limits')}, ${hand}.${other}${form}`;
 }
 
-// { text, good: true, false or null }
-function verdictOf(counts) {
+// { text, good: true, false or null }, of a board by its link's version
+export function verdictOf(counts, version) {
+    if (version !== LINK_VERSION) {
+        return { good: null, text: `Not compared: the board’s link is version ${version}.` };
+    }
     const equal = `${whole(counts.EQUAL)} step${counts.EQUAL === 1 ? '' : 's'} equal, bit for bit`;
     if (counts.DIFFERENT > 0) {
         const number = whole(counts.FIRST_NUMBER >>> 0);
@@ -92,7 +95,7 @@ export function createBoardView({ own }, session, told) {
 
     function showVerdict() {
         const counts = twinCounts();
-        const { text, good } = verdictOf(counts);
+        const { text, good } = verdictOf(counts, session.board?.version ?? LINK_VERSION);
         setText(own('verdict'), text);
         own('verdict').className = good === null ? '' : good ? 'good' : 'refused';
         const left = leftOf(counts, session.trace.places - session.trace.count);

@@ -7,7 +7,7 @@ import { setText, table } from './dom.js';
 import { short } from './format.js';
 import { createComparison } from './predicted.js';
 import { settingsOf } from './session.js';
-import { ASK, boardConfig, recordBytes } from './twin.js';
+import { ASK, LINK_VERSION, boardConfig, recordBytes } from './twin.js';
 
 const NO_RECORD = 'The board’s record has not come yet.';
 const SETS_KEPT = 10; // gains that can be gone back to
@@ -30,7 +30,7 @@ export function createCommands({ own, say, refresh }, session, connection, { gai
         [sets, comparison] = [[], null];
     }
 
-    const may = (bit) => connection.isOpen && session.board !== null && (session.board.allowed & bit) !== 0;
+    const may = (bit) => connection.isOpen && session.board?.version === LINK_VERSION && (session.board.allowed & bit) !== 0;
 
     function show() {
         own('commands').hidden = !connection.isOpen || session.board === null;
@@ -38,7 +38,7 @@ export function createCommands({ own, say, refresh }, session, connection, { gai
         own('revert').disabled = !may(ALLOWED.GAINS) || sets.length === 0;
         setText(own('revert'), sets.length > 1 ? `Revert (${sets.length} sets are kept)` : 'Revert');
         own('confirm').hidden ||= !may(ALLOWED.GAINS); // it waits for a person, whatever the board does
-        own('use').disabled = session.board === null;
+        own('use').disabled = session.board?.version !== LINK_VERSION;
     }
 
     // Says what came of it; true if it is done.

@@ -19,6 +19,7 @@ function noBoardText(error, printable) {
 // ask(command, value): promises the frame that answers, or throws a sentence, fail(error) }
 export function createConnection({ say, refresh, begin, gone, offer }, session) {
     let [port, asker, restarting] = [null, null, false];
+    let [silentSince, restarts] = [null, 0];
 
     async function ask(command, value) {
         if (asker === null) {
@@ -50,15 +51,28 @@ export function createConnection({ say, refresh, begin, gone, offer }, session) 
         restarting = false;
     }
 
+    // What a board has done meanwhile: it speaks again, or it began anew.
+    function hear() {
+        if (silentSince !== null && session.lastFrame > silentSince) {
+            silentSince = null;
+            say('The board speaks again.');
+        }
+        if (session.trace.restarts > restarts) {
+            say('The board began anew: its setpoint and its gains are its program’s again.');
+        }
+        ({ restarts } = session.trace);
+    }
+
     // What the twin lacks is asked for again; so is a board that has fallen silent.
     async function watch() {
+        hear();
         if (port === null || session.board === null || restarting || !asker.idle) {
             return;
         }
         if (performance.now() - session.lastFrame > SILENT + 3000 * session.seconds) {
             say('The board is silent, and is asked again.');
-            session.lastFrame = performance.now();
-            await start('Connected again: the board had fallen silent. It may have begun anew.');
+            silentSince = session.lastFrame = performance.now();
+            await start('Connected again: the board had fallen silent.');
         } else if (twinCounts().WANTS_RECORD === 1) {
             await askForStream().catch(() => {}); // it is asked for again when the board is silent
         }

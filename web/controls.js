@@ -9,7 +9,7 @@ import { digits } from './format.js';
 import { helpFor } from './help.js';
 import { countsGain, scaleSeconds } from './margins.js';
 import { KINDS, gainsFor, plantOfKind, withPlant } from './own.js';
-import { WHOLE, currentState, presetState, withController } from './state.js';
+import { WHOLE, currentState, presetOf, withController } from './state.js';
 
 // A range on a logarithmic scale `spread` times up and down.
 function around(value, spread, zero = false) {
@@ -25,7 +25,7 @@ const isOwn = (s) => s.preset === 'own';
 
 // What a double click resets a number to.
 function from(s, key) {
-    return (isOwn(s) || s.CONTROLLER !== presetState(s.preset).CONTROLLER ? gainsFor(s)[key] : undefined) ?? presetState(s.preset)[key];
+    return (isOwn(s) || s.CONTROLLER !== presetOf(s.preset).CONTROLLER ? gainsFor(s)[key] : undefined) ?? presetOf(s.preset)[key];
 }
 
 // Around the preset's value; of a plant of one's own nothing is known before.
@@ -239,7 +239,7 @@ const mounted = (selector) => () => ({ row: find(selector), update: () => {} });
 function unitField(onMore) {
     const field = make('input', { type: 'text', id: 'c-unit', maxLength: 12, size: 5, value: currentState().unit });
     field.addEventListener('input', () => onMore({ unit: field.value }));
-    return { row: make('label', { className: 'line' }, 'Unit of the measurement ', field),
+    return { row: make('label', { className: 'line' }, 'Unit ', field),
         update: (s) => {
             if (document.activeElement !== field) {
                 field.value = s.unit;
@@ -299,10 +299,10 @@ export function createPanel(onMore) {
     let [shape, controls] = ['', []];
     const onInput = (key, value) => onMore({ [key]: value });
 
-    function build(s) {
+    function build(sections) {
         const open = new Map(places.flatMap((place) => [...place.children].map((one) => [one.dataset.title, one.open])));
         const focused = document.activeElement.id;
-        const made = sectionsOf(s).map(({ at, title, open: first, head = [], sliders = false, controls: own }) => {
+        const made = sections.map(({ at, title, open: first, head = [], sliders = false, controls: own }) => {
             const rows = [...head.map((one) => one(onMore)), ...own.map((one) => createControl(one, `c-${one[0].toLowerCase()}`, sliders, onInput))];
             const details = make('details', { open: open.get(title) ?? first }, make('summary', { textContent: title }), ...rows.map(({ row }) => row));
             details.dataset.title = title;
@@ -315,10 +315,11 @@ export function createPanel(onMore) {
         }
     }
     return (s, notes) => {
-        const wanted = JSON.stringify([s.preset, s.PLANT, s.CONTROLLER, s.unit, sectionsOf(s).map((one) => one.controls.map(([key]) => key))]);
+        const sections = sectionsOf(s);
+        const wanted = JSON.stringify([s.preset, s.PLANT, s.CONTROLLER, s.unit, sections.map((one) => one.controls.map(([key]) => key))]);
         if (wanted !== shape) {
             shape = wanted;
-            build(s);
+            build(sections);
         }
         for (const control of controls) {
             control.update(s, notes[control.key] ?? '');

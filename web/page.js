@@ -8,7 +8,7 @@ import { createPanel } from './controls.js';
 import { find, make, setText } from './dom.js';
 import { experiment, run, startEngine } from './engine.js';
 import { createEventList, createFlags } from './events.js';
-import { experimentText, isMeasured, progressOf, ringingText, ruleName, stageText } from './experiment.js';
+import { experimentText, isMeasured, ringingText, ruleName, stageText } from './experiment.js';
 import { serveFits } from './fitter.js';
 import { digits, whole } from './format.js';
 import { fillGuard } from './guard.js';
@@ -17,7 +17,8 @@ import { listenForHelp } from './help.js';
 import { createLive } from './live.js';
 import { loadAlone, loadPairs, restText } from './load.js';
 import { marginsOf } from './margins.js';
-import { limitedSteps, metricsOf, unitsOf, unitsPerCount } from './metrics.js';
+import { metricsOf } from './metrics.js';
+import { measurementPane, panesOf } from './panes.js';
 import { createPendulum } from './pendulum.js';
 import { plantOfKind } from './own.js';
 import { createPast, wayOfKey } from './past.js';
@@ -26,7 +27,7 @@ import { recordText } from './record.js';
 import { createRecorder } from './recorder.js';
 import { drawBode, drawNyquist, offText } from './response.js';
 import { gainsOfRule } from './rules.js';
-import { fillKey, fillRuns, keptSeries, keptWith, keyFigures } from './runs.js';
+import { fillKey, fillRuns, keptWith, keyFigures } from './runs.js';
 import { csvOf, jsonOf, stateOfJson } from './saved.js';
 import { LOOP_NAME, PRESETS, change, changeNow, currentState, fragmentOf, onChange, ownState, presetState, stateOfFragment } from './state.js';
 import { createSvg } from './svg.js';
@@ -82,62 +83,10 @@ function rowsFor(s) {
 
 // --- Plots --------------------------------------------------------------------
 
-// Float64Array.from would ask an iterator for each.
-function each(counts, as) {
-    const found = new Float64Array(counts.length);
-    for (let i = 0; i < counts.length; i++) {
-        found[i] = as(counts[i]);
-    }
-    return found;
-}
-
-const TERMS = {
-    [CONTROLLER.PID]: () => [256, 65536, 256],
-    [CONTROLLER.AN937]: () => [16, 16, 16],
-    [CONTROLLER.AN964]: (s, results) => new Array(3).fill(1024 / Math.max(results.KP, 1)),
-};
-
-function panesOf(s, found) {
-    const { series } = found;
-    const tuning = mode === 'tune';
-    const none = new Float64Array(0);
-    const [p, i, d] = TERMS[s.CONTROLLER](s, found.results);
-    const measurement = {
-        title: s.PLANT === PLANT.PENDULUM ? 'Angle' : 'Measurement', unit: s.unit,
-        leastSpan: 8 * unitsPerCount(s),
-        series: [
-            { name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: s.PLANT === PLANT.PENDULUM ? none : each(series.SETPOINT, (c) => unitsOf(s, c)) },
-            ...(mode === 'run' ? keptSeries(s, 'value') : []),
-            { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, (c) => unitsOf(s, c)) },
-        ],
-    };
-    const output = {
-        title: 'Output', unit: 'counts', limited: tuning ? null : limitedSteps(s, found),
-        series: [
-            ...(mode === 'run' ? keptSeries(s, 'output') : []),
-            { name: 'output', color: 'output', held: true, data: each(series.OUTPUT, (c) => c) },
-        ],
-    };
-    const terms = {
-        title: 'Terms', unit: 'counts',
-        series: [
-            { name: 'P', color: 'p', width: 1.25, data: each(series.P, (c) => c / p) },
-            { name: 'I', color: 'i', width: 1.25, data: each(series.I, (c) => c / i) },
-            { name: 'D', color: 'd', width: 1.25, data: each(series.D, (c) => c / d) },
-        ],
-    };
-    const progress = {
-        title: 'Progress', unit: '%', leastSpan: 100,
-        series: [{ name: 'done', color: 'i', held: true,
-            data: tuning ? progressOf(found) : none }],
-    };
-    return [measurement, output, tuning ? progress : terms];
-}
-
-function showPlots(s, found, first = false) {
+function showPlots(s, found, panes) {
     const seconds = 1 / s.RATE;
     shown = mode === 'tune' ? Math.max(1, found.n) * seconds : Math.min(s.DURATION, LIMIT.STEPS * seconds);
-    plots.show({ panes: panesOf(s, found), seconds, events: mode === 'tune' ? [] : s.events, duration: shown }, first);
+    plots.show({ panes, seconds, events: mode === 'tune' ? [] : s.events, duration: shown });
     showStage(s);
 }
 
@@ -264,7 +213,7 @@ function showRefused(s, found) {
     setText(find('#file'), fileOf(s));
     allowTaking(false);
     pendulum.update(null);
-    plots.show({ panes: panesOf(s, { ...found, n: 0 }), seconds: 1 / s.RATE,
+    plots.show({ panes: panesOf(s, { ...found, n: 0 }, mode), seconds: 1 / s.RATE,
         events: [], duration: s.DURATION });
 }
 
@@ -275,7 +224,8 @@ function showRun(s, found, margins, alone) {
     fillFigures(find('#metrics'), experimenting !== null ? [] : alone !== null ? loadPairs(alone) : figuresOf(s, figures));
     fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, figures, margins));
     fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, figures, margins, onKept);
-    showPlots(alone?.s ?? s, experimenting ?? alone?.found ?? found);
+    const [scene, seen] = [alone?.s ?? s, experimenting ?? alone?.found ?? found];
+    showPlots(scene, seen, panesOf(scene, seen, mode));
     showPicture(s, found);
     showMargins(s, margins);
     const { text = null, warning = null } = judge(s, results, margins) ?? {};
@@ -292,7 +242,7 @@ function showHeld(s, found, margins) {
     panel(s, notesOf(s));
     flags(s);
     fillKey([find('#key'), find('#mini dl')], keyFigures(s, metricsOf(s, found), margins));
-    showPlots(s, found, true);
+    showPlots(s, found, [measurementPane(s, found, mode)]);
 }
 
 function show() {

@@ -42,7 +42,8 @@ function ticks(low, high, count) {
 function extremes(pane) {
     let [low, high] = [Infinity, -Infinity];
     for (const one of pane.series.filter((each) => each.data.length > 0)) {
-        for (const value of one.data) {
+        for (let i = 0; i < one.data.length; i++) {
+            const value = one.data[i];
             low = value < low ? value : low;
             high = value > high ? value : high;
         }
@@ -58,8 +59,7 @@ function extremes(pane) {
     return [low - room, high + room];
 }
 
-// Builds the panes; returns { element, show(view, first: only that pane), cursorAt(seconds or
-// null) }. The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
+// Builds the panes; returns { element, show(view), cursorAt(seconds or null) }. The first pane is drawn on `mini`, too, while that is shown. The cursor is an element
 // above each canvas: moving it draws nothing.
 export function createPlots(element, onCursor, mini) {
     const small = { canvas: mini, mark: cursorMark(), values: [] };
@@ -96,10 +96,12 @@ export function createPlots(element, onCursor, mini) {
         onCursor(part < 0 || part > 1 ? null : part * view.duration);
     }
 
-    function show(next, first = false) {
-        view = next;
-        if (parts.map((part) => part.key).join('|') !== next.panes.map(keyOf).join('|')) {
-            build(next.panes);
+    // Of a view with its first pane alone the others stay as they are.
+    function show(next) {
+        const first = view !== null && next.panes.length < view.panes.length;
+        view = first ? { ...next, panes: [...next.panes, ...view.panes.slice(next.panes.length)] } : next;
+        if (parts.map((part) => part.key).join('|') !== view.panes.map(keyOf).join('|')) {
+            build(view.panes);
         }
         draw(first);
     }

@@ -2,7 +2,7 @@
 // The figures that matter, and the runs that are kept to compare: each as its link has
 // it, so that the page's link has them, too.
 import { PLANT } from './built.js';
-import { make, table } from './dom.js';
+import { make, setText, table } from './dom.js';
 import { run } from './engine.js';
 import { digits, percent, time } from './format.js';
 import { helpFor } from './help.js';
@@ -57,16 +57,20 @@ export function keyFigures(s, found, margins) {
     return figureNamesOf(s).map(([key, name, text]) => [name, text(values[key]), changed(text, values[key], before?.[key])]);
 }
 
-// Into the first place with help; the second one is a picture of it.
-export function fillKey([place, copy], figures) {
-    const shownOf = ([, value, change]) => [value, ...(change ? [make('small', { textContent: ` ${change}`, title: 'Change to the last kept run' })] : [])];
+// Into each place; what is the same there already is not touched.
+export function fillKey(places, figures) {
     const wanted = figures.map(([name]) => name).join();
-    if (place.dataset.names !== wanted) {
-        place.dataset.names = wanted;
-        place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', { textContent: name }), make('dd'), helpFor(name))));
+    for (const place of places) {
+        if (place.dataset.names !== wanted) {
+            place.dataset.names = wanted;
+            place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', { textContent: name }), make('dd', {}, '', make('small', { title: 'Change to the last kept run' })), helpFor(name))));
+        }
+        figures.forEach(([, value, change], i) => {
+            const [shown, small] = place.children[i].querySelector('dd').childNodes;
+            setText(shown, value);
+            setText(small, change && ` ${change}`);
+        });
     }
-    figures.forEach((figure, i) => place.children[i].querySelector('dd').replaceChildren(...shownOf(figure)));
-    copy.replaceChildren(...figures.map((figure) => make('div', {}, make('dt', { textContent: figure[0] }), make('dd', {}, ...shownOf(figure)))));
 }
 
 // What a kept run is drawn with, of those on the same plant's axes.

@@ -66,9 +66,13 @@ export const PRESETS = [
     }), plantOfKind({ SENSOR_RANGE: 300, RATE: 10 }, PLANT.LAGS)),
 ];
 
+// As it is, to read from; and a copy, to change.
+export function presetOf(id) {
+    return PRESETS.find((one) => one.preset === id) ?? PRESETS[0];
+}
+
 export function presetState(id) {
-    const found = PRESETS.find((one) => one.preset === id) ?? PRESETS[0];
-    return structuredClone(found);
+    return structuredClone(presetOf(id));
 }
 
 // The user's own plant on the hardware of this state.
@@ -130,7 +134,7 @@ function ofPlant(s) {
 
 export function withinReason(s) {
     const found = { ...s };
-    found.PLANT = s.preset === 'own' ? clamped(Math.round(s.PLANT), [PLANT.LAGS, PLANT.MOTOR]) : presetState(s.preset).PLANT;
+    found.PLANT = s.preset === 'own' ? clamped(Math.round(s.PLANT), [PLANT.LAGS, PLANT.MOTOR]) : presetOf(s.preset).PLANT;
     // A pendulum falls without the drift offset that only AN964's loop has here.
     found.CONTROLLER = found.PLANT === PLANT.PENDULUM ? CONTROLLER.AN964 : clamped(Math.round(s.CONTROLLER), [CONTROLLER.PID, CONTROLLER.AN964]);
     for (const [name, bounds] of [...Object.entries(BOUNDS), ['RATE', ofPlant(s).RATE ?? REAL]]) {

@@ -12,13 +12,14 @@ export const MISSED = 1;
 export const UNCOMPARED = 2;
 
 // Holds the last `most` steps at least: { take(numbers, n), view(n), count: of steps that
-// came, places: of all }.
+// came, places: of all, restarts: how often the board began anew }.
 export function createTrace(most) {
     const room = 2 * most;
     const series = Object.fromEntries(NAMES.map((name) => [name, new Float32Array(room)]));
     const marks = new Uint8Array(room);
     const all = [...Object.values(series), marks];
     let [end, last, count, places] = [0, null, 0, 0];
+    let [lastKey, restarts] = [null, 0]; // a key frame has its whole number
 
     function step() {
         if (end === room) {
@@ -47,6 +48,10 @@ export function createTrace(most) {
             const number = numbers[from + STEP.NUMBER] >>> 0;
             const forward = last === null ? 1 : (number - last) & MASK;
             const anew = numbers[from + STEP.IS_KEY] === 1 && last !== null && number < last && last <= MASK;
+            if (numbers[from + STEP.IS_KEY] === 1) {
+                restarts += Number(lastKey !== null && number < lastKey && lastKey - number < 2 ** 31);
+                lastKey = number;
+            }
             if (forward > 1 && forward < most && !anew) {
                 skip(forward - 1);
             }
@@ -69,5 +74,5 @@ export function createTrace(most) {
         return { ...found, marks: marks.subarray(from, end), n: end - from };
     }
 
-    return { take, view, get count() { return count; }, get places() { return places; } };
+    return { take, view, get count() { return count; }, get places() { return places; }, get restarts() { return restarts; } };
 }

@@ -7,6 +7,7 @@ import { exported } from './engine.js';
 
 export const ASK = { HELLO: 0x40, RECORD: 0x41, STREAM: 0x42, SETPOINT: 0x43, MANUAL: 0x44, AUTO: 0x45, SEED: 0x46, WRITE: 0x47 };
 export const DONE = 0;
+export const LINK_VERSION = 1; // what this page speaks
 export const FRAME = { ANSWER: 2, HELLO: 3, RECORD: 4 };
 
 const memory = (Type, at, n) => new Type(exported().memory.buffer, at, n);

@@ -48,6 +48,15 @@ await startEngine();
     check('another JSON is refused', bytesOfText('{"a":1}').refused.includes('no log'));
     check('a file with a 0 in it is bytes', bytesOfFile(Uint8Array.of(49, 0, 50)).bytes.length === 3 && bytesOfFile(Uint8Array.of(49, 50)).bytes.join() === '18');
 }
+{
+    const { createCommands } = await moduleOf('commands');
+    const { boardText, verdictOf } = await moduleOf('boardview');
+    const board = { version: 1, allowed: ALL, name: 'b', library: '1.0.0', seconds: 0.1, manualSteps: 9 };
+    const may = (version) => createCommands({}, { board: { ...board, version } }, { isOpen: true }, {}).may(1);
+    const counts = { DIFFERENT: 0, EQUAL: 5, LEFT_THINNED: 0 };
+    check('a board of another version is sent nothing', may(1) && !may(2) && boardText({ ...board, version: 2 }).includes('it is sent no command'));
+    check('nor is it said to be equal', verdictOf(counts, 1).good === true && verdictOf(counts, 2).good === null && verdictOf(counts, 2).text === 'Not compared: the board’s link is version 2.');
+}
 // What a board sends that is asked for its name, its record and its stream.
 async function streamed(steps) {
     const board = await loadBoard();
@@ -290,6 +299,13 @@ async function streamed(steps) {
     await run(10);
     await said(here, /^Connected again: the board had fallen silent/);
     await run(1000);
+    await said(here, /^The board began anew: its setpoint and its gains are its program’s again\.$/);
+    // One that is only slow is not said to be silent when its steps come again.
+    const { receive } = board;
+    board.receive = () => {};
+    await said(here, /^The board speaks again\.$/);
+    board.receive = receive;
+    await said(here, /^Connected again/);
     const sentence = await verdict(here);
     check('a board that began anew is asked again', /^[\d\u202F]+ steps equal/.test(sentence) && equalOf(sentence) > 1900, `${sentence} ${await left(here)}`);
     checkNone('no permission: no error', here.noted.errors);
@@ -300,6 +316,8 @@ async function streamed(steps) {
 {
     const bytes = await streamed(3000);
     const here = await open('', { viewport: { width: 390, height: 844 }, colorScheme: 'dark' }, undefined, (page) => page.addInitScript(() => { delete Navigator.prototype.serial; }));
+    check('a board’s part waits for a button', !(await here.isVisible('#live')));
+    await here.click('#open-live');
     check('without Web Serial it is said what to do', await here.isDisabled('#live-connect') && (await text(here, '#live-none')).includes('A log of the board’s bytes') && await here.isVisible('#live-none'));
     await here.click('#live summary');
     await here.fill('#live-log', [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join(' '));
@@ -310,8 +328,6 @@ async function streamed(steps) {
     await here.evaluate(() => document.querySelector('#live-plots').scrollIntoView());
     await here.waitForTimeout(100);
     check('the small plot of the page does not lie on the board’s', !(await here.isVisible('#mini')));
-    await here.evaluate(() => document.querySelector('#bode').scrollIntoView());
-    await here.waitForSelector('#mini', { state: 'visible' });
     check('it does not scroll sideways on a phone', await here.evaluate(() => document.documentElement.scrollWidth) <= 390);
     await here.setInputFiles('#live-file', { name: 'raw.bin', mimeType: 'application/octet-stream', buffer: Buffer.from(bytes.slice(0, 20000)) });
     await said(here, /^raw\.bin: /);

@@ -54,6 +54,7 @@ export async function connect(board, { answers, spoil = (bytes) => bytes, option
         const bytes = Buffer.from(spoil(await board.run(steps), true)).toString('base64');
         await here.evaluate((base64) => window.port.give(base64), bytes);
     }
+    await here.click('#open-live');
     await pressed(here, 'connect', /^Connected\.$/);
     return { here, board, run };
 }
