@@ -245,6 +245,9 @@ def tune(fit: Fit, rule: str = "PI", rate: Optional[float] = None, sensor: Optio
     robust, calm = _robustness(rule, robustness, calm, fit)
     if tuner not in TUNERS:
         raise ValueError(f"tuner = {tuner!r} is refused: {' and '.join(TUNERS)} are legal")
+    if actuator is None and max(map(abs, fit.u)) > 1:
+        raise ValueError(f"actuator is missing: u of the fit goes to {max(map(abs, fit.u)):g}, and without an actuator it is a part "
+                         "of full drive, up to 1")
     given = Actuator(0, 1000, full=1.0) if actuator is None else actuator
     state = _scene_of(fit, rate, sensor, given)
     state.update(ROBUSTNESS=robust, rule="PI" if rule == "SIMC" else rule)

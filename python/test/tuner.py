@@ -393,8 +393,10 @@ def what_has_no_gains_says_what_to_do():
                           ({"rule": "SIMC", "robustness": "calm"}, "robustness = 'calm' is refused: SIMC's loop is made calmer by calm=2"),
                           ({"calm": 2}, "calm = 2 is refused: it is SIMC's"), ({"rule": "SIMC", "calm": 0}, "calm = 0 is refused: 0.5 to 8"),
                           ({"tuner": "relay"}, "tuner = 'relay' is refused: autotune and reaction"), ({"rate": 0.01, "tuner": "reaction"}, "no gains: The reading"),
-                          ({"rate": 0.01}, "no gains: "), ({"rate": math.nan}, "rate = nan is refused")):
-        said = message(ValueError, fixpid.tune, found, **fields)
+                          ({"rate": 0.01}, "no gains: "), ({"rate": math.nan}, "rate = nan is refused"),
+                          ({"rate": 1000}, "no gains: the experiment is not over after the 20000 steps that a run has, which are 20 s"),
+                          ({"actuator": None}, "actuator is missing: u of the fit goes to ")):
+        said = message(ValueError, fixpid.tune, found, **{"actuator": ACTUATOR, **fields})
         assert said.startswith(start), said
 
 
