@@ -16,11 +16,10 @@ const TABLE = 'test/web/tuner/shared.json';
 const load = (name) => import(`${process.cwd()}/${folder}/${name}.js`);
 const { EXPERIMENT, PARAM, PLANT, WORD } = await load('built');
 const { experiment, run, startEngine } = await load('engine');
-const { digits, percent, short, whole } = await load('format');
+const { digits, percent, short } = await load('format');
 const { gainsOfRule } = await load('rules');
 const { wholeHeaderOf } = await load('header');
 const { marginsOf } = await load('margins');
-const { metricsOf } = await load('metrics');
 const { adviceOf } = await load('advice');
 const { PRESETS, fragmentOf, presetState, stateOfFragment } = await load('state');
 await startEngine();
@@ -45,12 +44,11 @@ const SCENES = [
     preset('flow', { KP: 1.04, WEIGHT: 255 / 256, unit: '' }), preset('flow', { KP: 1.05 }), // on both sides of an Ms of 2.2
     ...[{ KP: 200 }, { KP: -1 }, { KI: 1e-9 }, { KD: 500 }, { OUTPUT_MAX: 0 }, { INTEGRAL_MIN: 5 }, { WEIGHT: 1.5 }, { FILTER: 9 }]
         .map((wrong) => preset('flow', wrong)),
-    preset('an937', { KP: 300 }), preset('an964', { KI: 2000 }),
+    preset('an937', { KP: 300 }), preset('an964', { KI: 2000 }), preset('flow', { loop: 'Zone_2' }),
     preset('flow', { GAIN: -80, START: 95 }), // acts against its plant
     preset('motor', { RATE: 20000, DURATION: 0.1, KP: 60, KI: 0, events: [] }), // its delay margin is below 0.1 ms
 ];
 
-const FIGURES = ['overshoot', 'rise', 'settled', 'load', 'meanError', 'moved', 'limited', 'travel'];
 const chosen = (from, names) => Object.fromEntries(names.filter((name) => name in from).map((name) => [name, from[name]]));
 const sum = (series) => series.reduce((total, x) => total + x, 0);
 
@@ -61,7 +59,6 @@ function sceneRow(state) {
     const margins = good ? marginsOf(state, found.results) : null;
     const more = good && {
         sums: Object.fromEntries(Object.entries(found.series).map(([name, series]) => [name, sum(series)])),
-        metrics: { ...chosen(metricsOf(state, found), FIGURES), twin: metricsOf(state, found).twin },
         fragment: fragmentOf(linked),
         header: wholeHeaderOf(linked, found.results, margins),
     };
@@ -94,7 +91,7 @@ function linkRow(state) {
 }
 
 function numberRow(value) {
-    return { value, text: String(value), short: short(value), digits: digits(value), percent: percent(value), whole: whole(value) };
+    return { value, text: String(value), short: short(value), digits: digits(value), percent: percent(value) };
 }
 
 const pids = SCENES.slice(0, 5);
