@@ -2,7 +2,7 @@
 // The C of sim/identify/identify.h: a plant from a recording. What it says of models and
 // plants is as in the header.
 import { exported } from './engine.js';
-import { doubles, free, read, sizeOf, write } from './structs.js';
+import { doubles, room, read, sizeOf, write } from './structs.js';
 
 const LINES = 1500; // IDENTIFY_LINES
 
@@ -10,7 +10,7 @@ const LINES = 1500; // IDENTIFY_LINES
 // the drive with which it stood still until the first line, or null.
 export function identify({ t, u, y, before = null }) {
     const lines = t.length;
-    const at = free(24 * lines + sizeOf('identify_recording') + sizeOf('identify_result'));
+    const at = room(24 * lines + sizeOf('identify_recording') + sizeOf('identify_result'));
     const columns = [t, u, y].map((values, i) => {
         doubles(at + 8 * i * lines, lines).set(values);
         return at + 8 * i * lines;
@@ -25,7 +25,7 @@ export function identify({ t, u, y, before = null }) {
 
 // What a model of the last recording measures, at seconds after its first line.
 export function identifyCurve(model) {
-    const at = free(16 * LINES + sizeOf('identify_model'));
+    const at = room(16 * LINES + sizeOf('identify_model'));
     write('identify_model', at + 16 * LINES, model);
     const count = exported().identify_curve(at + 16 * LINES, at, at + 8 * LINES);
     return { t: doubles(at, count).slice(), y: doubles(at + 8 * LINES, count).slice() };
@@ -33,7 +33,7 @@ export function identifyCurve(model) {
 
 // SIMC's kp, ki and kd, in units and seconds, for a controller that steps each `step` seconds.
 export function identifySimc(plant, step, calm) {
-    const at = free(24 + sizeOf('identify_plant'));
+    const at = room(24 + sizeOf('identify_plant'));
     write('identify_plant', at + 24, plant);
     exported().identify_simc(at + 24, step, calm, at);
     return [...doubles(at, 3)];

@@ -3,7 +3,7 @@
 // the scene's plant and the controller's integers; and what of them is the page's alone.
 import { PLANT, RESULT } from './built.js';
 import { exported, put, sceneOf } from './engine.js';
-import { doubles, free, read, sizeOf, write } from './structs.js';
+import { doubles, room, read, sizeOf, write } from './structs.js';
 
 // How far a plant's gain may be off, as a part of it, for the worst case.
 export const OFF = 0.2;
@@ -23,7 +23,7 @@ function putLoop(s, results) {
 // A margin that there is none of is null: no gain makes such a loop swing.
 export function marginsOf(s, results) {
     putLoop(s, results);
-    const at = free(sizeOf('loop_margins'));
+    const at = room(sizeOf('loop_margins'));
     exported().tuner_margins(at);
     const found = read('loop_margins', at);
     const some = (value) => (value < 0 ? null : value);
@@ -40,7 +40,7 @@ export function marginsOf(s, results) {
 // size; Infinity of a loop that is unstable. `full` is the recording's drive at the highest output.
 export function msOfEach(s, results, plants, full) {
     putLoop(s, results);
-    const at = free(sizeOf('identify_plant'));
+    const at = room(sizeOf('identify_plant'));
     return plants.map((plant) => {
         write('identify_plant', at, plant);
         const ms = exported().tuner_ms(at, full);

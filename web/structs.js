@@ -7,17 +7,17 @@ import { exported } from './engine.js';
 const SCALARS = { bool: 'Uint8', int: 'Int32', pointer: 'Uint32', double: 'Float64' };
 const PAGE = 65536;
 
-let room = { at: 0, bytes: 0 };
+let lent = { at: 0, bytes: 0 };
 
 // Where so many bytes are free, until the next call: what a call of the C is given, and
 // what it returns.
-export function free(bytes) {
-    if (bytes > room.bytes) {
-        const pages = Math.ceil((bytes - room.bytes) / PAGE);
+export function room(bytes) {
+    if (bytes > lent.bytes) {
+        const pages = Math.ceil((bytes - lent.bytes) / PAGE);
         const at = exported().memory.grow(pages) * PAGE;
-        room = { at: room.at || at, bytes: room.bytes + pages * PAGE };
+        lent = { at: lent.at || at, bytes: lent.bytes + pages * PAGE };
     }
-    return room.at;
+    return lent.at;
 }
 
 export const sizeOf = (type) => LAYOUT[type].size;
