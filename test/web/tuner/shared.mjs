@@ -113,22 +113,11 @@ if (options.includes('--update')) {
 }
 const kept = JSON.parse(readFileSync(TABLE, 'utf8'));
 const now = JSON.parse(text);
-const differing = (rows, others = []) => rows.filter((row, i) => !isDeepStrictEqual(row, others[i])).length +
-    Math.max(0, others.length - rows.length);
 let failed = 0;
-
-function check(name, good, why) {
-    console.log(good ? `ok ${name}` : `FAILED ${name}: ${why}`);
-    failed += good ? 0 : 1;
+for (const name of Object.keys({ ...kept, ...now })) {
+    const differ = (now[name] ?? []).filter((row, i) => !isDeepStrictEqual(row, kept[name]?.[i])).length;
+    const same = differ === 0 && kept[name]?.length === now[name]?.length;
+    console.log(same ? `ok table of ${name}` : `FAILED table of ${name}: ${differ} rows differ; to renew ${TABLE}: node test/web/tuner/shared.mjs ${folder} --update`);
+    failed += same ? 0 : 1;
 }
-
-for (const [name, rows] of Object.entries(now)) {
-    const count = differing(rows, kept[name]);
-    check(`table of ${name}: ${rows.length} rows`, count === 0,
-        `${count} differ; to renew ${TABLE}: node test/web/tuner/shared.mjs ${folder} --update`);
-}
-check('table has these lists', isDeepStrictEqual(Object.keys(kept), Object.keys(now)), Object.keys(kept).join(' '));
-const turned = kept.scenes.map((row, i) => (i === 3 ? { ...row, n: row.n + 1 } : row));
-check('a number that differs is seen, and a row too many', differing(now.scenes, turned) === 1 &&
-    differing(now.links, [...kept.links, {}]) === 1, 'it is not');
 process.exit(failed > 0 ? 1 : 0);
