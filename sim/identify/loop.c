@@ -99,24 +99,22 @@ void loop_plant_second_order(struct loop_plant *to, const double a[3],
 void loop_plant_of(struct loop_plant *to, const struct identify_plant *from,
                    double unit_per_count, double drive_per_count)
 {
-    const double gain = from->gain * drive_per_count / unit_per_count;
     const double lags = from->lag + from->lag2;
+    double a[3] = {1.0, lags, from->lag * from->lag2};
 
-    *to = (struct loop_plant){.dead = from->dead};
+    *to = (struct loop_plant){.dead = from->dead, .scale = lags + from->dead};
     if (from->kind == IDENTIFY_RINGING) {
-        const double a[3] = {1.0, 2.0 * from->damping * from->lag,
-                             from->lag * from->lag};
-        loop_plant_second_order(to, a, gain);
+        a[1] = 2.0 * from->damping * from->lag;
+        a[2] = from->lag * from->lag;
         to->scale = (from->lag / larger(from->damping, 0.05)) + from->dead;
     } else if (from->kind == IDENTIFY_INTEGRATING) {
-        const double a[3] = {0.0, 1.0, from->lag2};
-        loop_plant_second_order(to, a, gain);
+        a[0] = 0.0;
+        a[1] = 1.0;
+        a[2] = from->lag2;
         to->scale = 2.0 * (from->dead + from->lag2);
-    } else {
-        const double a[3] = {1.0, lags, from->lag * from->lag2};
-        loop_plant_second_order(to, a, gain);
-        to->scale = lags + from->dead;
     }
+    loop_plant_second_order(to, a,
+                            from->gain * drive_per_count / unit_per_count);
 }
 
 // product a b + share c
@@ -251,12 +249,10 @@ static struct number derivative_at(const struct loop_controller *c,
         return change(angle, 3);
     }
     if (c->derivative == LOOP_PERIODIC) { // on average, held for its period
-        struct number held = {0.0, 0.0};
-        for (int k = 0; k < c->period; k++) {
-            held.re += back(angle, k).re / c->period;
-            held.im += back(angle, k).im / c->period;
-        }
-        return product(held, change(angle, c->period));
+        const struct number whole = change(angle, c->period);
+        const struct number held = quotient(whole, change(angle, 1));
+        const struct number mean = {held.re / c->period, held.im / c->period};
+        return product(mean, whole);
     }
     const struct number kept = back(angle, 1);
     return quotient(change(angle, 1), (struct number){1.0 - (c->keep * kept.re),
