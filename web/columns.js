@@ -10,7 +10,7 @@ const POINTS_KEPT = 1500; // for the plot
 const PREVIEW = 3;
 const MOST_VALUES = 4; // columns that are tried as the measurement
 export const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
-const TIME_NAME = /^(t|x|time|zeit|sec(ond)?s?|sekunden?|s|ms|millis|min(ute)?s?|timestamp|date|epoch|uptime)\b/i;
+const TIMES = /^(t|x|time|zeit|sec(ond)?s?|sekunden?|s|ms|millis|min(ute)?s?|timestamp|date|epoch|elapsed|uptime)$/;
 const DRIVES = /^(u|out|output|op|co|drive|duty|pwm|power|heat|heater|heating|valve|q|fan|pump|ssr|relay|stell.*|ausgang)$/;
 const GOALS = /^(t?set|t?sp|setpoint|t?soll.*|t?ref|reference|goal|target|wanted|desired)$/;
 const FULLS = [255, 1023, 4095, 10000, 32767, 65535];
@@ -58,8 +58,8 @@ function timeColumn({ names, columns, kinds }) {
         return clock;
     }
     const rising = columns.map(risingPart);
-    const named = names.findIndex((name, i) => TIME_NAME.test(name) && rising[i] > 0.9);
-    return named >= 0 ? named : rising.findIndex((part, i) => part > 0.98 && isEven(columns[i]));
+    const named = [...names.keys()].filter((i) => TIMES.test(wordsOf(names[i])[0]) && rising[i] > 0.9);
+    return named.find((i) => isEven(columns[i])) ?? named[0] ?? rising.findIndex((part, i) => part > 0.98 && isEven(columns[i]));
 }
 
 // 5 ms, 1.5 s, 3 min 20 s, 1 h 40 min

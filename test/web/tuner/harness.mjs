@@ -44,10 +44,10 @@ export async function choose(here, preset) {
 
 export const text = (here, selector) => here.locator(selector).first().textContent();
 
-// All that a person reads, but what is said in passing.
+// All that a person reads, but what is said in passing, and what a recording allows, which no link has.
 function readable() {
     const texts = ['#story', '#advice', '#key', '#metrics', '#runs', '#found', '#rules', '#guard', '#stage', '#margins', '#off', '#header', '#chips-text', '#chips']
-        .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent}`);
+        .map((place) => `${place}: ${document.querySelector(place).hidden ? '' : document.querySelector(place).textContent.replace(/^\/\/ (Ms|Warning:|unstable;) .*\n/gm, '')}`);
     const legends = [...document.querySelectorAll('figcaption, #flags, #file')].map((one) => one.textContent);
     const fields = [...document.querySelectorAll('#preset, #work .control input, #loop, #events input, #events select, #options input')]
         .map((one) => (one.type === 'checkbox' ? one.checked : one.inputMode === 'decimal' ? Number(one.value) : one.value));
