@@ -123,7 +123,7 @@ export function createBoardStep({ own, say, refresh }, session, connection, { ma
         const [u, y] = [view.OUTPUT.slice(), view.MEASUREMENT.slice()];
         const missing = view.marks.reduce((sum, mark) => sum + Number(mark === MISSED), 0);
         if (byHand) {
-            await tell(ASK.AUTO, [], 'The controller is automatic again; the recording is in “Your plant, from a step that you recorded”.');
+            await tell(ASK.AUTO, [], 'The controller is automatic again; the recording is in “Your plant”.');
             handOver(u, y);
         } else {
             await tell(ASK.SETPOINT, int16Bytes(from), `The setpoint is ${from} again.`);

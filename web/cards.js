@@ -5,7 +5,6 @@ import { make, table } from './dom.js';
 import { ruleName } from './experiment.js';
 import { digits, percent, short, time, whole } from './format.js';
 import { NOUN, featuresOf, hex } from './header.js';
-import { unitsPerCount } from './metrics.js';
 import { firstRow } from './rules.js';
 
 // Pairs of a name and a figure.
@@ -18,22 +17,14 @@ function seconds(value, none) {
     return value === null ? none : time(value);
 }
 
+// Beside those above the plots.
 export function figuresOf(s, found) {
-    const pendulum = s.PLANT === PLANT.PENDULUM;
-    const step = [
-        ['Overshoot', percent(found.overshoot)],
-        ['Rise to 90 %', seconds(found.rise, 'not reached')],
-        ['Settled to 2 %', seconds(found.settled, 'not yet')],
-    ];
     return [
-        ...(pendulum ? [['Base’s way', `${digits(found.travel)} m`]] : step),
-        ...(found.load === null ? [] : [[pendulum ? 'Shove, at most' : 'Load, at most', `${digits(found.load)} ${s.unit}`]]),
+        s.PLANT === PLANT.PENDULUM ? ['Base’s way', `${digits(found.travel)} m`] : ['Rise to 90 %', seconds(found.rise, 'not reached')],
         ['Mean error', `${digits(found.meanError)} ${s.unit}`],
         ['IAE', `${digits(found.iae)} ${s.unit} s`, 'Integral of the absolute error over all that is shown'],
         ['Output limited', percent(found.limited, 0)],
         ['Output moves', `${digits(found.moved)} / step`, 'Mean change of the output from step to step, in counts'],
-        ['Integers cost', `${digits(found.twin.most)} counts`,
-            `Largest distance of the measurement from the same loop with a controller in double precision, of ${whole(s.SENSOR_RANGE / unitsPerCount(s))} counts; root mean square ${digits(found.twin.rms)}`],
     ];
 }
 
@@ -42,11 +33,9 @@ function inDecibels(factor) {
 }
 
 export function marginFigures(s, margins) {
-    const { ms, gainMargin, lowerGainMargin, phaseMargin, delayMargin, stable, crossover } = margins;
+    const { gainMargin, lowerGainMargin, delayMargin, stable, crossover } = margins;
     return [
         ['Loop', stable ? 'stable' : 'unstable'],
-        ['Ms', stable ? ms.toFixed(2) : '–'],
-        ['Phase margin', !stable || phaseMargin === null ? '–' : `${phaseMargin.toFixed(0)}°`],
         ['Crossover', !stable || crossover === null ? '–' : `${digits(crossover * s.RATE)} rad/s`],
         ['Dead time margin', !stable || delayMargin === null ? '–' : time(delayMargin)],
         ['Gain margin', !stable || gainMargin === null ? '–' : `${digits(gainMargin)} (${inDecibels(gainMargin)})`],

@@ -53,14 +53,14 @@ export function restText(alone) {
     return s.PLANT === PLANT.PENDULUM || early <= still ? null : 'The loop is not at rest when the load comes: show a longer time, or make it quicker.';
 }
 
-// For the figures of what is shown.
+// In the place of the figures that matter.
 export function loadPairs(alone) {
     const { s, found } = alone;
     const { most, at, back, iae } = loadFigures(alone);
     return [
-        ['Load, at most', `${digits(most)} ${s.unit}`], ['after', time(at)],
-        ['Back within a tenth of it', back === null ? 'not yet' : time(back)],
-        ['IAE of the load', `${digits(iae)} ${s.unit} s`, 'Integral of the absolute error from the load on'],
-        ['Output moves', `${digits(metricsOf(s, found).moved)} / step`],
+        ['Load, at most', `${digits(most)} ${s.unit}`, ''], ['after', time(at), ''],
+        ['Back within a tenth of it', back === null ? 'not yet' : time(back), ''],
+        ['IAE of the load', `${digits(iae)} ${s.unit} s`, ''],
+        ['Output moves', `${digits(metricsOf(s, found).moved)} / step`, ''],
     ];
 }

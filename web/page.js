@@ -221,8 +221,8 @@ function showRun(s, found, margins, alone) {
     const { results } = found;
     const experimenting = showTuning(s);
     const figures = metricsOf(s, found);
-    fillFigures(find('#metrics'), experimenting !== null ? [] : alone !== null ? loadPairs(alone) : figuresOf(s, figures));
-    fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : keyFigures(s, figures, margins));
+    fillFigures(find('#metrics'), mode === 'run' ? figuresOf(s, figures) : []);
+    fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : alone !== null ? loadPairs(alone) : keyFigures(s, figures, margins));
     fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, figures, margins, onKept);
     const [scene, seen] = [alone?.s ?? s, experimenting ?? alone?.found ?? found];
     showPlots(scene, seen, panesOf(scene, seen, mode));
@@ -273,6 +273,11 @@ function show() {
         showTuning(s);
         showRefused(s, found);
     }
+}
+
+// Of another state nothing that was said of the last one is left.
+function showChange() {
+    show();
     setText(find('#said'), '');
     past.later(); // last: what is shown does not depend on the link
 }
@@ -416,14 +421,14 @@ function useBoard(hardware, plant, allowed = null) {
     say(plant === null ? 'Rate, limits and gains are the board’s; the plant is this page’s.' : 'Plant, rate, limits and gains are the board’s: what is shown is a prediction.');
 }
 
-function useLines(text, name) {
-    recorder.take(text, name);
+function useLines(text, name, known = {}) {
+    recorder.take(text, name, true, known);
     find('#recorder').scrollIntoView();
 }
 
 function useHandStep(hardware, text, name) {
     useBoard(hardware, null);
-    useLines(text, name);
+    useLines(text, name, { full: String(Math.max(hardware.OUTPUT_MAX, -hardware.OUTPUT_MIN)) });
 }
 
 // --- From the start -----------------------------------------------------------------
@@ -542,7 +547,7 @@ async function startPage() {
     live = createLive(find('#live'), { gains: gainsOfPage, scene: currentState, onPlant: useBoard, onStep: useHandStep, onText: useLines, download });
     tools = createTools(find('#tools'), { copy: toClipboard, useRecord });
     listen();
-    onChange(show);
+    onChange(showChange);
     changeNow(location.hash.length > 1 ? stateOfFragment(location.hash.slice(1)) : presetState('own'));
     past.settle();
     // What the tests take hold of.

@@ -71,7 +71,7 @@ export function createPlots(element, onCursor, mini) {
     function build(panes) {
         parts = panes.map((pane, i) => {
             const { legend, places } = createLegend(pane);
-            const canvas = make('canvas', { 'aria-hidden': 'true', className: i === 0 ? 'tall' : `low ${i > 2 ? 'lowest' : ''}` });
+            const canvas = make('canvas', { 'aria-hidden': 'true', className: i === 0 ? 'tall' : 'low' });
             canvas.addEventListener('pointermove', (event) => moved(event, canvas));
             canvas.addEventListener('pointerdown', (event) => moved(event, canvas));
             canvas.addEventListener('pointerleave', () => onCursor(null));

@@ -125,8 +125,8 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
         wait();
     }
 
-    // What was said of another recording is not kept for a new one.
-    function take(next, name, anew = true) {
+    // What was said of another recording is not kept for a new one, of which `known` is known.
+    function take(next, name, anew = true, known = {}) {
         held = next.length > LONG ? next : null;
         field.readOnly = held !== null;
         const lines = held === null ? 0 : next.split('\n').length;
@@ -134,7 +134,7 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
         if (field.value !== seen) {
             field.value = seen;
         }
-        answers = anew ? {} : answers;
+        answers = anew ? known : answers;
         ask();
     }
 

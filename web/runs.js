@@ -57,13 +57,14 @@ export function keyFigures(s, found, margins) {
     return figureNamesOf(s).map(([key, name, text]) => [name, text(values[key]), changed(text, values[key], before?.[key])]);
 }
 
-// Into each place; what is the same there already is not touched.
+// Into each place, the first with help; what is the same there already is not touched.
 export function fillKey(places, figures) {
     const wanted = figures.map(([name]) => name).join();
     for (const place of places) {
         if (place.dataset.names !== wanted) {
             place.dataset.names = wanted;
-            place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', { textContent: name }), make('dd', {}, '', make('small', { title: 'Change to the last kept run' })), helpFor(name))));
+            const help = place === places[0] ? helpFor : () => '';
+            place.replaceChildren(...figures.map(([name]) => make('div', {}, make('dt', { textContent: name }), make('dd', {}, '', make('small', { title: 'Change to the last kept run' })), help(name))));
         }
         figures.forEach(([, value, change], i) => {
             const [shown, small] = place.children[i].querySelector('dd').childNodes;

@@ -32,12 +32,12 @@ const state = (here) => here.evaluate(() => window.tuner.currentState());
 const EQUAL = /^[\d\u202F]+ steps equal, bit for bit\.$/;
 
 // --- Without a browser ------------------------------------------------------------
-const { fitLoop } = await moduleOf('loopfit');
+const { fitOf } = await moduleOf('models');
 const { createComparison, stepFigures } = await moduleOf('predicted');
 const { createTrace } = await moduleOf('trace');
 const { presetState } = await moduleOf('state');
 const { run: runScene, startEngine } = await moduleOf('engine');
-const { STEP } = await moduleOf('built');
+const { FIT_REASON, STEP } = await moduleOf('built');
 const { bytesOfFile, bytesOfText } = await moduleOf('log');
 const { takeBytes, twinCounts, beginTwin, commandBytes } = await moduleOf('twin');
 await startEngine();
@@ -85,10 +85,12 @@ async function streamed(steps) {
         u.push(k < 300 ? 60 : 60 + Math.round(40 * Math.exp(-(k - 300) / 150) + 20 * Math.sin(k / 90)));
         x += (4 * (u[k - 8] ?? 60) + 20 - x) / 64;
     }
-    const fit = fitLoop(u, y);
-    check('a closed loop’s plant is found', fit.refused === null && Math.abs(fit.lag - 64) < 2 && Math.abs(fit.gain - 4) < 0.1 && Math.abs(fit.dead - 8) < 1.5 && Math.abs(fit.rest - 20) < 6, JSON.stringify(fit));
-    check('an output that stands still shows nothing', fitLoop(u.map(() => 60), y).refused.includes('stood still'));
-    check('what does not follow is refused', fitLoop(u, u.map(() => 100 * draw())).refused !== null);
+    const t = u.map((_, k) => k);
+    const { reason, models, chosen } = fitOf({ t, u, y }, null);
+    const { plant, rest } = models[chosen];
+    check('a closed loop’s plant is found', reason === FIT_REASON.USABLE && Math.abs(plant.lag - 64) < 2 && Math.abs(plant.gain - 4) < 0.1 && Math.abs(plant.dead - 8) < 1.5 && Math.abs(rest - 20) < 6, JSON.stringify(models[chosen].plant));
+    check('an output that stands still shows nothing', fitOf({ t, u: u.map(() => 60), y }, null).reason === FIT_REASON.DRIVE_STANDS);
+    check('what does not follow is refused', fitOf({ t, u, y: u.map(() => 100 * draw()) }, null).reason !== FIT_REASON.USABLE);
 }
 
 {
@@ -172,8 +174,8 @@ async function streamed(steps) {
     await said(here, /^The setpoint is 450 again\.$/);
     await here.waitForSelector('#live-fit', { state: 'visible' });
     const fit = await text(here, '#live-fit-said');
-    const [, gain, lag, dead] = fit.match(/^Gain ([\d.]+) counts per count of output, lag ([\d.]+) (?:m?s), dead time ([\d.]+) ms/) ?? [];
-    check(`the plant is found: ${fit}`, Math.abs(gain - 4) < 0.2 && Math.abs(lag - 0.64) < 0.04 && dead > 60 && dead < 110, fit);
+    const [, gain, lag, dead] = fit.match(/^Gain ([\d.]+) counts for a drive of 1, lag ([\d.]+) s, dead time ([\d.]+) s/) ?? [];
+    check(`the plant is found: ${fit}`, Math.abs(gain - 4) < 0.2 && Math.abs(lag - 0.64) < 0.04 && dead > 0.06 && dead < 0.11, fit);
     await here.click('#live-fit-use');
     await frame(here);
     const plant = await state(here);
@@ -231,7 +233,7 @@ async function streamed(steps) {
     await said(here, /automatic again/);
     await here.waitForSelector('#recorder[data-done]:not([data-busy])');
     const hand = await text(here, '#fit');
-    check(`a step by hand goes to the card of recordings: ${hand}`, /^Gain (9|10)\d\d counts at full drive, lag (0\.6\d+|6\d\d m)/.test(hand) && !(await here.isDisabled('#use-fit')), hand);
+    check(`a step by hand goes to the card of recordings: ${hand}`, /^Gain (9|10)\d\d counts at full drive, lag 0\.6\d+ s/.test(hand) && !(await here.isDisabled('#use-fit')), hand);
     await run(500);
     const last = await verdict(here);
     check('a hand, too, is equal in each step', !last.includes('Different'), last);
@@ -342,9 +344,12 @@ async function streamed(steps) {
     await here.waitForSelector('#live-other', { state: 'visible' });
     await here.click('#live-hand-over');
     await here.waitForSelector('#recorder[data-done]:not([data-busy])');
+    for (const answer of ['this page’s step', '100 %']) {
+        await here.locator('#record-asks button', { hasText: answer }).first().click();
+        await here.waitForSelector('#recorder[data-done]:not([data-busy])');
+    }
     const read = await text(here, '#fit');
     check(`a serial plotter’s lines go to the card of recordings: ${read}`, /lag [45]\.\d+ s/.test(read) && !(await here.isVisible('#live-other')) && !(await here.isDisabled('#use-fit')), `${read} ${await text(here, '#record-notes')}`);
-    check('whose lines are steps of the page’s rate', (await text(here, '#record-notes')).includes('each line is a step of this page’s rate'), await text(here, '#record-notes'));
     checkNone('a log: no error', here.noted.errors);
     await here.close();
 }

@@ -184,7 +184,7 @@ check('a gain of one’s own is not on the line', (await note()) === 'these gain
 await there.fill('#c-ms', '1,6');
 await there.press('#c-ms', 'Enter');
 await frame(there);
-check('an Ms that is wanted is set', /Ms1\.60/.test(await text(there, '#margins')) && (await text(there, '#ms-said')) === 'Ms 1.60 is set.', await text(there, '#ms-said'));
+check('an Ms that is wanted is set', /Ms1\.60/.test(await text(there, '#key')) && (await text(there, '#ms-said')) === 'Ms 1.60 is set.', await text(there, '#ms-said'));
 checkNone('nothing is stale', (await stale(there)).filter((one) => !one.startsWith('fields')));
 const before = gainsOf(await state(there));
 for (const [wish, sentence] of [['1.01', /^Ms 1\.01 cannot be reached: from calm to quick it is 1\.\d\d to \d+\.\d\d\.$/], ['1', /^Ms is above 1\.$/], ['x', /is no number/]]) {

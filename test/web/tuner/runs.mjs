@@ -115,7 +115,7 @@ check('Ti is beside ki', /^Ti 5\.64 s$/.test(await text(here, '.control:has(#c-k
 await here.click('#open-tools');
 check('costs are said to be bounds', (await text(here, '#chips-text')).includes('at most, by the code’s bound') && (await text(here, '#chips caption')).startsWith('At most, at 20 steps'));
 
-const metrics = () => text(here, '#metrics');
+const metrics = () => text(here, '#key');
 const inScene = await metrics();
 await here.click('#modes button[value=load]');
 await frame(here);
