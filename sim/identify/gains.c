@@ -84,5 +84,5 @@ double identify_ms(const struct identify_plant *plant, double step,
                         (last.re * at.re) + (last.im * at.im));
         last = at;
     }
-    return (fabs(turned) > 0.8) ? UNSTABLE : (1.0 / sqrt(nearest));
+    return (fabs(turned) < 0.8) ? (1.0 / sqrt(nearest)) : UNSTABLE;
 }

@@ -111,8 +111,8 @@ static bool possible(const struct identify_model *m)
 {
     const struct identify_plant *const p = &m->plant;
     const double span = record.span;
-    const double part = (m->start >= IDENTIFY_MOVING) ? 0.4 : 0.8;
-    const bool known = (p->gain != 0.0) && (p->dead < part * span);
+    const bool known =
+        (p->gain != 0.0) && (p->dead < model_latest(&record, m->start));
     if (p->kind != IDENTIFY_RINGING) {
         return known && (p->lag < 1e4 * span);
     }
@@ -179,23 +179,24 @@ static void draw_plants(const struct found *all, struct identify_result *result)
 static void judge_calm(struct identify_model *m,
                        const struct identify_plant *plants)
 {
+    static const double CALM[] = {1.0, 2.0, 4.0};
     const struct identify_plant *const p = &m->plant;
     const double scale = p->lag + p->lag2 + p->dead;
     const double step = ((scale > 0.0) ? scale : record.every) / 40.0;
     m->calm = 0.0;
-    for (double calm = 1.0; (m->calm == 0.0) && (calm <= 4.0); calm *= 2.0) {
+    for (int i = 0; (i < 3) && (m->calm == 0.0); i++) {
         double ms[IDENTIFY_PLANTS];
         double gains[3];
         int above = 0;
-        identify_simc(p, step, calm, gains);
+        identify_simc(p, step, CALM[i], gains);
         for (int k = 0; k < IDENTIFY_PLANTS; k++) {
             ms[k] = identify_ms(&plants[k], step, gains);
             above += (ms[k] > MOST_MS) ? 1 : 0;
         }
         const double risk = (double)above / IDENTIFY_PLANTS;
-        m->risk = (calm == 1.0) ? risk : m->risk;
+        m->risk = (i == 0) ? risk : m->risk;
         m->ms = nth(ms, IDENTIFY_PLANTS, (9 * IDENTIFY_PLANTS) / 10);
-        m->calm = (risk <= RISK) ? calm : 0.0;
+        m->calm = (risk <= RISK) ? CALM[i] : 0.0;
     }
 }
 

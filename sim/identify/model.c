@@ -143,6 +143,11 @@ double model_before(const struct task *task)
     return (task->start == IDENTIFY_COLD) ? 0.0 : task->record->before;
 }
 
+double model_latest(const struct record *record, int start)
+{
+    return ((start >= IDENTIFY_MOVING) ? 0.4 : 0.8) * record->span;
+}
+
 // The answer to all moves of the drive, at rest before them.
 static void answer(const struct task *task, const struct identify_plant *plant,
                    double *to)

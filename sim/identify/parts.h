@@ -94,6 +94,9 @@ int model_numbers(int kind);                                    // 2 or 3
 struct identify_plant model_plant(int kind, struct numbers at); // of gain 1
 double model_before(const struct task *task); // the drive that it started from
 
+// A dead time must be less than this.
+double model_latest(const struct record *record, int start);
+
 struct projection model_project(const struct task *task,
                                 const struct identify_plant *plant);
 double model_error(const struct task *task, struct numbers at);

@@ -6,7 +6,6 @@
 #include "parts.h"
 
 #define DEADS 10
-#define THIRDS 3
 #define TURNS 60
 #define FINE 1e-9
 #define FAR (2.5 * 1.4826) // times the median of sizes: what is far away
@@ -16,9 +15,12 @@ struct corner {
     double error;
 };
 
+// With a dead time that is too late anything fits: the lines before it, which
+// answer to a drive that nobody has seen.
 static struct corner corner_at(const struct task *task, struct numbers at)
 {
-    return (struct corner){at, model_error(task, at)};
+    const bool late = fabs(at.x[1]) >= model_latest(task->record, task->start);
+    return (struct corner){at, late ? 1e300 : model_error(task, at)};
 }
 
 // The first sides of a simplex: parts of the lag.
@@ -122,28 +124,42 @@ static struct corner lowest(const struct task *task, struct numbers from,
     return corners[0];
 }
 
-// The best place of a grid over lags and thirds, for one of the dead times,
-// which are parts of the lag or of the recording.
+// Lags from 0.002 to about 3 of the recording, and with each of them thirds:
+// of a second lag by the first one, or a damping.
+struct grid {
+    double factor;
+    double third[3];
+    int lags;
+    int thirds;
+};
+
+// The best place of a grid, for one of the dead times, which are parts of the
+// lag or of the recording.
 static struct corner best_place(const struct task *task, int dead)
 {
     static const double OF_LAG[DEADS] = {0.0, 0.1, 0.3, 1.0, 3.0};
     static const double OF_SPAN[DEADS] = {0.0,  0.0,  0.0,  0.0, 0.0,
                                           0.01, 0.03, 0.08, 0.2, 0.4};
-    static const double LAG2[THIRDS] = {0.08, 0.4, 0.9};
-    static const double DAMPING[THIRDS] = {0.1, 0.3, 0.6};
+    static const struct grid GRIDS[IDENTIFY_KINDS] = {
+        [IDENTIFY_FIRST] = {1.8, {0.0}, 13, 1},
+        [IDENTIFY_SECOND] = {1.8, {0.08, 0.4, 0.9}, 13, 3},
+        [IDENTIFY_INTEGRATING] = {1.8, {0.0}, 13, 1},
+        [IDENTIFY_RINGING] = {1.25, {0.1, 0.3, 0.6}, 33, 3}};
+    const struct grid *const grid = &GRIDS[task->kind];
     const double span = task->record->span;
     const bool ringing = task->kind == IDENTIFY_RINGING;
     const bool integrating = task->kind == IDENTIFY_INTEGRATING;
-    const int thirds = (model_numbers(task->kind) == 3) ? THIRDS : 1;
-    const double factor = ringing ? 1.25 : 1.8;
     struct corner best = {{{0.0}}, 1e300};
-    for (double lag = 0.002 * span; lag < 3.0 * span; lag *= factor) {
+    double lag = 0.002 * span;
+    for (int i = 0; i < grid->lags; i++) {
         const double time = (OF_LAG[dead] * lag) + (OF_SPAN[dead] * span);
-        for (int k = 0; (k < thirds) && (time < 0.6 * span); k++) {
-            const struct numbers at = {{integrating ? lag : log(lag), time,
-                                        ringing ? DAMPING[k] : LAG2[k] * lag}};
+        for (int k = 0; (k < grid->thirds) && (time < 0.6 * span); k++) {
+            const double third = grid->third[k] * (ringing ? 1.0 : lag);
+            const struct numbers at = {
+                {integrating ? lag : log(lag), time, third}};
             best = better(best, corner_at(task, at));
         }
+        lag *= grid->factor;
     }
     return best;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page's sim/identify on the recordings of test/support/recordings: the same bits as the
-// native program of identify.c, which judges them, and how long the slowest takes.
+// The page's sim/identify on the recordings of test/support/recordings: the same bits as
+// Python's, whose test judges them, and how long the slowest takes.
 import { readFileSync } from 'node:fs';
 import { check, checkNone, finish, moduleOf } from './harness.mjs';
 
@@ -26,11 +26,11 @@ function foundIn(file) {
     return [reason, ...[p.kind, p.gain, p.lag, p.lag2, p.damping, p.dead, calm].map(String)];
 }
 
-const native = linesOf(process.argv[2]).map((line) => line.match(/^ok identify (\S+): (.*)$/).slice(1));
+const native = linesOf(process.argv[2]).map((line) => line.match(/^ok (\S+\.csv): (.*)$/)?.slice(1)).filter(Boolean);
 for (const [file, text] of native) {
     const [reason, ...numbers] = text.split(' ');
     const expected = [reason, ...numbers.map((number) => String(Number(number)))];
-    checkNone(`${file} natively and in the page`, foundIn(file).filter((value, i) => value !== expected[i]));
+    checkNone(`${file} in Python and in the page`, foundIn(file).filter((value, i) => value !== expected[i]));
 }
 check(`the slowest of ${native.length} takes ${slowest.toFixed(2)} s of CPU`, native.length === 30 && slowest <= MOST_S);
 finish();
