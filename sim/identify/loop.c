@@ -223,19 +223,19 @@ static void sample(struct sampled *s, const struct loop_plant *plant,
 
 // --- Its response and the controller's -------------------------------------
 
-static struct number plant_at(const struct sampled *s, double angle)
+// With 1 - z^-1 at this angle.
+static struct number plant_at(const struct sampled *s, double angle,
+                              struct number fall)
 {
-    const struct number one = back(angle, 1);
-    const struct number back_one = change(angle, 1);
-    const struct number d = {-back_one.re, back_one.im}; // z - 1
+    const struct number rise = {-fall.re, fall.im}; // z - 1
     struct number top = {0.0, 0.0};
     struct number bottom = {1.0, 0.0};
 
     for (int k = 0; k < s->states; k++) {
-        top = product(top, d);
-        top.re += s->top[k] + (s->top_before[k] * one.re);
-        top.im += s->top_before[k] * one.im;
-        bottom = product(bottom, d);
+        top = product(top, rise);
+        top.re += s->top[k] + (s->top_before[k] * (1.0 - fall.re));
+        top.im -= s->top_before[k] * fall.im;
+        bottom = product(bottom, rise);
         bottom.re += s->bottom[k];
     }
     return product(quotient(top, bottom), back(angle, s->steps));
@@ -243,31 +243,30 @@ static struct number plant_at(const struct sampled *s, double angle)
 
 // What the derivative's factor is multiplied with.
 static struct number derivative_at(const struct loop_controller *c,
-                                   double angle)
+                                   double angle, struct number fall)
 {
     if (c->derivative == LOOP_THREE) {
         return change(angle, 3);
     }
     if (c->derivative == LOOP_PERIODIC) { // on average, held for its period
         const struct number whole = change(angle, c->period);
-        const struct number held = quotient(whole, change(angle, 1));
+        const struct number held = quotient(whole, fall);
         const struct number mean = {held.re / c->period, held.im / c->period};
         return product(mean, whole);
     }
-    const struct number kept = back(angle, 1);
-    return quotient(change(angle, 1), (struct number){1.0 - (c->keep * kept.re),
-                                                      -c->keep * kept.im});
+    return quotient(fall, (struct number){(1.0 - c->keep) + (c->keep * fall.re),
+                                          c->keep * fall.im});
 }
 
 static struct number loop_at(const struct sampled *s, double angle)
 {
     const struct loop_controller *c = s->controller;
-    const struct number i =
-        quotient((struct number){c->ki, 0.0}, change(angle, 1));
-    const struct number d = derivative_at(c, angle);
+    const struct number fall = change(angle, 1);
+    const struct number i = quotient((struct number){c->ki, 0.0}, fall);
+    const struct number d = derivative_at(c, angle, fall);
     const struct number terms = {c->kp + i.re + (c->kd * d.re),
                                  i.im + (c->kd * d.im)};
-    return product(terms, plant_at(s, angle));
+    return product(terms, plant_at(s, angle, fall));
 }
 
 // --- In time ---------------------------------------------------------------

@@ -64,8 +64,8 @@ struct loop_margins {
     double im[LOOP_POINTS];
 };
 
-// a[2] y'' + a[1] y' + a[0] y = gain u, of a plant of zeros. With a[2] = 0 it is
-// of the first order.
+// a[2] y'' + a[1] y' + a[0] y = gain u, of a plant of zeros. With a[2] = 0 it
+// is of the first order.
 void loop_plant_second_order(struct loop_plant *to, const double a[3],
                              double gain);
 
