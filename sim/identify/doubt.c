@@ -67,15 +67,21 @@ static double alikeness(struct lines *in)
 
 // ---- The spread of the numbers ----
 
+// Dead times and second lags have no sign, and an integrator's lag.
+static bool is_folded(const struct task *task, int k)
+{
+    return (k > 0) || (task->kind == IDENTIFY_INTEGRATING);
+}
+
 // By differences of what is left over, at the places on both sides of a number.
 // A number that is folded at 0 has none below it.
 static void slope_of(const struct task *task, struct numbers at, int k,
                      double step, double *to)
 {
     const struct lines *const in = task->lines;
-    const bool folded = (k > 0) || (task->kind == IDENTIFY_INTEGRATING);
     const double high = at.x[k] + step;
-    const double low = folded ? fmax(at.x[k] - step, 0.0) : (at.x[k] - step);
+    const double low =
+        is_folded(task, k) ? fmax(at.x[k] - step, 0.0) : (at.x[k] - step);
     at.x[k] = low;
     (void)model_error(task, at);
     for (int i = 0; i < in->n; i++) {
@@ -193,6 +199,9 @@ void doubt_about(const struct task *task, struct numbers best,
 {
     struct proposal *const all = proposals[task->kind];
     const struct identify_plant plant = model_plant(task->kind, best);
+    for (int k = is_folded(task, 0) ? 0 : 1; k < NUMBERS; k++) {
+        best.x[k] = fabs(best.x[k]);
+    }
     const struct projection got = model_project(task, &plant);
     const int n = model_numbers(task->kind);
     const double worth = fmax(got.weights - n - got.columns, 1.0);
