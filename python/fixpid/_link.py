@@ -480,13 +480,19 @@ class Link:
                 name, float if name in ("setpoint", "p", "i", "d") else int))
         return log
 
+    @property
+    def rate(self) -> float:
+        """Steps per second, which the board says in its hello."""
+        if not self.period:
+            raise ValueError("the period is not known: the recording has no hello")
+        return 1 / self.period
+
     def recording(self, sensor: Optional[Sensor] = None, actuator: Optional[Actuator] = None) -> Tuple[Any, Any, Any]:
         """Seconds, output and measurement of `log`, for `fit(*link.recording())`: counts, or with a
         sensor and an actuator their units. It begins behind the board's last reset."""
-        if self.period is None:
-            raise ValueError("the period is not known: the recording has no hello")
+        rate = self.rate
         steps = list(self._kept)[max(0, len(self._kept) - self._run):]
-        t = [(step.number - steps[0].number) % 2**32 * self.period for step in steps]
+        t = [(step.number - steps[0].number) % 2**32 / rate for step in steps]
         u = [step.output if actuator is None else actuator.units(step.output) for step in steps]
         y = [step.measurement if sensor is None else sensor.units(step.measurement) for step in steps]
         return (t, u, y) if numpy is None else (numpy.array(t), numpy.array(u), numpy.array(y))

