@@ -44,7 +44,8 @@ class Pid(_nouns.Pid):
 
     With a `sensor` and an `actuator` the gains, the setpoint, the measurement and the output
     are in their units; else they are counts. Further keywords, in these units: setpoint_weight
-    (0 to 1), filter (of the derivative, 0..7), integral_limits, reverse, derivative_on_error.
+    (0 to 1), filter (of the derivative, 0..7), integral_limits, reverse, derivative_on_error. Without a setpoint it is 0, or the sensor's end
+    that is nearest to 0.
 
     Without kp it takes the fields of C instead: `gains`, as pid_gains makes them, output_min,
     output_max and so on, and a `rate` if `tunings` are asked for. The verbs of C, step, track
@@ -141,7 +142,7 @@ class Pid(_nouns.Pid):
 
     @setpoint.setter
     def setpoint(self, setpoint: float) -> None:
-        self._setpoint = numbers("setpoint", setpoint, *self._reach)
+        self._setpoint = numbers("setpoint", number("setpoint", setpoint), *self._reach)
         self._wanted = self._counts(self._setpoint)
 
     @property

@@ -163,6 +163,7 @@ def what_is_refused_is_named():
             (TypeError, pid.run, (1, ["a"]), "measurements is refused: an array of numbers"),
             (TypeError, pid.steps, (1,), "setpoint, measurement are wanted, not 1"),
             (TypeError, pid, ((1, 2),), "measurement = (1, 2) is refused"),
+            (TypeError, pid, (1, (1, 2)), "setpoint = (1, 2) is refused"),
             (OverflowError, fixpid.Slew, (1, -1), "fall_q16 = -1 is refused"),
             (TypeError, fixpid.Guard, (5,), "Guard takes its fields by name: output_min"),
             (TypeError, fixpid.Pid, (2, 1, 0), ""), (ValueError, fixpid.Sensor, (5, 5), "(low, high) = (5, 5)"),
