@@ -79,6 +79,9 @@ function clockOf(cell) {
     return { kind: 'date', value: Date.UTC(year, month - 1, day) / 1000 + inDay - ahead };
 }
 
+// What stands before the numbers of a line, as in `temp:21.5`.
+const labelsOf = (line, { cut }) => line.split(cut).map((cell) => LABEL.exec(cell.trim())?.[0].replace(/[=:] *$/, '') ?? '');
+
 // The cells of a line; what stands in quotes is not cut.
 function cutLine(line, { cut }) {
     const trimmed = (cell) => cell.trim().replace(/^"(.*)"$/, '$1').replace(/""/g, '"').trim().replace(LABEL, '');
@@ -201,6 +204,7 @@ export function readTable(text) {
             skipped.push({ line: at + 1, why: `it has ${cells.length} cells instead of ${width}` });
             continue;
         }
+        names = numbers.length === 0 && names.length === 0 && LABEL.test(line) ? labelsOf(line, form) : names;
         const read = cells.map((cell) => readCell(cell, decimal));
         const wrong = read.find((one) => one.why !== undefined);
         if (wrong !== undefined && read.filter((one) => one.why === undefined).length < Math.min(2, width)) {
