@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A plant of the user's own, on the user's own hardware: what a plant's kind is called,
 // its first gains, and a scene for it that leaves sensor, actuator and rate as they are.
-import { CONTROLLER, LIMIT, OPTION, PLANT } from './built.js';
+import { CONTROLLER, FIT_KIND, LIMIT, OPTION, PLANT } from './built.js';
+import { identifySimc } from './identify.js';
 import { errorPerCount, scaleSeconds } from './margins.js';
 import { unitsPerCount } from './metrics.js';
 
@@ -21,47 +22,35 @@ function motorAsLags(s) {
     return { gain: s.GAIN * constant / both, lags: [resistance * s.T1 * 1e-6 / both, inductance / resistance] };
 }
 
-// What Skogestad's rules (SIMC) know of the plant as kp, ki and kd see it, which are counts
-// per count: { gain, lag, dead, own: the loop's time constant that they advise, ti: of dead
-// time and time constant, td, filter }. The hold is half a step of dead time; half of a
-// second lag is dead time, and half lengthens the first. The loop's time constant is the
-// dead time, or a tenth of the lag where that is more; of what oscillates it is
-// 1 / the natural frequency.
-function simcOf(s) {
-    const perCount = (gain) => Math.abs(gain) / unitsPerCount(s) / Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN);
-    const hold = s.DEAD + 0.5 / s.RATE;
-    if (s.PLANT === PLANT.OSCILLATOR) {
-        const lag = 2 * s.DAMPING * s.T1;
-        const filter = Math.min(7, Math.max(0, Math.floor(Math.log2(s.T1 * s.RATE / 10))));
-        return { gain: perCount(s.GAIN), lag, dead: hold, own: s.T1, ti: () => lag, td: s.T1 * s.T1 / lag, filter };
-    }
-    if (s.PLANT === PLANT.INTEGRATOR) {
-        const dead = hold + s.T2 / 2;
-        return { gain: perCount(s.GAIN), lag: 1, dead, own: dead, ti: (wanted) => 4 * wanted, td: 0, filter: 0 };
-    }
+// The state's plant as Skogestad's rules (SIMC) take it, of counts per count.
+function plantOf(s) {
     const { gain, lags } = s.PLANT === PLANT.MOTOR ? motorAsLags(s) : { gain: s.GAIN, lags: [s.T1, s.T2] };
-    const [second, first] = lags.sort((a, b) => a - b);
-    const [lag, dead] = [first + second / 2, (s.PLANT === PLANT.MOTOR ? 0.5 / s.RATE : hold) + second / 2];
-    return { gain: perCount(gain), lag, dead, own: Math.max(dead, lag / 10), ti: (wanted) => Math.min(lag, 4 * wanted), td: 0, filter: 0 };
+    const [lag2, lag] = lags.sort((a, b) => a - b);
+    const plant = { kind: FIT_KIND.SECOND, gain: Math.abs(gain) / unitsPerCount(s) / Math.max(s.OUTPUT_MAX, -s.OUTPUT_MIN), lag, lag2, damping: 0, dead: s.PLANT === PLANT.MOTOR ? 0 : s.DEAD };
+    switch (s.PLANT) {
+    case PLANT.OSCILLATOR: return { ...plant, kind: FIT_KIND.RINGING, lag: s.T1, lag2: 0, damping: s.DAMPING };
+    case PLANT.INTEGRATOR: return { ...plant, kind: FIT_KIND.INTEGRATING, lag: 0, lag2: s.T2 };
+    default: return plant;
+    }
 }
 
-// Their gains, with a time constant `calm` times the one that they advise.
+// Their gains, with a time constant of the loop `calm` times the one that they advise. D is of what
+// oscillates.
 export function simcGains(s, calm = 1) {
-    const { gain, lag, dead, own, ti, td, filter } = simcOf(s);
-    const wanted = dead + calm * own;
-    const kp = lag / (gain * wanted);
-    return withGains(kp, kp / ti(wanted), kp * td, filter);
+    const filter = Math.min(7, Math.max(0, Math.floor(Math.log2(s.T1 * s.RATE / 10))));
+    return withGains(...identifySimc(plantOf(s), 1 / s.RATE, calm), s.PLANT === PLANT.OSCILLATOR ? filter : 0);
 }
 
 // The time constant of the loop with these gains, and how many times that of SIMC it is, if
-// they are SIMC's for any; else null.
+// they are SIMC's for any; else null. 1 / kp grows evenly with it, from the dead time on.
 export function calmOf(s) {
-    const { gain, lag, dead, own } = simcOf(s);
-    const calm = (lag / (gain * s.KP) - dead) / own;
+    const plant = plantOf(s);
+    const [none, own] = [0, 1].map((calm) => 1 / identifySimc(plant, 1 / s.RATE, calm)[0]);
+    const calm = (1 / s.KP - none) / (own - none);
     const other = calm > 0 && Number.isFinite(calm) ? simcGains(s, calm) : null;
     const near = (key) => Math.abs(s[key] - other[key]) <= 0.002 * other[key];
     const same = other !== null && near('KI') && near('KD') && (s.KD === 0 || s.FILTER === other.FILTER);
-    return same ? { calm, seconds: calm * own } : null;
+    return same ? { calm, seconds: calm * (own / none - 1) * (plant.dead + plant.lag2 / 2 + 0.5 / s.RATE) } : null;
 }
 
 function withGains(kp, ki, kd = 0, filter = 0) {
@@ -137,9 +126,15 @@ function rangeOfDrive(s) {
     return reach[s.PLANT] ?? s.GAIN;
 }
 
+// A scene for this plant with its first gains, as sceneOfPlant has it.
+export function withPlant(s, plant) {
+    const next = sceneOfPlant(s, plant);
+    return { ...next, ...gainsFor(next) };
+}
+
 // A scene for this plant: `plant` has PLANT, GAIN and what else is of a plant, and maybe
 // its unit. The sensor, the output, the rate and its direction, if that was set, stay.
-export function withPlant(s, plant) {
+export function sceneOfPlant(s, plant) {
     const next = { ...s, ...plant };
     const [low, high] = [next.SENSOR_LOW, next.SENSOR_LOW + next.SENSOR_RANGE];
     const reach = rangeOfDrive(next);
@@ -152,6 +147,5 @@ export function withPlant(s, plant) {
         SETPOINT: inside(next.START + reach / 2),
         events: [{ at: round4(0.4 * seconds), what: 'SETPOINT', a: inside(next.START + 0.65 * reach) },
             { at: round4(0.72 * seconds), what: 'LOAD', a: -0.1 }],
-        ...gainsFor(next),
     };
 }

@@ -3,7 +3,7 @@
 // the C by their names there, and a few of the page's own. A preset is a whole
 // state; a link has what differs from one.
 import { CONTROLLER, EVENT, EXPERIMENT, LIMIT, OPTION, PARAM, PLANT, RULE } from './built.js';
-import { gainsFor, plantOfKind, withPlant } from './own.js';
+import { gainsFor, plantOfKind, sceneOfPlant, withPlant } from './own.js';
 
 const common = {
     CONTROLLER: CONTROLLER.PID, GAIN: 100, T1: 1, T2: 0, DAMPING: 0.3, DEAD: 0, START: 0,
@@ -61,9 +61,10 @@ export const PRESETS = [
         OUTPUT_MIN: -1000, RATE: 256, DURATION: 12, SETPOINT: 0, KP: 900, KI: 80, KD: 800, CLOCK: 4,
         events: [{ at: 6, what: 'LOAD', a: 6 }],
     }),
-    withPlant(preset('own', 'Your own', 'Your plant on your hardware: paste a recorded step, move the slider, copy the header.', {
+    // With its first gains, which the C would have to be there for.
+    { ...sceneOfPlant(preset('own', 'Your own', 'Your plant on your hardware: paste a recorded step, move the slider, copy the header.', {
         SENSOR_BITS: 10, SENSOR_RANGE: 300, OUTPUT_MAX: 255, RATE: 10, START: 20, unit: '°C',
-    }), plantOfKind({ SENSOR_RANGE: 300, RATE: 10 }, PLANT.LAGS)),
+    }), plantOfKind({ SENSOR_RANGE: 300, RATE: 10 }, PLANT.LAGS)), KP: 1.692, KI: 0.03828 },
 ];
 
 // As it is, to read from; and a copy, to change.
