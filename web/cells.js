@@ -4,6 +4,7 @@
 
 const SAMPLE = 300; // lines by which the form is chosen
 const HOLES = /^(nan|n\/a|#n\/a|null|none|nil|-+|\?+|err(or)?|ovf)?$/i;
+const SWITCHED = { on: 1, true: 1, ein: 1, off: 0, false: 0, aus: 0 };
 const CLOCK = /^(?:(\d{4})-(\d\d?)-(\d\d?)|(\d\d?)([./])(\d\d?)\5(\d{4}))?[T ]?(?:(\d{1,4}):(\d\d)(?::(\d\d)(?:[.,](\d+))?)?)? ?([ap])?m?(Z|[+-]\d\d:?\d\d)?$/i;
 const THOUSANDS_OR_TWO = /(?:^|,)[1-9]\d{0,2},0\d\d(?:\.\d*)?(?:,|$)/;
 const DATE_AND_TIME = /(\d{4}-\d\d?-\d\d?|\d\d?([./])\d\d?\2\d{4})[ ,;\t]+(?=\d\d?:\d\d)/g;
@@ -38,6 +39,9 @@ export function readCell(cell, decimal) {
     if (THOUSANDS[decimal].test(cell)) {
         const digitsOnly = cell.replace(decimal === '.' ? /[,'’\u00a0\u202f]/g : /[.'’\u00a0\u202f]/g, '');
         return { kind: 'thousands', value: Number(digitsOnly.replace(',', '.')) };
+    }
+    if (Object.hasOwn(SWITCHED, cell.toLowerCase())) {
+        return { kind: 'number', value: SWITCHED[cell.toLowerCase()] };
     }
     if (HOLES.test(cell)) {
         return { kind: 'hole', value: NaN };

@@ -11,8 +11,8 @@ const PREVIEW = 3;
 const MOST_VALUES = 4; // columns that are tried as the measurement
 export const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
 const TIMES = /^(t|x|time|zeit|sec(ond)?s?|sekunden?|s|ms|millis|min(ute)?s?|timestamp|date|epoch|elapsed|uptime)$/;
-const DRIVES = /^(u|out|output|op|co|drive|duty|pwm|power|heat|heater|heating|valve|q|fan|pump|ssr|relay|stell.*|ausgang)$/;
-const GOALS = /^(t?set|t?sp|setpoint|t?soll.*|t?ref|reference|goal|target|wanted|desired)$/;
+const DRIVES = /^(u|out(put)?|op|co|drive|duty.*|pwm|power|heat(er|ing)?(power)?|valve|q|fan|pump|ssr|relay|stell.*|ausgang)$/;
+const GOALS = /^((t|temp)?(set|sp|ref|target|goal|wanted|desired)(points?|pt|temp(erature)?|val(ue)?|erence|speed)?|(t|temp)?soll.*|sv)$/;
 const FULLS = [255, 1023, 4095, 10000, 32767, 65535];
 
 function quantile(values, part) {
@@ -34,7 +34,7 @@ const swingOf = (column) => rangeOf(column).reduce((low, high) => high - low);
 
 // The words of a name, without its unit, with digits and capitals as ends.
 const wordsOf = (name) => name.replace(/[[(].*?[\])]/g, ' ').replace(/([a-z])([A-Z])/g, '$1 $2').toLowerCase().split(/[^a-zäöüß]+/).filter(Boolean);
-const isDriveName = (name) => wordsOf(name).some((word) => DRIVES.test(word));
+const isDriveName = (name) => wordsOf(name).some((word, _, all) => DRIVES.test(word) || (word === 'mv' && all.length === 1));
 const isGoalName = (name) => wordsOf(name).some((word, _, all) => GOALS.test(word) || (word === 'w' && all.length === 1));
 
 // --- The time -----------------------------------------------------------------------
@@ -95,7 +95,8 @@ export function unitOfTime(name, kind, column) {
     const regular = step === 1 || steps.every((one) => one % step === 0); // missing lines are whole steps
     const all = swingOf(column);
     const answers = [['s', 1], ['ms', 1e-3]].map(([value, scale]) => ({ value, text: `${value}: ${lasting(step * scale)} apart, ${lasting(all * scale)} in all` }));
-    return { unit: regular ? 's' : 'ms', ask: { key: 'unit', text: 'Are the times seconds or milliseconds? They are whole numbers without a unit.', answers, chosen: regular ? 's' : 'ms' } };
+    return { unit: regular ? 's' : 'ms', ask: { key: 'unit', text: 'Are the times seconds or milliseconds? They are whole numbers without a unit.', answers, chosen: regular ? 's' : 'ms',
+        ...(steps.every((one) => one === 1) ? { other: 'lines, so many seconds apart:' } : {}) } };
 }
 
 // From one line at which the time goes back to the next: [{ from, to }], places of rows.
@@ -262,7 +263,7 @@ export function understood(text, more = {}) {
         return { refused: `${bad.length} of ${table.lines.length + bad.length} lines cannot be read: line ${bad[0].line}: ${bad[0].why}.` };
     }
     const { at: time, times, unit, why, ask } = timesOf(table, choices);
-    const rows = rowsOf(table, times, UNITS[unit], choices.part);
+    const rows = rowsOf(table, times, UNITS[unit] ?? Number(unit), choices.part);
     const roles = rolesOf({ names, columns: rows.columns }, time, choices);
     const found = { names, roles, unit, whys: { ...roles.whys, time: why, drive: roles.drive < 0 ? '' : roles.whys[roles.drive] }, notes: readingNotes(table, names, roles), t: rows.t, columns: rows.columns,
         questions: [ask, choices.part === null ? rows.ask : null].filter(Boolean),

@@ -94,7 +94,7 @@ const TIMES = {
 // The text that a logger makes of lines: separator, decimal mark, thousands, quotes, a
 // head, which columns in which order, and how the time is written.
 function written(lines, { separator = ',', decimal = '.', thousands = '', quotes = false, head = '', columns = 'ty', time = 's', drive = 1,
-    labels = null, end = '\n', every = {}, add = '', again = 0 } = {}) {
+    labels = null, end = '\n', every = {}, add = '', again = 0, words = null } = {}) {
     const mark = (text) => {
         const [whole, part] = text.split('.');
         const grouped = thousands === '' ? whole : whole.replace(/\B(?=(\d{3})+$)/g, thousands);
@@ -102,7 +102,7 @@ function written(lines, { separator = ',', decimal = '.', thousands = '', quotes
     };
     const cell = {
         t: ({ t }) => (['clock', 'midnight', 'noon', 'iso', 'isoBlank', 'german'].includes(time) ? TIMES[time](t) : mark(TIMES[time](t))),
-        u: ({ u }) => mark((drive * u).toFixed(drive > 1 ? 0 : 2)),
+        u: ({ u }) => words?.[u] ?? mark((drive * u).toFixed(drive > 1 ? 0 : 2)),
         y: ({ y }) => mark(y.toFixed(2)),
         g: ({ goal = 200 }) => mark(goal.toFixed(1)), // a setpoint
         a: ({ t }) => mark((23 + 0.4 * Math.sin(t / 50)).toFixed(2)), // the air, nothing to do with it
