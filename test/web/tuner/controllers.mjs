@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Each controller on each plant: the notes' by their equations, done here again, and the
-// margins of their loops; what their limits take away, and what a step takes of the time.
+// Each controller on each plant: the notes’ by their equations, done here again;
+// what their limits take away, and what a step takes of the time.
 import { readFileSync } from 'node:fs';
 import { check, checkNone, choose, finish, fragment, frame, moduleOf, open, stale, text } from './harness.mjs';
 
 const { PRESETS, ofLink, presetState, withController, withinReason } = await moduleOf('state');
 const { gainsFor, notesLimits, plantOfKind, withPlant } = await moduleOf('own');
 const { run, startEngine } = await moduleOf('engine');
-const { controllerOf } = await moduleOf('margins');
 const { costsOf, shareOf } = await moduleOf('cards');
 const { wholeHeaderOf: headerOf } = await moduleOf('header');
 await startEngine();
@@ -67,16 +66,6 @@ for (const s of scenes.filter((one) => one.CONTROLLER !== 0)) {
     checkNone(`${name} is its equations`, faultsOf(s));
     checkNone(`${name}, reversed, with more bits and a gain below 0`, faultsOf(withinReason({ ...s, OPTIONS: 0x80, SENSOR_BITS: 15, GAIN: s.PLANT === 4 ? s.GAIN : -s.GAIN, KP: Math.min(s.KP + 1, 255), KI: Math.min(s.KI + 3, 255), KD: Math.min(s.KD + 9, 255) })));
 }
-// The margins' controller has the gain that the run has.
-checkNone('the margins’ proportional gain is that of the run', scenes.filter((s) => {
-    const { n, results, series } = run(s);
-    const { kp, sign } = controllerOf(s, results);
-    const perCount = [256, 16, 1024 / results.KP][s.CONTROLLER];
-    const weight = s.CONTROLLER === 0 ? results.WEIGHT / 256 : 1;
-    const away = Array.from({ length: n }, (_, i) => [weight * series.SETPOINT[i] - series.MEASUREMENT[i], series.P[i] / perCount])
-        .filter(([error]) => Math.abs(error) < 1000).map(([error, p]) => Math.abs(sign * kp * error - p));
-    return away.length === 0 || !(Math.max(...away) <= 1 + kp);
-}).map((s) => `${s.preset}, controller ${s.CONTROLLER}`));
 {
     const { series } = run(withinReason({ ...withController(presetState('flow'), AN964), OUTPUT_MAX: 4000, KP: 1023, KI: 1023, NOISE: 0 }));
     const most = [series.OUTPUT, series.VALUE_TWIN_OUTPUT].map((outputs) => Math.max(...outputs));
