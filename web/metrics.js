@@ -101,7 +101,7 @@ export function metricsOf(s, run) {
         ...stepResponse(s, run, first),
         load: load ? largestError(s, run, load) : null,
         meanError: sum / n, iae: sum / s.RATE, moved: moved / n, limited: limited / n,
-        twin: twinDifference(s, run),
+        get twin() { return twinDifference(s, run); }, // only where it is asked for
     };
     if (s.PLANT === PLANT.PENDULUM) {
         found.travel = series.VALUE_BASE.reduce((most, x) => Math.max(most, Math.abs(x)), 0);

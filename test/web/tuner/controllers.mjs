@@ -118,6 +118,7 @@ check('no part is said of instructions', (await cell('Cortex-M0')) === '–');
 check('the clock is in the link', (await fragment(here)).includes('clock=0.5'), await fragment(here));
 check('a pendulum has no other controller', await here.locator('#c-controller').count() === 0);
 await choose(here, 'flow');
+await here.click('[data-title="Controller and options"] summary');
 for (const controller of ['2', '1', '0']) {
     await here.selectOption('#c-controller', controller);
     await frame(here);

@@ -124,7 +124,7 @@ const first = await metrics();
 await set('#c-kp', '1');
 const anew = await open(await fragment(here));
 await anew.click('#modes button[value=load]');
-check('it follows a gain, as a page does that is opened anew', (await metrics()) !== first && (await text(anew, '#metrics')) === await metrics() && (await text(anew, 'figcaption')) === await text(here, 'figcaption'));
+check('it follows a gain, as a page does that is opened anew', (await metrics()) !== first && (await text(anew, '#key')) === await metrics() && (await text(anew, 'figcaption')) === await text(here, 'figcaption'));
 await anew.close();
 await set('#c-ki', '0.004');
 check('a loop that is not at rest is told', (await text(here, '#advice')).includes('not at rest'), await text(here, '#advice'));
