@@ -460,25 +460,6 @@ def a_loop_says_what_the_recording_does_not_tell():
     same((known.verdict, known.header().split("\n")[4][:21]), (None, "// The page has it wi"))
 
 
-def margins_are_the_recorded():
-    """The scenes of margins.csv with the margins that other code computed, empty where there is none."""
-    with open(f"{RECORDINGS}/../margins.csv", encoding="ascii") as file:
-        rows = [{name: float(value) if value else None for name, value in row.items()} for row in csv.DictReader(file)]
-    for i, row in enumerate(rows):
-        state = {**_scene.COMMON, **{name: value for name, value in row.items() if name in _scene.COMMON}}
-        found = _margins.margins_of(state, {name[len("RESULT_"):]: value for name, value in row.items() if name.startswith("RESULT_")})
-        expected = {"ms": row["ms"] if row["stable"] else None, "gain_margin": row["gain"], "lower_gain_margin": row["lower_gain"],
-                    "phase_margin": row["phase_degrees"], "delay_margin": row["delay_s"]}
-        same((i, found["stable"]), (i, bool(row["stable"])))
-        for name, value in expected.items():
-            if value is None or found[name] is None:
-                same((i, name, found[name]), (i, name, value))
-            else:
-                near(found[name], value, f"scene {i}: {name}")
-        near(_margins.scale_seconds(state), row["scale_s"], f"scene {i}: scale_s")
-    assert len(rows) > 50, len(rows)
-
-
 def an_unstable_loop_has_no_margins():
     quick = fixpid.Pid(kp=60, ki=2, rate=2, sensor=SENSOR, actuator=ACTUATOR)
     loop = fixpid.simulate(fixpid.fit(*recording()), quick, setpoint=100)
@@ -601,6 +582,6 @@ run((columns_of_all_kinds, a_time_that_says_nothing_is_refused,
      lags_that_are_no_part_of_a_step_are_simulated, tuning_is_on_the_hardware_that_is_given,
      without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do, a_simulated_loop_is_that_controllers,
      plants_and_events_that_are_none_are_refused, a_loop_says_what_the_recording_does_not_tell,
-     margins_are_the_recorded, an_unstable_loop_has_no_margins, two_loops_in_a_firmware_have_two_names,
+     an_unstable_loop_has_no_margins, two_loops_in_a_firmware_have_two_names,
      scenes_are_the_pages, rules_are_the_pages, links_are_the_pages, numbers_are_written_as_on_the_page,
      the_header_compiles_to_these_gains, plots_have_what_they_show), NAMES)
