@@ -120,35 +120,18 @@ static bool possible(const struct identify_model *m)
            (span - p->dead > 3.0 * p->lag);
 }
 
-static int best_of(const struct identify_model *models)
-{
-    int best = IDENTIFY_FIRST;
-    for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
-        if (possible(&models[kind]) &&
-            (models[kind].score < models[best].score)) {
-            best = kind;
-        }
-    }
-    return best;
-}
-
 static void search_kinds(const struct identify_recording *in, struct found *all,
                          struct identify_result *result)
 {
+    result->chosen = IDENTIFY_FIRST;
     for (int kind = 0; kind < IDENTIFY_KINDS; kind++) {
+        struct identify_model *const m = &result->models[kind];
         all[kind] = search_kind(in, kind);
-        keep_model(&all[kind], &result->models[kind]);
+        keep_model(&all[kind], m);
+        if (possible(m) && (m->score < result->models[result->chosen].score)) {
+            result->chosen = kind;
+        }
     }
-    result->chosen = best_of(result->models);
-}
-
-// Whether the best model knows of lines at which the sensor stood still.
-static bool leave_stuck(const struct found *best,
-                        struct identify_result *result)
-{
-    search_unweigh(&record.all);
-    (void)model_error(&best->task, best->numbers);
-    return record_leave_stuck(&record, result);
 }
 
 // ---- The verdict ----
@@ -299,7 +282,10 @@ void identify(const struct identify_recording *in,
     result->assumed =
         !in->before_known && (record.rest != 0) && (record.rest_lines < REST);
     search_kinds(in, all, result);
-    if (leave_stuck(&all[result->chosen], result)) {
+    const struct found *const best = &all[result->chosen];
+    search_unweigh(&record.all);
+    (void)model_error(&best->task, best->numbers);
+    if (record_leave_stuck(&record, result)) {
         search_kinds(in, all, result);
     }
     draw_plants(all, result);

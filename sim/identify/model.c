@@ -5,10 +5,10 @@
 
 #include "parts.h"
 
+// Times the noise's square, for a line that answers to the drive from before
+// the recording.
+#define UNSEEN 2.5
 #define SLOTS 4 // lengths of a step that a motion remembers
-#define UNSEEN                                                                 \
-    2.5 // times the noise's square, for a line that answers to the
-        // drive from before the recording
 
 // What a step of this length leaves of a and of b, and what of one goes to the
 // other.
@@ -48,21 +48,15 @@ struct identify_plant model_plant(int kind, struct numbers at)
     const double lag = exp(limited(at.x[0], -60.0, 60.0));
     const double third = fabs(at.x[2]);
     p.dead = fabs(at.x[1]);
-    switch (kind) {
-    case IDENTIFY_SECOND: // equal lags by ones that nearly are
+    if (kind == IDENTIFY_SECOND) { // equal lags by ones that nearly are
         p.lag = fmax(lag, third);
         p.lag2 = fmin(fmin(lag, third), 0.999 * p.lag);
-        break;
-    case IDENTIFY_INTEGRATING:
+    } else if (kind == IDENTIFY_INTEGRATING) {
         p.lag2 = fabs(at.x[0]);
-        break;
-    case IDENTIFY_RINGING:
+    } else {
         p.lag = lag;
-        p.damping = limited(third, 0.005, 0.97);
-        break;
-    default:
-        p.lag = lag;
-        break;
+        p.damping =
+            (kind == IDENTIFY_RINGING) ? limited(third, 0.005, 0.97) : 0.0;
     }
     return p;
 }
@@ -217,16 +211,14 @@ static void subtract(int n, double factor, const double *part, double *from)
 static void begin(const struct task *task, double dead, struct projection *got)
 {
     struct lines *const in = task->lines;
+    const double square = UNSEEN * squared(task->record->noise);
+    const double from = (task->start == IDENTIFY_MOVING) ? dead : 0.0;
     for (int i = 0; i < in->n; i++) {
-        const bool unseen =
-            (task->start == IDENTIFY_MOVING) && (in->t[i] < dead);
         column[0][i] = 1.0;
         in->left[i] = in->y[i];
-        in->heavy[i] = unseen ? 0.0 : in->weight[i];
+        in->heavy[i] = (in->t[i] < from) ? 0.0 : in->weight[i];
         got->weights += in->weight[i];
-        got->square +=
-            unseen ? (UNSEEN * squared(task->record->noise) * in->weight[i])
-                   : 0.0;
+        got->square += square * (in->weight[i] - in->heavy[i]);
     }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What identify.c is made of: a recording as it is kept, models that answer to
-// it, the search for their numbers, and what remains unknown of them.
+// What identify.c is made of.
 #ifndef IDENTIFY_PARTS_H
 #define IDENTIFY_PARTS_H
 #include "identify.h"
@@ -32,9 +31,8 @@ struct record {
     double before;
     int first; // index of the first that is a move
 
-    int rest;       // 1 if the lines before that move stand still, 0 if they
-                    // do not, -1 if none tells
-    int rest_lines; // how many there are
+    int rest_lines; // before that move
+    int rest;       // 1 if they stand still, 0 if they do not, -1: none tells
 
     double span;    // seconds from the first line to the last
     double every;   // the median of the seconds between lines
