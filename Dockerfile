@@ -16,8 +16,8 @@ RUN apt-get update && \
         gcc-avr gcc-mingw-w64-x86-64 gcc-riscv64-unknown-elf gcovr git \
         gnuplot-nox gpsim-dev gputils libboost-dev libboost-graph-dev \
         libc6-dev libclang-rt-14-dev libsimavr-dev libxml2-utils lld make \
-        meson mkdocs mkdocs-material mspdebug ninja-build nodejs npm patch \
-        picolibc-arm-none-eabi picolibc-riscv64-unknown-elf pkg-config \
+        meson mkdocs mkdocs-material mspdebug mypy ninja-build nodejs npm \
+        patch picolibc-arm-none-eabi picolibc-riscv64-unknown-elf pkg-config \
         pmccabe python3-cffi python3-dev python3-kconfiglib \
         python3-matplotlib python3-numpy python3-scipy python3-setuptools \
         python3-venv python3-wheel qemu-system-arm qemu-system-misc ruby sdcc \
