@@ -79,5 +79,5 @@ LOOPS = loops(DECLARED)
 ffi.cdef(DECLARED + "".join(f"{one};\n" for one in LOOPS))
 # The twin of a live link is in the library itself: it is a controller.
 SOURCES = beside(SOURCE, "*", "*.c") + [os.path.join(LINK, name) for name in ("link_frames.c", "link_twin.c")]
-ffi.set_source("fixpid._library", TEXT + "".join(f"static {one}\n{body}" for one, body in LOOPS.items()), sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ,
+ffi.set_source("fixpid._library", TEXT + "".join(f"static {one}\n{body}" for one, body in LOOPS.items()), sources=SOURCES, depends=beside(SOURCE, "**", "*.h") + READ + PAGE,
                include_dirs=[INCLUDE, IDENTIFY, TUNER, LINK], extra_compile_args=["-std=c99"])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C of sim/tuner as WebAssembly: a scene in, its series and results out.
-import { COUNT, EVENT, LIMIT, PARAM, RESULT, RULE, VALUE, WASM, WORD } from './built.js';
+import { COUNT, EVENT, LIMIT, METRIC, PARAM, RESULT, RULE, VALUE, WASM, WORD } from './built.js';
 
 let wasm = null;
 
@@ -51,11 +51,19 @@ function series(n) {
     return found;
 }
 
-// { n, results, series }; n is -1 where the controller refuses a value.
+// What the last run is worth, as enum tuner_metric says: { overshoot, .., meanError, .. }; what
+// there is none of is null.
+function metrics() {
+    const all = new Float64Array(wasm.memory.buffer, wasm.tuner_metrics(), Object.keys(METRIC).length);
+    return Object.fromEntries(Object.entries(METRIC).map(([name, at]) =>
+        [name.toLowerCase().replace(/_(.)/g, (_, letter) => letter.toUpperCase()), all[at] < 0 ? null : all[at]]));
+}
+
+// { n, results, series, metrics }; n is -1 where the controller refuses a value.
 export function run(state) {
     put(sceneOf(state));
     const n = wasm.tuner_run();
-    return { n, results: results(), series: series(Math.max(n, 0)) };
+    return { n, results: results(), series: series(Math.max(n, 0)), metrics: n < 0 ? null : metrics() };
 }
 
 // Of the experiment that the C has now, by each rule and each word of robustness, and

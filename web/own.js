@@ -4,7 +4,7 @@
 import { CONTROLLER, FIT_KIND, LIMIT, OPTION, PLANT } from './built.js';
 import { identifySimc } from './identify.js';
 import { errorPerCount, scaleSeconds } from './margins.js';
-import { unitsPerCount } from './metrics.js';
+import { unitsPerCount } from './units.js';
 
 export const KINDS = [
     [PLANT.LAGS, 'Lag and dead time', 'most flows, pressures, temperatures'],

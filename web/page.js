@@ -17,7 +17,6 @@ import { listenForHelp } from './help.js';
 import { createLive } from './live.js';
 import { loadAlone, loadPairs, restText } from './load.js';
 import { marginsOf } from './margins.js';
-import { metricsOf } from './metrics.js';
 import { measurementPane, panesOf } from './panes.js';
 import { createPendulum } from './pendulum.js';
 import { plantOfKind } from './own.js';
@@ -76,7 +75,7 @@ function rowsFor(s) {
         const gains = gainsOfRule(s, results);
         const one = run({ ...s, ...gains });
         return one.n < 0 ? { rule, robustness, heated, gains: null }
-            : { rule, robustness, heated, gains, found: metricsOf(s, one), margins: marginsOf({ ...s, ...gains }, one.results) };
+            : { rule, robustness, heated, gains, found: one.metrics, margins: marginsOf({ ...s, ...gains }, one.results) };
     });
     return tuned.rows;
 }
@@ -220,7 +219,7 @@ function showRefused(s, found) {
 function showRun(s, found, margins, alone) {
     const { results } = found;
     const experimenting = showTuning(s);
-    const figures = metricsOf(s, found);
+    const figures = found.metrics;
     fillFigures(find('#metrics'), mode === 'run' ? figuresOf(s, figures) : []);
     fillKey([find('#key'), find('#mini dl')], mode === 'tune' ? [] : alone !== null ? loadPairs(alone) : keyFigures(s, figures, margins));
     fillRuns(find('#runs'), mode === 'tune' ? { ...s, kept: [] } : s, figures, margins, onKept);
@@ -241,7 +240,7 @@ function showRun(s, found, margins, alone) {
 function showHeld(s, found, margins) {
     panel(s, notesOf(s));
     flags(s);
-    fillKey([find('#key'), find('#mini dl')], keyFigures(s, metricsOf(s, found), margins));
+    fillKey([find('#key'), find('#mini dl')], keyFigures(s, found.metrics, margins));
     showPlots(s, found, [measurementPane(s, found, mode)]);
 }
 
@@ -371,7 +370,7 @@ function saveCsv() {
 function saveJson() {
     const s = currentState();
     const found = run(s);
-    download('loop.json', jsonOf(s, metricsOf(s, found), marginsOf(s, found.results), find('#header').textContent), 'application/json');
+    download('loop.json', jsonOf(s, found.metrics, marginsOf(s, found.results), find('#header').textContent), 'application/json');
 }
 
 async function openJson(event) {

@@ -2,8 +2,8 @@
 // What the plots show of a run, by mode: 'run', 'load' or 'tune'.
 import { CONTROLLER, PLANT } from './built.js';
 import { progressOf } from './experiment.js';
-import { limitedSteps, unitsOf, unitsPerCount } from './metrics.js';
 import { keptSeries } from './runs.js';
+import { unitsOf, unitsPerCount } from './units.js';
 
 // Float64Array.from would ask an iterator for each.
 function each(counts, as) {
@@ -35,7 +35,7 @@ export function measurementPane(s, { series }, mode) {
 export function panesOf(s, found, mode) {
     const { series, results } = found;
     const tuning = mode === 'tune';
-    const output = { title: 'Output', unit: 'counts', limited: tuning ? null : limitedSteps(s, found), series: [
+    const output = { title: 'Output', unit: 'counts', limited: tuning ? null : series.LIMITED, series: [
         ...ofRun(s, 'output', mode), { name: 'output', color: 'output', held: true, data: series.OUTPUT }] };
     const terms = () => ({ title: 'Terms', unit: 'counts', series: ['P', 'I', 'D'].map((name, i) => {
         const scale = TERMS[s.CONTROLLER](results)[i];

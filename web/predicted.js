@@ -3,8 +3,8 @@
 // beside what the board then measured.
 import { LIMIT } from './built.js';
 import { run } from './engine.js';
-import { settling, unitsOf } from './metrics.js';
 import { MISSED } from './trace.js';
+import { unitsOf } from './units.js';
 
 const LEAST_COUNTS = 8; // of a step that is worth figures
 const LEAST_STEPS = 20;
@@ -13,8 +13,10 @@ const TIMES_SETTLED = 4; // so long is a step watched, of the time that was pred
 
 // { overshoot: counts, settled: steps or null, iae: counts and steps } of a step to `to`.
 export function stepFigures(y, { from, to, band }) {
-    const { over, settled } = settling(y, { goal: to, way: Math.sign(to - from), band });
-    return { overshoot: over, settled, iae: y.reduce((sum, one) => sum + Math.abs(to - one), 0) };
+    const way = Math.sign(to - from);
+    const settled = y.findLastIndex((one) => Math.abs(one - to) > band) + 1;
+    return { overshoot: y.reduce((most, one) => Math.max(most, way * (one - to)), 0), settled: settled < y.length ? settled : null,
+        iae: y.reduce((sum, one) => sum + Math.abs(to - one), 0) };
 }
 
 // The measurement that this state's loop has from the step on, which it meets at rest.

@@ -7,7 +7,6 @@ import { run } from './engine.js';
 import { digits, percent, time } from './format.js';
 import { helpFor } from './help.js';
 import { marginsOf } from './margins.js';
-import { metricsOf } from './metrics.js';
 import { KEPT_MOST, fragmentOf, ofLink } from './state.js';
 
 const LETTERS = 'ABCD';
@@ -18,14 +17,14 @@ export function runOf(fragment) {
     if (!computed.has(fragment)) {
         const s = ofLink(fragment);
         const found = run(s);
-        computed.set(fragment, found.n < 0 ? null : { s, figures: valuesOf(s, metricsOf(s, found), marginsOf(s, found.results)),
+        computed.set(fragment, found.n < 0 ? null : { s, figures: valuesOf(s, found.metrics, marginsOf(s, found.results)),
             seconds: 1 / s.RATE, value: found.series.VALUE_TRUE, output: Float64Array.from(found.series.OUTPUT) });
     }
     return computed.get(fragment);
 }
 
 function valuesOf(s, found, margins) {
-    return { overshoot: found.overshoot, settled: found.settled, load: found.load, iae: found.iae, travel: found.travel ?? null,
+    return { overshoot: found.overshoot, settled: found.settled, load: found.load, iae: found.iae, travel: found.travel,
         ms: margins.stable ? margins.ms : null, phase: margins.stable ? margins.phaseMargin : null };
 }
 

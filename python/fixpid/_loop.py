@@ -9,7 +9,6 @@ from ._core import numpy
 from ._fit import Fit, axes_of, verdict_of
 from ._header import header_of
 from ._margins import margins_of, ms_of_each, scale_seconds
-from ._metrics import limited_steps, metrics_of, unit_per_count, units_of
 from ._modules import AutotuneCause, AutotuneState, ReactionState
 from ._own import range_for, rate_for, round4, with_plant
 from ._pid import Pid
@@ -30,7 +29,7 @@ class Loop:
     t, setpoint, measurement, true (before the sensor) and twin (beside a controller in double
     precision) are in units, output in the actuator's; p, i and d are its terms, flags what the
     controller says, limited whether its output was. `metrics`, `margins` and `advice` are what
-    the page shows of it; `curve` is the loop in the complex plane. Of a plant from a recording
+    the page shows of it, the metrics by enum tuner_metric of sim/tuner/tuner.h; `curve` is the loop in the complex plane. Of a plant from a recording
     `verdict` says what Ms is with the others that the recording allows; else it is None.
     """
 
@@ -42,7 +41,7 @@ class Loop:
         self._run = run
         self.margins = margins_of(state, run["results"])
         self.curve = self.margins.pop("curve")
-        self.metrics = metrics_of(state, run)
+        self.metrics = run["metrics"]
         self.advice: List[str] = advice_of(state, run, self.margins)["warnings"]
         self.verdict: Optional[str] = None
         self._warning: Optional[str] = None
@@ -54,18 +53,19 @@ class Loop:
         series = run["series"]
         per_count = actuator.unit_per_count
         self.t = _array([i / state["RATE"] for i in range(run["n"])])
-        self.setpoint, self.measurement = (_array([units_of(state, one) for one in series[name]])
+        unit = _scene.unit_per_count(state)
+        self.setpoint, self.measurement = (_array([state["SENSOR_LOW"] + one * unit for one in series[name]])
                                            for name in ("SETPOINT", "MEASUREMENT"))
         self.true, self.twin = _array(series["VALUE_TRUE"]), _array(series["VALUE_TWIN"])
         self.output = _array([actuator.units(one) for one in series["OUTPUT"]])
         self.p, self.i, self.d = (_array([one * per_count / scale for one in series[name]])
                                   for name, scale in (("P", 256), ("I", 65536), ("D", 256)))
-        self.flags, self.limited = _array(series["FLAGS"]), _array(limited_steps(run))
+        self.flags, self.limited = _array(series["FLAGS"]), _array(series["LIMITED"])
 
     @property
     def gains(self) -> Tuple[float, ...]:
         """kp, ki and kd in units of the actuator and the sensor."""
-        factor = self._actuator.unit_per_count / unit_per_count(self.state)
+        factor = self._actuator.unit_per_count / _scene.unit_per_count(self.state)
         return tuple(self.state[name] * factor for name in ("KP", "KI", "KD"))
 
     @property

@@ -6,8 +6,7 @@ import math
 from ._format import precise
 from ._library import ffi, lib
 from ._margins import scale_seconds
-from ._metrics import unit_per_count
-from ._scene import COMMON, PLANT, REVERSE
+from ._scene import COMMON, PLANT, REVERSE, unit_per_count
 
 STEPS = lib.TUNER_STEPS
 

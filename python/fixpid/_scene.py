@@ -18,6 +18,7 @@ def _names(enumeration, prefix):
 PARAM = _names("tuner_param", "PARAM_")
 COUNT = _names("tuner_count", "COUNT_")
 VALUE = _names("tuner_value", "VALUE_")
+METRIC = _names("tuner_metric", "METRIC_")
 RESULT = _names("tuner_result", "RESULT_")
 EVENT = _names("tuner_event", "EVENT_")
 EXPERIMENT = _names("tuner_experiment_kind", "EXPERIMENT_")
@@ -61,6 +62,10 @@ def possible(s):
     return s
 
 
+def unit_per_count(s):
+    return s["SENSOR_RANGE"] / (2**s["SENSOR_BITS"] - 1)
+
+
 lock = threading.Lock()  # the C has one scene
 
 
@@ -88,11 +93,14 @@ def _series(n):
 
 
 def run(s):
-    """{"n", "results", "series"}; n is -1 where the controller refuses a value."""
+    """{"n", "results", "series", "metrics"}; n is -1 where the controller refuses a value. What there
+    is none of in the metrics is None."""
     with lock:
         put(s)
         n = lib.tuner_run()
         found = {"n": n, "results": _results(), "series": _series(max(n, 0))}
+        worth = lib.tuner_metrics()
+        found["metrics"] = {name.lower(): None if worth[at] < 0 else worth[at] for name, at in METRIC.items() if name != "TRAVEL"}
     if n > 0:
         numbers("dead", s["DEAD"], 0, found["results"]["DEAD_S"] + 1 / s["RATE"])
     return found

@@ -352,7 +352,7 @@ def figures_are_those_of_the_run():
     same((found["settled"], found["rise"]), (loop.t[numpy.flatnonzero(abs(first - loop.setpoint[0]) > 2)[-1] + 1],
                                              loop.t[numpy.flatnonzero(first >= 20 + 0.9 * (loop.setpoint[0] - 20))[0]]))
     same((found["load"], found["limited"]), (error[2000:].max(), loop.limited.mean()))
-    assert 0 < found["limited"] < 0.5 and found["load"] > 2 and 0 < found["twin"]["rms"] <= found["twin"]["most"] < 20, found
+    assert 0 < found["limited"] < 0.5 and found["load"] > 2 and 0 < found["twin_rms"] <= found["twin_most"] < 20, found
     same(set(found), {name for name in found if name == name.lower()})
 
 

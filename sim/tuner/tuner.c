@@ -11,6 +11,7 @@
 #include "fixpid_guard.h"
 #include "fixpid_pid.h"
 #include "fixpid_reaction.h"
+#include "metrics.h"
 #include "params.h"
 #include "plant.h"
 #include "scene.h"
@@ -429,6 +430,7 @@ int tuner_run(void)
         scene_move(&scene, u);
         scene_move(&twin_scene, twin_u);
     }
+    metrics_of_run(n);
     return n;
 }
 

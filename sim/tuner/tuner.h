@@ -108,6 +108,7 @@ enum tuner_count {
                  // heat-up 0 listens, 1 heats, 6: it is over
     COUNT_DONE,  // cycles, or percent
     COUNT_PERIOD,
+    COUNT_LIMITED, // of a run: 1 where its output was limited, or 0
     TUNER_COUNTS
 };
 
@@ -151,15 +152,33 @@ enum tuner_result {
     TUNER_RESULTS
 };
 
+// What a run is worth; -1 is none.
+enum tuner_metric {
+    METRIC_OVERSHOOT,  // as a part of the first step change
+    METRIC_RISE,       // seconds to 90 % of it
+    METRIC_SETTLED,    // seconds from which on it stays within 2 % of it
+    METRIC_LOAD,       // units: the largest error after the first load
+    METRIC_MEAN_ERROR, // units, of its size
+    METRIC_IAE,        // its integral, units times seconds
+    METRIC_MOVED,      // counts of the output from step to step, on average
+    METRIC_LIMITED,    // the part of the steps whose output was limited
+    METRIC_TWIN_MOST,  // counts of the sensor from the law in double precision
+    METRIC_TWIN_RMS,
+    METRIC_TRAVEL, // of a pendulum's base, m
+    TUNER_METRICS
+};
+
 double *tuner_params(void);
 double *tuner_events(void);
 double *tuner_results(void);
+double *tuner_metrics(void);
 uint8_t *tuner_record(void); // FIXPID_AUTOTUNE_RECORD_SIZE bytes
 int32_t *tuner_counts(int series);
 double *tuner_values(int series);
 
 // The scene from its start. Returns its steps, or -1 where the controller
-// refuses a value; the integers are in tuner_results.
+// refuses a value; the integers are in tuner_results, and what the run is worth
+// in tuner_metrics.
 int tuner_run(void);
 
 // A tuner in the controller's place, without events: fixpid_autotune at the

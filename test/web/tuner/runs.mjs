@@ -8,13 +8,12 @@ const { keptWith, keyFigures, runOf } = await moduleOf('runs');
 const { loadAlone, loadFigures, restText } = await moduleOf('load');
 const { run, startEngine } = await moduleOf('engine');
 const { marginsOf } = await moduleOf('margins');
-const { metricsOf } = await moduleOf('metrics');
 await startEngine();
 
 // --- Kept runs and figures, without a browser -----------------------------------------
 const figures = (s) => {
     const found = run(s);
-    return keyFigures(s, metricsOf(s, found), marginsOf(s, found.results));
+    return keyFigures(s, found.metrics, marginsOf(s, found.results));
 };
 const links = ['p=flow&kp=1', 'p=flow&kp=1.5&unit=a%26b~c', 'p=axis&kp=2&events=load_1_-0.1_0~load_2_0_0', 'p=own&plant=2&gain=5'].map((one) => fragmentOf(ofLink(one)));
 const all = { ...ofLink('p=oven&kp=3'), kept: links };
@@ -34,7 +33,7 @@ let iae = 0;
 for (let i = 0; i < n; i++) {
     iae += Math.abs(series.VALUE_TRUE[i] - flow.SENSOR_LOW - series.SETPOINT[i] * flow.SENSOR_RANGE / (2 ** flow.SENSOR_BITS - 1)) / flow.RATE;
 }
-const found = metricsOf(flow, run(flow));
+const found = run(flow).metrics;
 check(`IAE ${found.iae.toFixed(3)} is the sum of the errors’ sizes`, Math.abs(found.iae - iae) < 1e-9 * iae, `${iae}`);
 
 // The change is the difference of what is shown, within its last digit.
@@ -66,7 +65,7 @@ const { most, back, at } = loadFigures(alone);
 const goal = alone.found.series.SETPOINT[0] * 100 / 4095;
 const errors = alone.found.series.VALUE_TRUE.slice(alone.lead).map((value) => Math.abs(value - goal));
 const behind = Math.round(back * quiet.RATE);
-check(`the load takes it ${most.toFixed(2)} away, as at the end of its scene`, Math.abs(most / metricsOf(quiet, run(quiet)).load - 1) < 0.05 && Math.abs(errors[Math.round(at * quiet.RATE)] - most) < 1e-9);
+check(`the load takes it ${most.toFixed(2)} away, as at the end of its scene`, Math.abs(most / run(quiet).metrics.load - 1) < 0.05 && Math.abs(errors[Math.round(at * quiet.RATE)] - most) < 1e-9);
 check(`it is back after ${back} s`, behind > 0 && errors.slice(behind).every((one) => one <= most / 10 + 1e-9) && errors[behind - 1] > 0.99 * most / 10);
 check('it meets the setpoint before it, and no other', new Set(alone.found.series.SETPOINT).size === 1 && Math.abs(goal - 65) < 0.02 &&
     loadAlone({ ...quiet, events: [{ at: 40, what: 'SETPOINT', a: 20 }, { at: 30, what: 'LOAD', a: -0.1 }] }).s.SETPOINT === 50, `${goal}`);

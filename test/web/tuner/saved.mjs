@@ -9,7 +9,6 @@ const { csvOf, jsonOf, stateOfJson } = await moduleOf('saved');
 const { wholeHeaderOf: headerOf } = await moduleOf('header');
 const { run, startEngine } = await moduleOf('engine');
 const { marginsOf } = await moduleOf('margins');
-const { metricsOf } = await moduleOf('metrics');
 await startEngine();
 
 // --- Without a browser ---------------------------------------------------------------
@@ -18,7 +17,7 @@ const links = [...PRESETS.map((one) => `p=${one.preset}`), 'p=own&plant=2&gain=-
 const written = (link) => {
     const s = ofLink(link);
     const found = run(s);
-    return jsonOf(s, metricsOf(s, found), marginsOf(s, found.results), headerOf(s, found.results));
+    return jsonOf(s, found.metrics, marginsOf(s, found.results), headerOf(s, found.results));
 };
 checkNone(`${links.length} settings come back from JSON`, links.map((link) => [link, stateOfJson(written(link))])
     .filter(([link, { state }]) => !state || fragmentOf(state) !== link).map(([link, { state, why }]) => `${link}: ${why ?? fragmentOf(state)}`));

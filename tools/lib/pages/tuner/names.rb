@@ -6,7 +6,7 @@
 # fixpid_pid.h and the ends of its ranges.
 module Names
   class << self
-    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., RESULT: .., EVENT: .., STATUS: .., HEAT_UP: .., CAUSE: .., RULE: ..,
+    # { PARAM: { CONTROLLER: 0, .. }, COUNT: .., VALUE: .., METRIC: .., RESULT: .., EVENT: .., STATUS: .., HEAT_UP: .., CAUSE: .., RULE: ..,
     #   WORD: { QUICK: 8, .. }, OPTION: { REVERSE: 0x80, .. }, FEATURE: .., LIMIT: { STEPS: .., KP: .. } }
     def lists
       header = File.read('sim/tuner/tuner.h')
@@ -17,7 +17,7 @@ module Names
       identify = File.read('sim/identify/identify.h')
       live = File.read('sim/link/link_page.h')
       { PARAM: of(header, 'tuner_param', 'PARAM_'), COUNT: of(header, 'tuner_count', 'COUNT_'),
-        VALUE: of(header, 'tuner_value', 'VALUE_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
+        VALUE: of(header, 'tuner_value', 'VALUE_'), METRIC: of(header, 'tuner_metric', 'METRIC_'), RESULT: of(header, 'tuner_result', 'RESULT_'),
         EVENT: of(header, 'tuner_event', 'EVENT_'), CONTROLLER: of(header, 'tuner_controller', 'TUNER_'),
         PLANT: of(header, 'tuner_plant', 'TUNER_'), EXPERIMENT: of(header, 'tuner_experiment_kind', 'EXPERIMENT_'),
         FIT_KIND: of(identify, 'identify_kind', 'IDENTIFY_'), FIT_REASON: of(identify, 'identify_reason', 'IDENTIFY_'),
