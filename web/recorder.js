@@ -183,6 +183,7 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
             setText(own(`#record-${role}-why`), whys[role] ?? '');
         }
         own('#record-seconds').value = seconds;
+        own('#record-full').parentElement.hidden = roles.drive < 0;
         if (document.activeElement !== own('#record-full')) {
             own('#record-full').value = full ?? '';
         }
@@ -199,15 +200,15 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
 
     function showFit() {
         const { read = null, fit = null } = found ?? {};
-        const model = chosen();
         const open = questions().length > 0;
-        const refused = read?.refused ?? (model === null ? fit?.sentence ?? null : model.reason === FIT_REASON.USABLE ? null : model.sentence);
+        const model = questions().some(({ step }) => step) ? null : chosen(); // of an unknown step there is none
+        const refused = read?.refused ?? (model === null ? fit?.sentence || null : model.reason === FIT_REASON.USABLE ? null : model.sentence);
         const about = model === null ? '' : `${modelText(model.plant, read.full, unit())}. R² is ${model.r2.toFixed(4)}. `;
-        setText(own('#fit'), read === null ? '' : refused !== null ? `${refused}${model === null ? '' : ` Not to be used: ${about}`}` : model === null ? 'Answer the question first.' : `${about}${worthText(model)}`);
+        setText(own('#fit'), read === null ? '' : refused !== null ? `${refused}${model === null ? '' : ` Not to be used: ${about}`}` : model === null ? 'Answer first.' : `${open ? 'With the likely answers: ' : ''}${about}${worthText(model)}`);
         own('#fit').className = refused !== null ? 'refused' : model === null ? '' : open || model.calm > 1 ? 'fair' : 'good';
         own('#use-fit').disabled = model === null || refused !== null || open || 'busy' in section.dataset;
-        own('#record-notes').replaceChildren(...[...read?.notes ?? [], ...fit === null ? [] : fitNotes(fit)].map((note) => make('li', { textContent: note })));
-        const usable = fit?.models?.filter((one, i) => i === fit.chosen || one.reason === FIT_REASON.USABLE) ?? [];
+        own('#record-notes').replaceChildren(...[...read?.notes ?? [], ...model?.reason === FIT_REASON.USABLE ? fitNotes(fit) : []].map((note) => make('li', { textContent: note })));
+        const usable = model === null ? [] : fit.models.filter((one, i) => i === fit.chosen || one.reason === FIT_REASON.USABLE);
         canvas.hidden = read?.points === undefined;
         if (!canvas.hidden) {
             drawRecording(canvas, read, usable, model);
