@@ -159,11 +159,11 @@ function rolesOf({ names, columns }, time, choices) {
     const named = left.filter((one) => one.named);
     const stepped = left.filter(({ column }) => isStepped(column));
     const alone = left.filter((one) => one !== followed);
-    const [candidates, why] = named.length > 0 ? [named, 'by its name'] : stepped.length > 0 ? [stepped, 'it stands still and steps']
-        : followed !== undefined || choices.value !== null ? [alone, 'the only other one that moves'] : left.length > 1 ? [left, ''] : [[], ''];
     const still = others.find((one) => one.named && !goals.includes(one.i));
-    const drive = choices.drive ?? (candidates.length === 1 ? candidates[0].i : candidates.length === 0 && still !== undefined ? still.i : -1);
-    whys[drive] = choices.drive !== null ? 'as you chose' : candidates.length === 1 ? why : 'by its name';
+    const [candidates, why] = named.length > 0 ? [named, 'by its name'] : still !== undefined ? [[still], 'by its name'] : stepped.length > 0 ? [stepped, 'it stands still and steps']
+        : followed !== undefined || choices.value !== null ? [alone, 'the only other one that moves'] : left.length > 1 ? [left, ''] : [[], ''];
+    const drive = choices.drive ?? (candidates.length === 1 ? candidates[0].i : -1);
+    whys[drive] = choices.drive !== null ? 'as you chose' : why;
     const measured = left.filter(({ i, named: is }) => i !== drive && !is);
     const values = choices.value !== null ? [choices.value] : (measured.length > 0 ? measured : left.filter(({ i }) => i !== drive)).slice(0, MOST_VALUES).map(({ i }) => i);
     return { time, goals, drive, values, asked: choices.drive === null && candidates.length > 1 ? candidates.map(({ i }) => i) : [], whys,
