@@ -169,7 +169,7 @@ export function sectionsOf(s) {
         ...(s.PLANT === PLANT.PENDULUM ? [] : [{ at: 'more', title: 'Controller and options', head: [controllerChoice, firstButton, optionBoxes], controls: moreControls(s) }]),
         ...(pid ? [{ at: 'more', title: 'Autotune', controls: tunerControls(s) }] : []),
         { at: 'more', title: 'What happens, and when', head: [mounted('#events')], controls: [['NOISE', 'Noise ±', 'counts', () => straight(0, 20, 0.2)], ['DURATION', 'Show', 's', duration]] },
-    ].filter(({ controls }) => controls.length > 0);
+    ].filter(({ head = [], controls }) => head.length + controls.length > 0);
 }
 
 // --- Slider positions: 0..400 -------------------------------------------------

@@ -3,7 +3,7 @@
 import { CONTROLLER, PLANT } from './built.js';
 import { progressOf } from './experiment.js';
 import { keptSeries } from './runs.js';
-import { unitsOf, unitsPerCount } from './units.js';
+import { inUnits, unitsPerCount } from './units.js';
 
 // Float64Array.from would ask an iterator for each.
 function each(counts, as) {
@@ -24,11 +24,10 @@ const ofRun = (s, name, mode) => (mode === 'run' ? keptSeries(s, name) : []);
 
 export function measurementPane(s, { series }, mode) {
     const pendulum = s.PLANT === PLANT.PENDULUM;
-    const inUnits = (counts) => each(counts, (count) => unitsOf(s, count));
     return { title: pendulum ? 'Angle' : 'Measurement', unit: s.unit, leastSpan: 8 * unitsPerCount(s), series: [
-        ...(pendulum ? [] : [{ name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: inUnits(series.SETPOINT) }]),
+        ...(pendulum ? [] : [{ name: 'setpoint', color: 'setpoint', dash: [6, 4], held: true, data: each(series.SETPOINT, inUnits(s)) }]),
         ...ofRun(s, 'value', mode),
-        { name: 'measured', color: 'measured', data: inUnits(series.MEASUREMENT) },
+        { name: 'measured', color: 'measured', data: each(series.MEASUREMENT, inUnits(s)) },
     ] };
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What a count of a scene's sensor is in units.
 
-export function unitsOf(s, counts) {
-    return s.SENSOR_LOW + counts * s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1);
+// A function of counts, for many of them.
+export function inUnits({ SENSOR_LOW: low, SENSOR_RANGE: range, SENSOR_BITS: bits }) {
+    const top = 2 ** bits - 1;
+    return (counts) => low + counts * range / top;
 }
+
+export const unitsOf = (s, counts) => inUnits(s)(counts);
 
 export function unitsPerCount(s) {
     return s.SENSOR_RANGE / (2 ** s.SENSOR_BITS - 1);

@@ -60,6 +60,9 @@ export const fragment = (here) => here.evaluate(() => window.tuner.fragmentOf(wi
 // What differs from a page that is opened anew by the link of this one.
 export async function stale(here, tuning = false) {
     const fresh = await open(await fragment(here));
+    if (await here.isVisible('#tools')) {
+        await fresh.click('#open-tools');
+    }
     if (tuning) {
         await fresh.getByRole('button', { name: 'Autotune', exact: true }).click();
     }
