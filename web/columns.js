@@ -9,6 +9,7 @@ export const LEAST_ROWS = 8;
 const POINTS_KEPT = 1500; // for the plot
 const PREVIEW = 3;
 const MOST_VALUES = 4; // columns that are tried as the measurement
+const FOLLOWS = 0.1; // of its swing a measurement is away from its setpoint at most
 export const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
 const TIMES = /^(t|x|time|zeit|sec(ond)?s?|sekunden?|s|ms|millis|min(ute)?s?|timestamp|date|epoch|elapsed|uptime)$/;
 const DRIVES = /^(u|out(put)?|op|co|drive|duty.*|pwm|power|heat(er|ing)?(power)?|valve|q|fan|pump|ssr|relay|stell.*|ausgang)$/;
@@ -136,38 +137,54 @@ function distanceOf(column, value) {
     return quantile(stretchEnds(column).map((i) => Math.abs(value[i] - column[i])), 0.5) / swingOf(value);
 }
 
-const isFollowed = (column, value) => distanceOf(column, value) <= 0.1;
-
-// { time, goals, drive, values, asked: columns of which one is the drive, or [], whys }. A drive of -1 is
-// none.
-function rolesOf({ names, columns }, time, choices) {
-    const others = columns.map((column, i) => ({ i, name: names[i], column: holesFilled(column), moves: swingOf(holesFilled(column)) > 0, named: isDriveName(names[i]) }))
-        .filter(({ i, column }) => i !== time && column[0] !== undefined);
-    const movers = others.filter(({ moves }) => moves);
-    const whys = {};
-    const isGoal = ({ i, name, column, named, moves }) => {
-        const followers = named || !moves || !isStepped(column) ? [] : movers.filter((one) => one.i !== i && !one.named && !isStepped(one.column) && isFollowed(column, one.column));
-        const why = i === choices.drive || i === choices.value ? null : isGoalName(name) ? 'a setpoint, by its name' : followers.length > 0 ? 'a setpoint: the measurement comes to it' : null;
-        whys[i] = why;
-        return why !== null;
+// Of columns that are no time, why each is a setpoint: by its name, or as a measurement comes to it.
+function setpointsOf(others, choices) {
+    const isFollower = (goal, one) => one !== goal && one.moves && !one.named && !isStepped(one.column) && distanceOf(goal.column, one.column) <= FOLLOWS;
+    const whyOf = (one) => {
+        if (one.i === choices.drive || one.i === choices.value) {
+            return null;
+        }
+        const followed = !one.named && one.moves && isStepped(one.column) && others.some((other) => isFollower(one, other));
+        return isGoalName(one.name) ? 'a setpoint, by its name' : followed ? 'a setpoint: the measurement comes to it' : null;
     };
-    const goals = others.filter(isGoal).map(({ i }) => i);
-    const left = movers.filter(({ i }) => !goals.includes(i) && i !== choices.value);
-    const goal = others.find(({ i, moves }) => moves && goals.includes(i));
-    const [nearest, second] = left.filter(() => goal !== undefined).map((one) => ({ one, away: distanceOf(goal.column, one.column) })).sort((a, b) => a.away - b.away);
-    const followed = nearest?.away <= 0.1 && !(second?.away <= Math.min(0.1, 5 * nearest.away)) ? nearest.one : undefined;
+    return others.map((one) => ({ ...one, why: whyOf(one) })).filter(({ why }) => why !== null);
+}
+
+// The one of these columns that comes to a setpoint by far the nearest, or null.
+function followerOf(goals, columns) {
+    const goal = goals.find(({ moves }) => moves);
+    const [nearest, second] = goal === undefined ? [] : columns.map((one) => ({ one, away: distanceOf(goal.column, one.column) })).sort((a, b) => a.away - b.away);
+    return nearest?.away <= FOLLOWS && !(second?.away <= Math.min(FOLLOWS, 5 * nearest.away)) ? nearest.one : null;
+}
+
+// Which columns may be the drive, and why. `left` are those that move and are no setpoint.
+function drivesOf(left, { others, goals, value }) {
     const named = left.filter((one) => one.named);
+    const still = others.filter((one) => one.named && !one.moves).slice(0, 1);
     const stepped = left.filter(({ column }) => isStepped(column));
-    const alone = left.filter((one) => one !== followed);
-    const still = others.find((one) => one.named && !goals.includes(one.i));
-    const [candidates, why] = named.length > 0 ? [named, 'by its name'] : still !== undefined ? [[still], 'by its name'] : stepped.length > 0 ? [stepped, 'it stands still and steps']
-        : followed !== undefined || choices.value !== null ? [alone, 'the only other one that moves'] : left.length > 1 ? [left, ''] : [[], ''];
-    const drive = choices.drive ?? (candidates.length === 1 ? candidates[0].i : -1);
-    whys[drive] = choices.drive !== null ? 'as you chose' : why;
-    const measured = left.filter(({ i, named: is }) => i !== drive && !is);
-    const values = choices.value !== null ? [choices.value] : (measured.length > 0 ? measured : left.filter(({ i }) => i !== drive)).slice(0, MOST_VALUES).map(({ i }) => i);
-    return { time, goals, drive, values, asked: choices.drive === null && candidates.length > 1 ? candidates.map(({ i }) => i) : [], whys,
-        loads: drive < 0 ? [] : named.filter(({ i }) => i !== drive).map(({ i }) => i) };
+    const follower = followerOf(goals, left);
+    const alone = follower !== null || value !== null ? left.filter((one) => one !== follower) : left.length > 1 ? left : [];
+    const kinds = [[named, 'by its name'], [still, 'by its name'], [stepped, 'it stands still and steps'], [alone, 'the only other one that moves']];
+    const [candidates, why] = kinds.find(([list]) => list.length > 0) ?? [[], ''];
+    return { candidates: candidates.map(({ i }) => i), why };
+}
+
+// { time, goals, drive, values, asked: columns of which one is the drive, or [], loads: other drives,
+// whys }. A drive of -1 is none.
+function rolesOf({ names, columns }, time, choices) {
+    const others = columns.map((whole, i) => ({ i, name: names[i], column: holesFilled(whole), named: isDriveName(names[i]) }))
+        .filter(({ i, column }) => i !== time && column[0] !== undefined).map((one) => ({ ...one, moves: swingOf(one.column) > 0 }));
+    const setpoints = setpointsOf(others, choices);
+    const goals = setpoints.map(({ i }) => i);
+    const left = others.filter(({ i, moves }) => moves && !goals.includes(i) && i !== choices.value);
+    const { candidates, why } = drivesOf(left, { others: others.filter(({ i }) => !goals.includes(i)), goals: setpoints, value: choices.value });
+    const drive = choices.drive ?? (candidates.length === 1 ? candidates[0] : -1);
+    const undriven = left.filter(({ i }) => i !== drive);
+    const measured = undriven.filter(({ named }) => !named);
+    const values = choices.value !== null ? [choices.value] : (measured.length > 0 ? measured : undriven).slice(0, MOST_VALUES).map(({ i }) => i);
+    return { time, goals, drive, values, asked: choices.drive === null && candidates.length > 1 ? candidates : [],
+        loads: drive < 0 ? [] : undriven.filter(({ named }) => named).map(({ i }) => i),
+        whys: { ...Object.fromEntries(setpoints.map((one) => [one.i, one.why])), drive: choices.drive !== null ? 'as you chose' : drive < 0 ? '' : why } };
 }
 
 // Whether an on/off drive switches faster than it is logged: its runs are mostly one line, and do not
@@ -265,7 +282,7 @@ export function understood(text, more = {}) {
     const { at: time, times, unit, why, ask } = timesOf(table, choices);
     const rows = rowsOf(table, times, UNITS[unit] ?? Number(unit), choices.part);
     const roles = rolesOf({ names, columns: rows.columns }, time, choices);
-    const found = { names, roles, unit, whys: { ...roles.whys, time: why, drive: roles.drive < 0 ? '' : roles.whys[roles.drive] }, notes: readingNotes(table, names, roles), t: rows.t, columns: rows.columns,
+    const found = { names, roles, unit, whys: { ...roles.whys, time: why }, notes: readingNotes(table, names, roles), t: rows.t, columns: rows.columns,
         questions: [ask, choices.part === null ? rows.ask : null].filter(Boolean),
         preview: rows.lines.slice(0, PREVIEW).map((line, i) => ({ line, cells: rows.columns.map((column) => column[i]) })) };
     return { ...found, ...drivenBy(found, choices) };
