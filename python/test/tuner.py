@@ -262,55 +262,6 @@ def an_oven_that_is_logged_too_slowly_is_refused():
     same(said, "The answer is over between two lines: record faster.")
 
 
-def bench(drive, seconds, every, gain, lags, dead, y=20.0, held=0.0, noise=0.05):
-    """Lines of two lags, by short steps: `drive` is called with the time and the measurement."""
-    draw, short = random.Random(round(1000 * gain)), every / 50
-    states, late, t, u, measured = [y + gain * held] * 2, [held] * round(dead / short), [], [], []
-    for step in range(round(seconds / short)):
-        if step % 50 == 0:
-            t.append(step * short)
-            measured.append(states[1] + draw.gauss(0, noise))
-            u.append(drive(t[-1], measured[-1]))
-        late.append(u[-1])
-        states[0] += short * (y + gain * late.pop(0) - states[0]) / lags[0]
-        states[1] += short * (states[0] - states[1]) / lags[1]
-    return t, u, measured
-
-
-def pi_loop(kp, ti, every, setpoint):
-    total = [0.0]
-
-    def drive(time, measured):
-        error = setpoint(time) - measured
-        output = min(100.0, max(0.0, kp * error + total[0]))
-        total[0] += kp * error * every / ti if 0 < output < 100 else 0
-        return output
-    return drive
-
-
-def others_of_these_kinds_come_out_right():
-    """Two steps, a pulse, a heat-up that is cut short, a closed loop from cold, one with a step of its
-    setpoint and a thermostat, of plants with other numbers."""
-    for number, (drive, seconds, before, part) in enumerate((
-            (lambda t, _: 0 if t < 30 else 20 if t < 130 else 65, 500, None, 0.05),
-            (lambda t, _: 10 if t < 40 or t > 120 else 55, 400, None, 0.05),
-            (lambda t, _: 100, 80, 0, None),
-            (pi_loop(2, 60, 2, lambda t: 75), 500, 0, 0.08),
-            (pi_loop(1.5, 70, 2, lambda t: 20 if t < 20 else 60 if t < 300 else 80), 600, None, 0.08),
-            (lambda t, y: 100.0 if y < 60 else 0.0, 600, 0, 0.1))):
-        gain, lags, dead = 0.9 + 0.2 * number, (60.0 + 9 * number, 6.0 + number), 3.0 + number
-        t, u, y = bench(drive, seconds, 2.0, gain, lags, dead, held=10 if number == 1 else 0)
-        found = fixpid.fit(t, u, y, before=before)
-        delay = found.dead + found.lag2 / 2 if found.lag2 else found.dead
-        assert abs(delay - dead - lags[1] / 2) < 2.5, (number, found)
-        if part is not None:
-            near(found.gain, gain, f"gain {number}", part)
-            near(found.lag, lags[0], f"lag {number}", 2 * part)
-        true = fixpid.simulate(fixpid.Plant(gain=100 * gain, lag=lags[0], lag2=lags[1], dead=dead, start=20),
-                               fixpid.tune(found, "SIMC", rate=2, sensor=SENSOR, actuator=ACTUATOR).pid)
-        assert true.margins["ms"] < 2.2, (number, found, true)
-
-
 # ---- Refusals ----
 
 
@@ -581,10 +532,9 @@ run((columns_of_all_kinds, a_time_that_says_nothing_is_refused,
      each_kind_is_told_apart, each_kind_is_tuned_and_simulated, two_steps_are_one_plant,
      a_hot_end_is_usable_long_before_it_stands_still, a_hot_plate_is_usable_by_its_slope_and_delay,
      a_closed_loop_says_what_it_was_before, an_oven_that_is_logged_too_slowly_is_refused,
-     others_of_these_kinds_come_out_right, what_is_refused_says_what_to_do, what_is_refused_can_be_looked_at,
-     lags_that_are_no_part_of_a_step_are_simulated, tuning_is_on_the_hardware_that_is_given,
-     without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do, a_simulated_loop_is_that_controllers,
-     plants_and_events_that_are_none_are_refused, a_loop_says_what_the_recording_does_not_tell,
-     an_unstable_loop_has_no_margins, two_loops_in_a_firmware_have_two_names,
-     scenes_are_the_pages, rules_are_the_pages, links_are_the_pages, numbers_are_written_as_on_the_page,
-     the_header_compiles_to_these_gains, plots_have_what_they_show), NAMES)
+     what_is_refused_says_what_to_do, what_is_refused_can_be_looked_at, lags_that_are_no_part_of_a_step_are_simulated,
+     tuning_is_on_the_hardware_that_is_given, without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do,
+     a_simulated_loop_is_that_controllers, plants_and_events_that_are_none_are_refused,
+     a_loop_says_what_the_recording_does_not_tell, an_unstable_loop_has_no_margins,
+     two_loops_in_a_firmware_have_two_names, scenes_are_the_pages, rules_are_the_pages, links_are_the_pages,
+     numbers_are_written_as_on_the_page, the_header_compiles_to_these_gains, plots_have_what_they_show), NAMES)
