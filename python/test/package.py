@@ -352,7 +352,11 @@ def figures_are_those_of_the_run():
     same((found["settled"], found["rise"]), (loop.t[numpy.flatnonzero(abs(first - loop.setpoint[0]) > 2)[-1] + 1],
                                              loop.t[numpy.flatnonzero(first >= 20 + 0.9 * (loop.setpoint[0] - 20))[0]]))
     same((found["load"], found["limited"]), (error[2000:].max(), loop.limited.mean()))
-    assert 0 < found["limited"] < 0.5 and found["load"] > 2 and 0 < found["twin_rms"] <= found["twin_most"] < 20, found
+    apart = (loop.true - loop.twin) / (300 / 4095)
+    for name, value in (("moved", abs(numpy.diff(loop.output)).sum() / (100 / 255) / 3000), ("twin_most", abs(apart).max()),
+                        ("twin_rms", (apart**2).mean()**0.5)):
+        assert abs(found[name] - value) < 1e-9 * value, (name, found[name], value)
+    assert 0 < found["limited"] < 0.5 and found["load"] > 2, found
     same(set(found), {name for name in found if name == name.lower()})
 
 
