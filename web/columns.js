@@ -7,7 +7,6 @@ import { digits, short, time } from './format.js';
 
 export const LEAST_ROWS = 8;
 const POINTS_KEPT = 1500; // for the plot
-const PREVIEW = 3;
 const MOST_VALUES = 4; // columns that are tried as the measurement
 const FOLLOWS = 0.1; // of its swing a measurement is away from its setpoint at most
 export const UNITS = { ns: 1e-9, 'µs': 1e-6, ms: 1e-3, s: 1, min: 60, h: 3600 };
@@ -107,7 +106,7 @@ function partsOf(times) {
 }
 
 // The rows that are used, in the order in which they were written: { t (seconds from the first),
-// columns, lines, ask: a question, or null }.
+// columns, ask: a question, or null }.
 function rowsOf(table, times, scale, choice) {
     const at = [...times.keys()].filter((i) => !Number.isNaN(times[i]));
     const parts = partsOf(at.map((i) => times[i]));
@@ -117,7 +116,7 @@ function rowsOf(table, times, scale, choice) {
     const line = (place) => table.lines[at[place]];
     const ask = parts.length < 2 ? null : { key: 'part', text: `The time goes back in line ${line(parts[1].from)}. Which part is the recording?`, chosen: String(longest),
         answers: parts.slice(0, 6).map((part, k) => ({ value: String(k), text: `lines ${line(part.from)} to ${line(part.to - 1)}` })) };
-    return { t: used.map((i) => (times[i] - times[used[0]]) * scale), columns: table.columns.map((column) => used.map((i) => column[i])), lines: used.map((i) => table.lines[i]), ask };
+    return { t: used.map((i) => (times[i] - times[used[0]]) * scale), columns: table.columns.map((column) => used.map((i) => column[i])), ask };
 }
 
 // --- The setpoint, the drive and the measurement --------------------------------------
@@ -266,7 +265,7 @@ function timesOf(table, choices) {
 const NO_CHOICE = { time: null, drive: null, value: null, unit: null, full: null, before: null, part: null, every: null, step: null, rate: 1, most: 0 };
 
 // What is understood of a text: { refused } or { names, roles, unit, full, whys, questions, notes,
-// preview, t, columns, drive, before: a number, or null where it is not known }. `choices` are what a
+// t, columns, drive, before: a number, or null where it is not known }. `choices` are what a
 // person said, null where nothing.
 export function understood(text, more = {}) {
     const choices = { ...NO_CHOICE, ...more };
@@ -283,8 +282,7 @@ export function understood(text, more = {}) {
     const rows = rowsOf(table, times, UNITS[unit] ?? Number(unit), choices.part);
     const roles = rolesOf({ names, columns: rows.columns }, time, choices);
     const found = { names, roles, unit, whys: { ...roles.whys, time: why }, notes: readingNotes(table, names, roles), t: rows.t, columns: rows.columns,
-        questions: [ask, choices.part === null ? rows.ask : null].filter(Boolean),
-        preview: rows.lines.slice(0, PREVIEW).map((line, i) => ({ line, cells: rows.columns.map((column) => column[i]) })) };
+        questions: [ask, choices.part === null ? rows.ask : null].filter(Boolean) };
     return { ...found, ...drivenBy(found, choices) };
 }
 
