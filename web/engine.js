@@ -39,16 +39,12 @@ function results() {
     return Object.fromEntries(Object.entries(RESULT).map(([name, at]) => [name, all[at]]));
 }
 
-function series(n) {
-    const found = {};
-    for (const [name, at] of Object.entries(COUNT)) {
-        found[name] = new Int32Array(wasm.memory.buffer, wasm.tuner_counts(at), n).slice();
-    }
-    for (const [name, at] of Object.entries(VALUE)) {
-        found[`VALUE_${name}`] =
-            new Float64Array(wasm.memory.buffer, wasm.tuner_values(at), n).slice();
-    }
-    return found;
+// Those of these names, or all.
+function series(n, names = null) {
+    const all = [...Object.entries(COUNT).map(([name, at]) => [name, Int32Array, wasm.tuner_counts(at)]),
+        ...Object.entries(VALUE).map(([name, at]) => [`VALUE_${name}`, Float64Array, wasm.tuner_values(at)])];
+    return Object.fromEntries(all.filter(([name]) => names === null || names.includes(name))
+        .map(([name, Type, at]) => [name, new Type(wasm.memory.buffer, at, n).slice()]));
 }
 
 // What the last run is worth, as enum tuner_metric says: { overshoot, .., meanError, .. }; what
@@ -59,11 +55,11 @@ function metrics() {
         [name.toLowerCase().replace(/_(.)/g, (_, letter) => letter.toUpperCase()), all[at] < 0 ? null : all[at]]));
 }
 
-// { n, results, series, metrics }; n is -1 where the controller refuses a value.
-export function run(state) {
+// { n, results, series of these names, or all, metrics }; n is -1 where the controller refuses a value.
+export function run(state, names = null) {
     put(sceneOf(state));
     const n = wasm.tuner_run();
-    return { n, results: results(), series: series(Math.max(n, 0)), metrics: n < 0 ? null : metrics() };
+    return { n, results: results(), series: series(Math.max(n, 0), names), metrics: n < 0 ? null : metrics() };
 }
 
 // Of the experiment that the C has now, by each rule and each word of robustness, and

@@ -236,12 +236,18 @@ function showRun(s, found, margins, alone) {
     allowTaking(true);
 }
 
-// While something is dragged: what the hand looks at. The rest comes when it lets go.
-function showHeld(s, found, margins) {
+// While something is dragged: what the hand looks at; false where nothing runs. The rest comes when it lets go.
+function showHeld(s) {
+    const found = run(s, ['SETPOINT', 'MEASUREMENT']);
+    if (found.n <= 0) {
+        return false;
+    }
+    const margins = marginsOf(s, found.results);
     panel(s, notesOf(s));
     flags(s);
     fillKey([find('#key'), find('#mini dl')], keyFigures(s, found.metrics, margins));
     showPlots(s, found, [measurementPane(s, found, mode)]);
+    return true;
 }
 
 function show() {
@@ -249,13 +255,12 @@ function show() {
     if (mode === 'tune' && !hasTuner(s)) {
         mode = 'run';
     }
+    if (held && mode === 'run' && showHeld(s)) {
+        return;
+    }
     const found = run(s);
     const good = found.n > 0;
     const margins = good ? marginsOf(s, found.results) : null;
-    if (held && good && mode === 'run') {
-        showHeld(s, found, margins);
-        return;
-    }
     const alone = good && mode === 'load' ? loadAlone(s) : null;
     const advice = adviceOf(s, found, margins);
     advice.warnings.push(...(alone === null ? [] : [restText(alone) ?? []].flat()));
