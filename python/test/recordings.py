@@ -289,6 +289,9 @@ def wrong(row, result, model):
     plant, reason = model.plant, REASONS[result.reason]
     if row["verdict"] not in ("safe", reason, reason if reason == "usable" else "refused"):
         return f"it is {reason}, not {row['verdict']}"
+    left_out = "outliers" if result.outliers else "stuck" if result.stuck_to else ""
+    if left_out != row["left_out"]:
+        return f"it leaves out {left_out or 'nothing'}, not {row['left_out'] or 'nothing'}"
     lags = plant.lag + plant.lag2 / 2 if plant.lag else 1.0  # of an integrator, and without a model
     values = {"gain": plant.gain, "slope": plant.gain / lags, "delay": plant.dead + plant.lag2 / 2}
     for name, value in values.items() if reason == "usable" else ():
