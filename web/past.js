@@ -8,7 +8,7 @@ const TRAVEL_MS = 500; // after which the browser has no such entry, as it forge
 
 // `fragment()` is that of what is shown, `go(fragment)` shows another. Returns { later,
 // settle, travel, arrived }.
-export function createPast({ fragment, go, browser = window }) {
+export function createPast({ fragment, go }) {
     let entries = []; // fragments; the browser's history state has which one
     let at = -1;
     let waiting = 0; // for quiet, or 0
@@ -16,7 +16,7 @@ export function createPast({ fragment, go, browser = window }) {
 
     function write(way) {
         try {
-            browser.history[way]({ at }, '', `#${entries[at]}`);
+            history[way]({ at }, '', `#${entries[at]}`);
         } catch {
             // The link stays an older one until the browser takes the next.
         }
@@ -24,7 +24,7 @@ export function createPast({ fragment, go, browser = window }) {
 
     // What is shown is an entry, and the link is its own, from now on.
     function settle() {
-        browser.clearTimeout(waiting);
+        clearTimeout(waiting);
         waiting = 0;
         const now = fragment();
         if (now !== entries[at]) {
@@ -35,14 +35,14 @@ export function createPast({ fragment, go, browser = window }) {
     }
 
     function later() {
-        browser.clearTimeout(waiting);
-        waiting = browser.setTimeout(settle, QUIET_MS);
+        clearTimeout(waiting);
+        waiting = setTimeout(settle, QUIET_MS);
     }
 
     function show(to) {
         at = to;
         go(entries[at]);
-        if (browser.location.hash.slice(1) !== entries[at]) {
+        if (location.hash.slice(1) !== entries[at]) {
             write('replaceState');
         }
         settle();
@@ -55,24 +55,24 @@ export function createPast({ fragment, go, browser = window }) {
         if (entries[to] === undefined) {
             return;
         }
-        if (browser.history.state?.at !== at) {
+        if (history.state?.at !== at) {
             show(to);
             return;
         }
-        browser.history.go(way);
-        browser.clearTimeout(travelling);
-        travelling = browser.setTimeout(() => at !== to && show(to), TRAVEL_MS);
+        history.go(way);
+        clearTimeout(travelling);
+        travelling = setTimeout(() => at !== to && show(to), TRAVEL_MS);
     }
 
     // The browser shows another link: one of the entries, or one that was written.
     function arrived() {
-        const now = browser.location.hash.slice(1);
-        const to = browser.history.state?.at;
+        const now = location.hash.slice(1);
+        const to = history.state?.at;
         if (now === fragment()) {
             return;
         }
         if (entries[to] === now) {
-            browser.clearTimeout(travelling);
+            clearTimeout(travelling);
             show(to);
         } else {
             go(now);

@@ -1,130 +1,73 @@
 // SPDX-License-Identifier: MIT
-// What was shown before: entries, undo, redo and the link with a browser that is
-// played here; then in Chromium by mouse and by keyboard.
-import { check, checkNone, choose, finish, moduleOf, open, press, stale, text } from './harness.mjs';
+// What was shown before, in Chromium: undo and redo by keys and by the browser, the link, and a
+// browser that takes no more links or has forgotten old ones.
+import { check, checkNone, choose, finish, open, press, stale, text } from './harness.mjs';
 
-const { createPast } = await moduleOf('past');
-
-// A browser's history as a list, and its timers by hand.
-function played({ refuses = false, forgets = Infinity } = {}) {
-    const stack = [{ state: null, hash: '#a' }];
-    const timers = new Map();
-    const calls = [];
-    let [at, timer, shown] = [0, 0, 'a'];
-    const write = (name, put) => (state, _, hash) => {
-        calls.push(`${name} ${hash}`);
-        if (refuses) {
-            throw new Error('too many');
-        }
-        put({ state, hash });
-    };
-    const tick = (ms) => {
-        for (const [id, [due, what]] of [...timers]) {
-            if (due <= ms) {
-                timers.delete(id);
-                what();
+const here = await open('p=flow');
+await here.evaluate(() => {
+    for (const name of ['pushState', 'replaceState']) {
+        const own = history[name].bind(history);
+        history[name] = (...more) => {
+            if (window.refuses) {
+                throw new Error('too many');
             }
-        }
-    };
-    const browser = {
-        setTimeout: (what, ms) => timers.set(++timer, [ms, what]) && timer,
-        clearTimeout: (id) => timers.delete(id),
-        location: { get hash() { return stack[at].hash; } },
-        history: {
-            get state() { return stack[at].state; },
-            pushState: write('push', (entry) => { stack.splice(at + 1, Infinity, entry); at += 1; }),
-            replaceState: write('replace', (entry) => { stack[at] = entry; }),
-            go: (way) => { // what it has forgotten is never reached
-                if (stack[at + way] !== undefined && at + way > stack.length - 1 - forgets) {
-                    at += way;
-                    past.arrived();
-                }
-            },
-        },
-    };
-    const past = createPast({ browser, fragment: () => shown, go: (fragment) => { shown = fragment; past.later(); } });
-    past.settle();
-    return { past, browser, calls, tick, stack, timers, change: (to) => { shown = to; past.later(); }, now: () => shown,
-        link: () => stack[at].hash, typed: (hash) => { stack.splice(at + 1, Infinity, { state: null, hash }); at += 1; past.arrived(); } };
-}
-
-function expect(name, got, wanted) {
-    check(name, JSON.stringify(got) === JSON.stringify(wanted), `${JSON.stringify(got)}, not ${JSON.stringify(wanted)}`);
-}
-
-{
-    const one = played();
-    one.change('b');
-    one.change('c');
-    one.tick(299);
-    expect('no link before 300 ms of quiet', one.link(), '#a');
-    check('one timer waits for quiet', one.timers.size === 1);
-    one.tick(300);
-    expect('then one for all changes', one.calls, ['replace #a', 'push #c']);
-    one.change('d');
-    one.past.travel(-1);
-    expect('undo is to what was settled', [one.now(), one.link()], ['c', '#c']);
-    one.past.travel(-1);
-    one.past.travel(-1);
-    expect('and no further than the first', one.now(), 'a');
-    one.past.travel(1);
-    one.past.travel(1);
-    one.past.travel(1);
-    expect('redo is to the last', [one.now(), one.link()], ['d', '#d']);
-    one.browser.history.go(-2);
-    expect('the browser’s Back is undo', one.now(), 'a');
-    one.change('e');
-    one.tick(300);
-    expect('a change forgets what could be redone', one.stack.map(({ hash }) => hash), ['#a', '#e']);
-    one.typed('#f');
-    expect('a link that is typed is an entry', one.now(), 'f');
-    one.past.travel(-1);
-    expect('and can be undone', [one.now(), one.link()], ['e', '#e']);
-}
-for (const [name, options] of [['takes no link', { refuses: true }], ['forgets entries', { forgets: 1 }]]) {
-    const one = played(options);
-    for (const to of ['b', 'c', 'd']) {
-        one.change(to);
-        one.tick(300);
+            own(...more);
+        };
     }
-    one.past.travel(-1);
-    one.tick(500);
-    one.past.travel(-1);
-    one.tick(500);
-    expect(`a browser that ${name}: undo`, one.now(), 'b');
-    one.past.travel(1);
-    one.tick(500);
-    expect(`a browser that ${name}: redo`, one.now(), 'c');
-}
+});
+const linked = (part) => here.waitForFunction((wanted) => location.hash.includes(wanted), part);
+const until = (kp) => here.waitForFunction((wanted) => window.tuner.currentState().KP === wanted, kp);
+const kept = () => here.evaluate(() => history.length);
+const undo = () => press(here, 'Control+z');
+const redo = () => press(here, 'Control+y');
 
-// --- In Chromium ------------------------------------------------------------------
-const linked = (here, part) => here.waitForFunction((wanted) => location.hash.includes(wanted), part);
-const until = (here, kp) => here.waitForFunction((wanted) => window.tuner.currentState().KP === wanted, kp);
-{
-    const here = await open('p=flow');
-    await here.fill('#c-kp', '1');
-    await linked(here, 'kp=1');
-    await here.fill('#c-kp', '2');
-    await linked(here, 'kp=2');
+// One entry: what comes next is behind a while of quiet.
+async function change(kp) {
+    await here.fill('#c-kp', String(kp));
     await here.focus('#work input[aria-label="kp, slider"]');
-    const ways = [['keys', () => press(here, 'Control+z'), () => press(here, 'Control+y')],
-        ['other keys', () => press(here, 'Control+z'), () => press(here, 'Control+Shift+z')], ['the browser', () => here.goBack(), () => here.goForward()]];
-    for (const [name, undo, redo] of ways) {
-        await undo();
-        await until(here, 1);
-        const back = await text(here, '#header');
-        await redo();
-        await until(here, 2);
-        check(`${name}: undone and done again`, back.includes('256u') && (await text(here, '#header')).includes('512u'), back);
-    }
-    await choose(here, 'oven');
-    await linked(here, 'p=oven');
-    await press(here, 'Control+z');
-    await until(here, 2);
-    checkNone('another plant can be undone, and nothing is stale', await stale(here));
-    await here.locator('#work input[aria-label="kp, slider"]').dblclick({ position: { x: 20, y: 8 } });
-    await until(here, 0.62); // a double click resets a slider
-    checkNone('no error', here.noted.errors);
-    await here.close();
+    await here.waitForTimeout(400);
 }
+
+const before = await kept();
+await here.fill('#c-kp', '0.9');
+check('no link before 300 ms of quiet', await here.evaluate(() => !location.hash.includes('kp=')));
+await change(1);
+await linked('kp=1');
+check('then one for all changes', await kept() === before + 1);
+await change(2);
+const ways = [['keys', undo, redo], ['other keys', undo, () => press(here, 'Control+Shift+z')], ['the browser', () => here.goBack(), () => here.goForward()]];
+for (const [name, back, on] of ways) {
+    await back();
+    await until(1);
+    const header = await text(here, '#header');
+    await on();
+    await until(2);
+    check(`${name}: undone and done again`, header.includes('256u') && (await text(here, '#header')).includes('512u'), header);
+}
+
+// The value of kp after each act.
+for (const [name, ...steps] of [
+    ['undo ends at the first', [undo, 1], [undo, 0.62], [undo, 0.62]], ['redo at the last', [redo, 1], [redo, 2], [redo, 2]],
+    ['a change forgets what could be redone', [undo, 1], [() => change(3), 3], [redo, 3], [undo, 1], [redo, 3]],
+    ['a link that is typed is an entry', [() => here.evaluate(() => { location.hash = 'p=flow&kp=5'; }), 5], [undo, 3], [redo, 5]],
+    ['a browser that takes no link', [() => here.evaluate(() => { window.refuses = true; }), 5], [() => change(6), 6], [() => change(7), 7], [undo, 6], [undo, 5], [redo, 6], [redo, 7]],
+    ['a browser that forgets entries', [() => here.evaluate(() => { [window.refuses, history.go] = [false, () => {}]; }), 7], [() => change(8), 8], [() => change(9), 9], [undo, 8], [undo, 7], [redo, 8]],
+]) {
+    for (const [act, kp] of steps) {
+        await act();
+        await until(kp);
+        await here.waitForTimeout(100);
+    }
+    const last = await here.evaluate(() => window.tuner.currentState().KP);
+    check(name, last === steps.at(-1)[1], `kp is ${last}`);
+}
+
+await choose(here, 'oven');
+await linked('p=oven');
+await undo();
+await until(8);
+checkNone('another plant can be undone, and nothing is stale', await stale(here));
+await here.locator('#work input[aria-label="kp, slider"]').dblclick({ position: { x: 20, y: 8 } });
+await until(0.62); // a double click resets a slider
+checkNone('no error', here.noted.errors);
 await finish();
