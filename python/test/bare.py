@@ -60,4 +60,4 @@ def a_live_link_has_lists():
     assert isinstance(link.recording()[0], list) and link.equal and link.log["p"][0] == steps[0].p
 
 
-run((comes_from_the_wheel, lists_do_for_arrays, a_recording_becomes_a_header, a_live_link_has_lists))
+run()

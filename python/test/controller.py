@@ -204,7 +204,7 @@ def repr_makes_it_again():
         same(bytes(fixpid.ffi.buffer(again.c)), bytes(fixpid.ffi.buffer(one.c)))
 
 
-def classes_of_the_stub():
+def _classes_of_the_stub():
     """{class: {method: argument names}} of `_nouns.pyi`, its constants, and what `*` takes."""
     with open(os.path.join(os.path.dirname(fixpid.__file__), "_nouns.pyi"), encoding="utf-8") as file:
         body = ast.parse(file.read()).body
@@ -216,7 +216,7 @@ def classes_of_the_stub():
 
 def stubs_are_what_there_is():
     """Every class, verb and constant is in the stub with its arguments, and nothing else."""
-    classes, constants, exported = classes_of_the_stub()
+    classes, constants, exported = _classes_of_the_stub()
     known = {name[len("FIXPID_"):] for name in dir(fixpid.lib) if name.startswith("FIXPID_")}
     same(sorted(known ^ constants), [])
     same(sorted(exported), sorted(sys.modules["fixpid._nouns"].__all__))
@@ -247,7 +247,4 @@ def help_is_the_headers():
     same([name for name in ("numpy", "operator", "math", "enum", "textwrap") if hasattr(fixpid, name)], [])
 
 
-run((a_call_is_a_step, units_are_those_of_sensor_and_actuator, the_transfer_function_is_that_of_behaviour_md,
-     arrays_run, tunings_and_limits_are_set_live,
-     by_hand_and_back_without_a_bump, what_is_refused_is_named, copies_go_on_by_themselves, repr_makes_it_again,
-     stubs_are_what_there_is, help_is_the_headers))
+run()

@@ -429,8 +429,4 @@ def ports_of_several_kinds():
         LINK.time = CLOCK
 
 
-run((the_board_says_who_it_is, steps_have_the_terms_of_the_board, all_steps_are_equal_on_a_good_wire,
-     nothing_is_wrong_on_a_bad_wire, a_bit_of_the_board_is_noticed, what_is_refused_is_said, gains_are_written,
-     a_silent_board_is_said, a_command_is_repeated_and_done_once, what_the_program_changes_is_taken_over, a_reset_is_seen_and_said,
-     tracked_steps_are_equal, a_thinned_stream_has_no_twin, text_spoils_one_frame, a_file_is_read_again,
-     ports_of_several_kinds))
+run()

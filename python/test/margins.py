@@ -132,4 +132,4 @@ def margins_of_any_loop_are_those_of_its_eigenvalues():
     assert 15 < sum(seen) < len(seen) - 3, seen
 
 
-run((margins_are_the_recorded, margins_of_any_loop_are_those_of_its_eigenvalues), NAMES)
+run(NAMES)

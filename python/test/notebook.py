@@ -52,4 +52,4 @@ def what_it_comes_to_holds():
     assert NAMES["link"].startswith("build/tuner/index.html#p=flow&gain=")
 
 
-run((is_a_notebook, cells_run, what_it_comes_to_holds))
+run()

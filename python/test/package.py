@@ -206,7 +206,7 @@ def states_come_back():
     assert other.state() == pid.state()
 
 
-def experiment():
+def _experiment():
     """On an integrator with a dead time of 5 steps, and the progress after each step."""
     tuner = fixpid.Autotune(output_min=-100, output_max=100, measurement_min=-32768,
                             measurement_max=32767, swing=200, timeout_steps=500, cycles=2)
@@ -220,7 +220,7 @@ def experiment():
 
 
 def autotune_finds_gains():
-    tuner, progress = experiment()
+    tuner, progress = _experiment()
     assert tuner.status() is fixpid.AutotuneState.DONE == fixpid.AUTOTUNE_DONE
     same([at["phase"] for at in (progress[0], progress[-1])], [0, 6])
     assert all(at["done"] < at["expected"] == 13 for at in progress[:-1]), progress
@@ -237,7 +237,7 @@ def autotune_finds_gains():
 
 
 def autotune_says_what_to_do():
-    tuner, _ = experiment()
+    tuner, _ = _experiment()
     assert tuner.result(2) is None and tuner.reason(2) is fixpid.AutotuneCause.NOT_LEGAL
     assert tuner.reason(fixpid.AUTOTUNE_PI, 65) is fixpid.AutotuneCause.NOT_LEGAL
     tuner.reset()
@@ -250,7 +250,7 @@ def autotune_says_what_to_do():
 
 
 def experiments_come_back():
-    tuner, progress = experiment()
+    tuner, progress = _experiment()
     record = tuner.pack()
     same(len(record), fixpid.AUTOTUNE_RECORD_SIZE)
     text = "".join(f"{byte:02X}" + "  \n"[at % 4:at % 4 + 1] for at, byte in enumerate(record))
@@ -411,11 +411,4 @@ def code_of_the_guide_runs():
     assert "LOOP_OVEN_CONFIG" in names["header"] and names["url"].startswith("build/tuner/index.html#p=flow&")
 
 
-TESTS = (code_of_the_page_runs, code_of_the_guide_runs, every_function_has_a_method, steps_are_those_of_step, figures_are_those_of_the_run, what_a_run_would_cut_is_refused,
-         what_does_not_fit_is_refused, what_is_refused_is_named,
-         guard_is_chosen_by_the_librarys_rule,
-         table_has_the_lines_of_its_points, tables_follow_sensors, tables_of_few_points, tables_in_c,
-         records_come_back, states_come_back, autotune_finds_gains,
-         autotune_says_what_to_do, experiments_come_back, heat_up_hands_over,
-         gains_are_those_of_the_macro, gains_are_refused_as_by_the_macro, rates_are_those_of_the_macro)
-run(TESTS)
+run()

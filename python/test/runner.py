@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the tests of the package share: each is a function, and `run` prints `ok NAME` or
 `FAILED NAME` and why."""
+import inspect
 import sys
 import traceback
 
@@ -28,18 +29,21 @@ def refuses(what, call, *arguments, **fields):
     return False
 
 
-def run(tests, names=()):
-    """All, or those that are named, and the exit status."""
-    failed = 0
-    unknown = set(names) - {test.__name__ for test in tests}
+def run(names=()):
+    """All functions of the program that take nothing, but those with an underscore in front; or
+    those that are named. Ends with the exit status."""
+    tests = {one.__name__: one for one in vars(sys.modules["__main__"]).values()
+             if inspect.isfunction(one) and one.__module__ == "__main__" and one.__name__[0] != "_" and not inspect.signature(one).parameters}
+    unknown = set(names) - set(tests)
     if unknown:
         sys.exit(f"no such test: {', '.join(sorted(unknown))}")
-    for test in (one for one in tests if not names or one.__name__ in names):
+    failed = 0
+    for name in names or tests:
         try:
-            test()
-            print(f"ok {test.__name__}")
+            tests[name]()
+            print(f"ok {name}")
         except Exception as why:  # pylint: disable=broad-except
             failed = 1
             where = [at for at in traceback.extract_tb(why.__traceback__) if at.name != "same"][-1]
-            print(f"FAILED {test.__name__}: {why}, in line {where.lineno}: {where.line}")
+            print(f"FAILED {name}: {why}, in line {where.lineno}: {where.line}")
     sys.exit(failed)

@@ -162,7 +162,7 @@ def answer(kind, plant, t):
     return 1 - (a * numpy.exp(-t / a) - b * numpy.exp(-t / (b or 1)) * (b > 0)) / (a - b)
 
 
-def fits_of_kinds():
+def _fits_of_kinds():
     """A Fit of a recording of each kind, with its plant and the names of what it has."""
     t, u, _ = recording(seconds=400.0)
     draw = random.Random(9)
@@ -173,7 +173,7 @@ def fits_of_kinds():
 
 
 def each_kind_is_told_apart():
-    for kind, plant, names, found in fits_of_kinds():
+    for kind, plant, names, found in _fits_of_kinds():
         same((found.kind, found.refused, found.calm), (kind, None, 1))
         same(sorted(found.models), sorted(KINDS))
         assert found.models[kind] is found and repr(found).startswith(f"<Fit {kind} gain="), found
@@ -194,7 +194,7 @@ def each_kind_is_told_apart():
 
 def each_kind_is_tuned_and_simulated():
     sensor = fixpid.Sensor(0, 200, 12)
-    for kind, _, _, found in fits_of_kinds():
+    for kind, _, _, found in _fits_of_kinds():
         loop = fixpid.tune(found, "SIMC", 2, sensor, ACTUATOR)
         assert loop.margins["stable"] and loop.margins["ms"] < 2 and loop.metrics["overshoot"] < 0.5, (kind, loop)
         page, plant = {"ringing": ("spring", "oscillates"), "integrating": ("axis", "integrator")}.get(kind, ("flow", "lag"))
@@ -527,14 +527,4 @@ def plots_have_what_they_show():
     same(pair[1].lines[0].get_ydata().tolist(), loop.output.tolist())
 
 
-run((columns_of_all_kinds, a_time_that_says_nothing_is_refused,
-     a_number_is_a_step_at_the_first_time_or_where_it_is_said, what_is_left_out_or_taken_for_granted_is_said,
-     each_kind_is_told_apart, each_kind_is_tuned_and_simulated, two_steps_are_one_plant,
-     a_hot_end_is_usable_long_before_it_stands_still, a_hot_plate_is_usable_by_its_slope_and_delay,
-     a_closed_loop_says_what_it_was_before, an_oven_that_is_logged_too_slowly_is_refused,
-     what_is_refused_says_what_to_do, what_is_refused_can_be_looked_at, lags_that_are_no_part_of_a_step_are_simulated,
-     tuning_is_on_the_hardware_that_is_given, without_hardware_it_is_the_pages, what_has_no_gains_says_what_to_do,
-     a_simulated_loop_is_that_controllers, plants_and_events_that_are_none_are_refused,
-     a_loop_says_what_the_recording_does_not_tell, an_unstable_loop_has_no_margins,
-     two_loops_in_a_firmware_have_two_names, scenes_are_the_pages, rules_are_the_pages, links_are_the_pages,
-     numbers_are_written_as_on_the_page, the_header_compiles_to_these_gains, plots_have_what_they_show), NAMES)
+run(NAMES)

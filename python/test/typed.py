@@ -37,4 +37,4 @@ def wrong_ones_are_noticed():
         assert all(complaints(f"import fixpid\n{line}\n")), line
 
 
-run((programs_of_pages_have_their_types, wrong_ones_are_noticed))
+run()
