@@ -22,6 +22,8 @@ import numpy
 
 import fixpid
 from board import Board, Clock
+from fixpid import ffi, lib
+from fixpid._core import WHOLE
 from runner import message, refuses, run, same
 from sensors import ntc, type_k, type_k_mv
 
@@ -57,6 +59,60 @@ def every_function_has_a_method():
         if not verbs and name not in ASKED and name.split("_")[1] not in others and not (name.split("_")[1] in modules and hasattr(fixpid, name[7:])):
             lost.append(name)
     assert len(dir(fixpid.lib)) > 100 and not lost, lost
+
+
+TUNER = {"output_min": -100, "output_max": 100, "measurement_min": -32768, "measurement_max": 32767,
+         "swing": 200, "timeout_steps": 500, "cycles": 2}
+LEGAL = {"autotune": TUNER, "guard": {"output_min": 0, "output_max": 255, "reach_min": 0, "reach_max": 0, "band": 8, "patience": 90},
+         "pid": {"gains": CONFIG["gains"], "output_min": -9, "output_max": 300, "integral_min": 0, "integral_max": 0, "setpoint_weight_q8": 99}}
+
+
+def drawn(draw, kind):
+    """A value of this type of C: small, or at an end."""
+    if kind.kind == "struct":
+        return {name: drawn(draw, field.type) for name, field in kind.fields}
+    low, high = WHOLE.get(kind.cname, (0, 1))  # or a bool
+    return draw.choice((low, high, *(draw.randint(0, min(high, 99)) for _ in range(6))))
+
+
+def verbs_are_those_of_c():
+    """Of each noun with fields and arguments by chance: what is accepted, what is returned, and all bytes of it."""
+    draw, accepted, called = random.Random(9), {}, set()
+    for base in fixpid.Noun.__subclasses__():
+        def function(verb, noun=base._noun):
+            return getattr(lib, f"fixpid_{noun}_{verb}")
+
+        verbs = [verb for verb in vars(base) if hasattr(lib, f"fixpid_{base._noun}_{verb}") and verb != "check"
+                 and all(kind.kind == "primitive" for kind in ffi.typeof(function(verb)).args[1:])]
+        for _ in range(300):
+            kinds = ffi.typeof(function("init")).args[1:]
+            fields = drawn(draw, kinds[0].item) if base._config else {}
+            fields.update(LEGAL.get(base._noun, {}) if draw.random() < 0.5 else {})
+            numbers = [] if base._config else [drawn(draw, kind) for kind in kinds]
+            c = ffi.new(f"struct fixpid_{base._noun} *")
+            good = function("init")(c, *(numbers or [ffi.new(f"struct fixpid_{base._config} *", fields)])) is not False
+            try:
+                one = getattr(fixpid, base.__name__)(*numbers, **fields)
+            except ValueError:
+                one = None
+            same((fields, one is not None), (fields, good))
+            for verb in draw.choices(verbs, k=12) if good else ():
+                arguments = [drawn(draw, kind) for kind in ffi.typeof(function(verb)).args[1:]]
+                try:
+                    found = getattr(one, verb)(*arguments)
+                except ValueError:
+                    found = False
+                expected = function(verb)(c, *arguments)
+                same((verb, True if found is None and expected is True else found, bytes(ffi.buffer(one.c))), (verb, expected, bytes(ffi.buffer(c))))
+                called.add((base, verb))
+            accepted[base] = accepted.get(base, 0) + good
+        assert accepted[base] > 20 and {verb for of, verb in called if of is base} == set(verbs), (base, accepted)
+
+
+def gains_in_thousandths():
+    gains = fixpid.gains_from_milli(2000, 500, 1500, 10000, 2)
+    same((gains, fixpid.gains_to_milli(gains, 10000)), (fixpid.pid_gains(2, 0.5, 1.5, 10, 2), {"kp": 2000, "ki": 500, "kd": 1500}))
+    assert refuses(ValueError, fixpid.gains_from_milli, 200000, 0, 0, 1000) and refuses(ValueError, fixpid.gains_to_milli, gains, 0)
 
 
 def steps_are_those_of_step():
@@ -208,8 +264,7 @@ def states_come_back():
 
 def _experiment():
     """On an integrator with a dead time of 5 steps, and the progress after each step."""
-    tuner = fixpid.Autotune(output_min=-100, output_max=100, measurement_min=-32768,
-                            measurement_max=32767, swing=200, timeout_steps=500, cycles=2)
+    tuner = fixpid.Autotune(**TUNER)
     assert refuses(ValueError, tuner.pack)
     level, line, progress = 0, [0] * 5, []
     while tuner.status() == fixpid.AUTOTUNE_RUNNING:

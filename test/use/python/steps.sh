@@ -24,10 +24,3 @@ installed() {
 sources_are_clean() {
     same '' "$(find "$1" -name '*.egg-info' -o -name '*.so' -o -name build -o -name '*.[ch]')"
 }
-
-# seeded FOLDER CHECK: a copy of that folder of the tests, with that fault.
-seeded() {
-    mkdir -p "$(dirname "$1")"
-    cp -r "$root/$1" "$1"
-    ruby "$root/tools/lib/faults/seed.rb" "$2" .
-}
