@@ -26,6 +26,25 @@ export function setText(place, text) {
     }
 }
 
+// Files that are chosen by an input or dropped on a part of the page, and texts that are dropped.
+export function listenForFiles(section, input, { onFile, onText }) {
+    input.addEventListener('change', async () => {
+        await onFile(input.files[0]);
+        input.value = ''; // the same file again is a change, too
+    });
+    const over = (is) => (event) => {
+        event.preventDefault();
+        section.classList.toggle('over', is);
+    };
+    section.addEventListener('dragover', over(true));
+    section.addEventListener('dragleave', over(false));
+    section.addEventListener('drop', (event) => {
+        over(false)(event);
+        const [file] = event.dataTransfer.files;
+        return file ? onFile(file) : onText(event.dataTransfer.getData('text'));
+    });
+}
+
 // A table of texts or elements; the first column names its row. Numbers stand
 // right, under each other.
 export function table(caption, head, rows) {

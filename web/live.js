@@ -5,7 +5,7 @@ import { boardText, createBoardView } from './boardview.js';
 import { createBoardStep } from './boardstep.js';
 import { createCommands } from './commands.js';
 import { createConnection } from './connection.js';
-import { setText } from './dom.js';
+import { listenForFiles, setText } from './dom.js';
 import { readNumber } from './fields.js';
 import { whole } from './format.js';
 import { documentOf, helpFor } from './help.js';
@@ -53,25 +53,6 @@ function createLogReader({ say, offer, begin, refresh }, session, connection, vi
         say(count === 0 ? `${name}: no frame of fixpid_link is in these ${whole(bytes.length)} bytes.` : `${name}: ${whole(count)} steps in ${whole(bytes.length)} bytes.`);
     }
     return Object.assign(read, { leave: () => { last += 1; } });
-}
-
-function listenForFiles(section, input, read) {
-    const readFile = async (file) => read(bytesOfFile(new Uint8Array(await file.arrayBuffer())), file.name);
-    input.addEventListener('change', async () => {
-        await readFile(input.files[0]);
-        input.value = '';
-    });
-    section.addEventListener('dragover', (event) => {
-        event.preventDefault();
-        section.classList.add('over');
-    });
-    section.addEventListener('dragleave', () => section.classList.remove('over'));
-    section.addEventListener('drop', async (event) => {
-        event.preventDefault();
-        section.classList.remove('over');
-        const [file] = event.dataTransfer.files;
-        await (file ? readFile(file) : read(bytesOfText(event.dataTransfer.getData('text')), 'The log'));
-    });
 }
 
 function dress(own) {
@@ -163,7 +144,8 @@ export function createLive(section, page) {
         view.draw(true);
     }
     dress(own);
-    listenForFiles(section, own('file'), read);
+    listenForFiles(section, own('file'), { onFile: async (file) => read(bytesOfFile(new Uint8Array(await file.arrayBuffer())), file.name),
+        onText: (text) => read(bytesOfText(text), 'The log') });
     listenForClicks(card, { session, connection, commands, step, read }, page);
     begin(false);
     setInterval(() => [view.draw(), step.goOn(), connection.watch()], REDRAW);

@@ -3,7 +3,7 @@
 // columns are taken for stands beside them and can be changed, what nobody can know is asked, and a
 // model that is safe to tune for can be taken as the plant.
 import { FIT_REASON } from './built.js';
-import { blank, make, setText, table } from './dom.js';
+import { blank, listenForFiles, make, setText, table } from './dom.js';
 import { readNumber } from './fields.js';
 import { createFitter } from './fitter.js';
 import { digits } from './format.js';
@@ -236,12 +236,6 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
         onUse(plantOfModel(chosen(), read.full), { plants: fit.plants, full: read.full, calm: chosen().calm }, read.range);
     }
 
-    async function takeFile(file) {
-        if (file) {
-            take(await file.text(), file.name);
-        }
-    }
-
     field.addEventListener('input', (event) => later(() => take(field.value, 'pasted', event.inputType === 'insertFromPaste')));
     field.addEventListener('paste', (event) => {
         const pasted = event.clipboardData.getData('text');
@@ -251,23 +245,8 @@ export function createRecorder(section, { onUse, onAsk, outputMost, rate, unit }
         }
     });
     own('#record-clear').addEventListener('click', () => take('', ''));
-    own('#record-file').addEventListener('change', (event) => takeFile(event.target.files[0]));
     own('#record-open').addEventListener('click', () => own('#record-file').click());
-    section.addEventListener('dragover', (event) => {
-        event.preventDefault();
-        section.classList.add('over');
-    });
-    section.addEventListener('dragleave', () => section.classList.remove('over'));
-    section.addEventListener('drop', (event) => {
-        event.preventDefault();
-        section.classList.remove('over');
-        const file = event.dataTransfer.files[0];
-        if (file) {
-            takeFile(file);
-        } else {
-            take(event.dataTransfer.getData('text'), 'dropped');
-        }
-    });
+    listenForFiles(section, own('#record-file'), { onFile: async (file) => take(await file.text(), file.name), onText: (text) => take(text, 'dropped') });
     for (const role of Object.keys(ROLES)) {
         own(`#record-${role}`).addEventListener('change', (event) => say(role, event.target.value));
     }
