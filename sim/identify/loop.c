@@ -9,8 +9,7 @@
 #define NONE (-1.0)
 #define SIZE (LOOP_STATES + 1) // the states and the input
 #define INPUT LOOP_STATES
-#define LEAST_STEPS 1500
-#define MOST_STEPS 30000
+#define WIDEST 1.05 // from one angle to the next, where the loop is followed
 
 struct number {
     double re;
@@ -224,21 +223,38 @@ static void sample(struct sampled *s, const struct loop_plant *plant,
 // --- Its response and the controller's -------------------------------------
 
 // With 1 - z^-1 at this angle.
+static struct number bottom_at(const struct sampled *s, struct number fall)
+{
+    const struct number rise = {-fall.re, fall.im}; // z - 1
+    struct number sum = {1.0, 0.0};
+
+    for (int k = 0; k < s->states; k++) {
+        sum = product(sum, rise);
+        sum.re += s->bottom[k];
+    }
+    return sum;
+}
+
 static struct number plant_at(const struct sampled *s, double angle,
                               struct number fall)
 {
-    const struct number rise = {-fall.re, fall.im}; // z - 1
+    const struct number rise = {-fall.re, fall.im};
     struct number top = {0.0, 0.0};
-    struct number bottom = {1.0, 0.0};
 
     for (int k = 0; k < s->states; k++) {
         top = product(top, rise);
         top.re += s->top[k] + (s->top_before[k] * (1.0 - fall.re));
         top.im -= s->top_before[k] * fall.im;
-        bottom = product(bottom, rise);
-        bottom.re += s->bottom[k];
     }
-    return product(quotient(top, bottom), back(angle, s->steps));
+    return product(quotient(top, bottom_at(s, fall)), back(angle, s->steps));
+}
+
+// 1 - keep z^-1
+static struct number filter_at(const struct loop_controller *c,
+                               struct number fall)
+{
+    return (struct number){(1.0 - c->keep) + (c->keep * fall.re),
+                           c->keep * fall.im};
 }
 
 // What the derivative's factor is multiplied with.
@@ -254,8 +270,7 @@ static struct number derivative_at(const struct loop_controller *c,
         const struct number mean = {held.re / c->period, held.im / c->period};
         return product(mean, whole);
     }
-    return quotient(fall, (struct number){(1.0 - c->keep) + (c->keep * fall.re),
-                                          c->keep * fall.im});
+    return quotient(fall, filter_at(c, fall));
 }
 
 static struct number loop_at(const struct sampled *s, double angle)
@@ -269,137 +284,60 @@ static struct number loop_at(const struct sampled *s, double angle)
     return product(terms, plant_at(s, angle, fall));
 }
 
-// --- In time ---------------------------------------------------------------
+// --- Stability -------------------------------------------------------------
 
-// The loop without limits and rounding.
-struct run {
-    double x[LOOP_STATES];
-    double y[4]; // of the last steps, by the two lowest bits of their number
-    double integral;
-    double derivative;
-    double seen; // at the last sample of the derivative
-};
-
-static double measured(const struct run *run, const struct sampled *s)
+// The loop's characteristic polynomial, of 1/z: what is below the line in plant
+// and controller, times 1 + loop.
+static struct number characteristic(const struct sampled *s, double angle,
+                                    struct number loop)
 {
-    double y = 0.0;
-    for (int i = 0; i < s->states; i++) {
-        y += s->c[i] * run->x[i];
+    const struct loop_controller *c = s->controller;
+    const struct number fall = change(angle, 1);
+    const struct number away = {1.0 + loop.re, loop.im};
+    struct number all = product(bottom_at(s, fall), back(angle, s->states));
+
+    if (c->ki != 0.0) {
+        all = product(all, fall);
     }
-    return y;
-}
-
-static void differentiate(struct run *run, const struct loop_controller *c,
-                          int step)
-{
-    const double y = run->y[step & 3];
-
-    if (c->derivative == LOOP_THREE) {
-        run->derivative = c->kd * (y - run->y[(step + 1) & 3]);
-    } else if (c->derivative == LOOP_FILTERED) {
-        run->derivative = (c->keep * run->derivative) +
-                          (c->kd * (y - run->y[(step + 3) & 3]));
-    } else if ((step % c->period) == 0) {
-        run->derivative = c->kd * (y - run->seen);
-        run->seen = y;
+    if (c->derivative == LOOP_FILTERED) {
+        all = product(all, filter_at(c, fall));
     }
+    return product(all, away);
 }
 
-static double answered(struct run *run, const struct loop_controller *c,
-                       int step, double y)
+// A loop is stable if none of its polynomial's zeros lies in the unit circle:
+// then the polynomial, which is real at 0 and at pi, comes back without a turn.
+// One at 1, which is half a turn's half, is an integral that nothing at rest
+// answers, as a pendulum's base: what is measured does not have it. Angles are
+// as near to each other as the turn asks for, and the dead time where the loop
+// is not small.
+static bool is_stable(const struct sampled *s, double lowest)
 {
-    run->y[step & 3] = y;
-    run->integral += c->ki * y;
-    differentiate(run, c, step);
-    return -((c->kp * y) + run->integral + run->derivative);
-}
+    double angle = 1e-4 * lowest;
+    double ratio = WIDEST;
+    double turned = 0.0;
+    struct number loop = loop_at(s, angle);
+    struct number last = characteristic(s, angle, loop);
 
-static void move(struct run *run, const struct sampled *s, const double u[2])
-{
-    double change[LOOP_STATES];
-
-    for (int i = 0; i < s->states; i++) {
-        change[i] = (s->now[i] * u[1]) + (s->before[i] * u[0]);
-        for (int j = 0; j < s->states; j++) {
-            change[i] += s->change.of[i][j] * run->x[j];
+    while ((angle < PI) && (fabs(turned) < 4.0 * PI)) {
+        const double dead = (size_of(loop) > 0.5) ? (s->steps * angle) : 0.0;
+        const double widest = smaller(ratio, 1.0 + (1.0 / (dead + 1e-9)));
+        const double next = smaller(angle * widest, PI);
+        const struct number there = loop_at(s, next);
+        const struct number now = characteristic(s, next, there);
+        const struct number by = quotient(now, last);
+        const double turn = atan2(by.im, by.re);
+        if ((fabs(turn) > 1.0) && (ratio > (1.0 + 1e-9))) {
+            ratio = sqrt(ratio);
+            continue;
         }
+        turned += turn;
+        angle = next;
+        loop = there;
+        last = now;
+        ratio = smaller(ratio * ratio, WIDEST);
     }
-    for (int i = 0; i < s->states; i++) {
-        run->x[i] += change[i];
-    }
-}
-
-// A loop is stable if what is left of a push, of a count of output and of
-// measurement, goes on getting less: in the last quarter of n steps it is less
-// than in the second.
-static bool settles(const struct sampled *s, int n)
-{
-    static double driven[MOST_STEPS + 1]; // as it reaches the plant
-    struct run run = {.integral = 0.0};
-    double most[4] = {0.0}; // of each quarter
-
-    for (int i = 0; i <= n; i++) {
-        driven[i] = 0.0;
-    }
-    for (int k = 0; k < s->states; k++) {
-        run.x[k] = s->now[k];
-    }
-    for (int i = 0; i < n; i++) {
-        const double y = measured(&run, s) + ((i == 0) ? 1.0 : 0.0);
-        const double output = answered(&run, s->controller, i, y);
-        if (!(fabs(y) < 1e100)) {
-            return false;
-        }
-        if (i < n - s->steps) { // what comes later is not looked at
-            driven[i + s->steps + 1] = output;
-        }
-        move(&run, s, &driven[i]);
-        most[(4 * i) / n] = larger(most[(4 * i) / n], fabs(y));
-    }
-    return (most[3] < (0.999 * most[1])) || (most[3] < 1e-9);
-}
-
-// Nearly the same controller with so many of its steps as one.
-static struct loop_controller slower(const struct loop_controller *c, int steps)
-{
-    const bool filtered = (c->derivative == LOOP_FILTERED) && (c->keep > 0.0);
-    const double keep =
-        filtered ? exp(larger(steps * log(c->keep), -100.0)) : 0.0;
-    const double slopes[] = {(1.0 - keep) / (1.0 - c->keep), c->period, 3.0};
-
-    return (struct loop_controller){
-        .kp = c->kp,
-        .ki = c->ki * steps,
-        .kd = c->kd * slopes[c->derivative] / steps,
-        .derivative = LOOP_FILTERED,
-        .keep = keep,
-    };
-}
-
-// A push is looked at for 60 times what matters of the plant and the integral.
-// Where that takes too many steps, several are as one: as many as are short
-// beside what the loop does up to `fastest`, the last angle at which its gain
-// is
-// 1. Half of what they are longer comes off the dead time.
-static bool is_stable(const struct loop_plant *plant,
-                      const struct loop_controller *controller, double step_s,
-                      double fastest)
-{
-    const double scale = plant->scale / step_s;
-    const double reset =
-        (controller->ki != 0.0) ? fabs(controller->kp / controller->ki) : 0.0;
-    const double slowest = larger(scale, smaller(reset, 20.0 * scale));
-    const double wanted = larger(60.0 * slowest, LEAST_STEPS);
-    const int steps =
-        (int)larger(smaller(wanted / MOST_STEPS, 0.05 / fastest), 1.0);
-    const struct loop_controller by =
-        (steps > 1) ? slower(controller, steps) : *controller;
-    struct loop_plant nearer = *plant;
-    struct sampled s = {.controller = &by};
-
-    nearer.dead = larger(plant->dead - (0.5 * (steps - 1) * step_s), 0.0);
-    sample(&s, &nearer, step_s * steps);
-    return settles(&s, (int)floor(smaller(wanted / steps, MOST_STEPS) + 0.5));
+    return fabs(turned) < ((s->controller->ki != 0.0) ? 0.75 * PI : 0.25 * PI);
 }
 
 // --- Margins ---------------------------------------------------------------
@@ -516,12 +454,9 @@ static void draw(const struct sampled *s, struct loop_margins *m, double lowest)
     }
 }
 
-// Returns the last angle at which the gain is 1, or next to 0.
-static double cross(const struct sampled *s, struct loop_margins *m,
-                    double step_s)
+static void cross(const struct sampled *s, struct loop_margins *m,
+                  double step_s)
 {
-    double fastest = 1e-9;
-
     for (int i = 1; i < LOOP_POINTS; i++) {
         const struct number from = {m->re[i - 1], m->im[i - 1]};
         const struct number to = {m->re[i], m->im[i]};
@@ -531,11 +466,10 @@ static double cross(const struct sampled *s, struct loop_margins *m,
             limit(m, loop_at(s, angle), angle);
         }
         if (is_beyond(from, true) != is_beyond(to, true)) {
-            fastest = crossing(s, m, i, true);
-            turn(m, loop_at(s, fastest), fastest, step_s);
+            const double angle = crossing(s, m, i, true);
+            turn(m, loop_at(s, angle), angle, step_s);
         }
     }
-    return fastest;
 }
 
 // A real number is a crossing at both ends of the band, too: at pi, and at the
@@ -570,11 +504,11 @@ void loop_margins(const struct loop_plant *plant,
                                 .turnover = NONE,
                                 .dead_steps = s.steps};
     draw(&s, to, lowest);
-    const double fastest = cross(&s, to, step_s);
+    cross(&s, to, step_s);
     end(&s, to, lowest);
     to->ms = highest(&s, to, 0.0);
     to->off_ms = highest(&s, to, LOOP_OFF);
-    to->stable = is_stable(plant, controller, step_s, fastest);
+    to->stable = is_stable(&s, lowest);
     to->off_stable = to->stable && ((1.0 - LOOP_OFF) > to->lower_gain) &&
                      ((to->gain < 0.0) || ((1.0 + LOOP_OFF) < to->gain));
 }

@@ -4,7 +4,7 @@
 // whether it is stable.
 //
 // Doubles only. It uses no heap, and of the system sqrt, exp, log, sin, cos,
-// atan2, fabs and floor. It works in memory of its own: one call at a time.
+// atan2, fabs and floor.
 #ifndef LOOP_H
 #define LOOP_H
 #include <stdbool.h>
