@@ -10,20 +10,12 @@ def number(value):
         return str(value)
     if isinstance(value, int) and abs(value) < 10**21:
         return str(value)
-    value = float(value)
-    if not math.isfinite(value):
-        return {math.inf: "Infinity", -math.inf: "-Infinity"}.get(value, "NaN")
-    sign, digits, exponent = Decimal(repr(value)).normalize().as_tuple()
-    text = "".join(map(str, digits))
-    point = len(text) + exponent  # where the decimal point stands
-    if value == 0:
-        return "0"
-    if -6 < point <= 21:
-        text = text.ljust(point, "0")
-        text = f"{text[:point]}.{text[point:]}".rstrip(".") if point > 0 else f"0.{'0' * -point}{text}"
-    else:
-        text = f"{text[0]}{'.' if text[1:] else ''}{text[1:]}e{point - 1:+d}"
-    return "-" * sign + text
+    text = repr(float(value))
+    if "n" in text:  # neither finite nor a number
+        return {"inf": "Infinity", "-inf": "-Infinity"}.get(text, "NaN")
+    if value == 0 or 1e-6 <= abs(value) < 1e21:
+        return format(Decimal(text).normalize() + 0, "f")
+    return text.replace("e-0", "e-")
 
 
 def precise(value, figures):
