@@ -2,7 +2,7 @@
 // The card of a board: Chromium with a serial port of the test's own, behind which a board
 // runs the loop of docs/link.md with the library's C, as another WebAssembly.
 import { readFileSync } from 'node:fs';
-import { check, checkNone, finish, frame, moduleOf, open, random, text, violations, WORK } from './harness.mjs';
+import { check, checkNone, finish, frame, moduleOf, open, text, violations, WORK } from './harness.mjs';
 import { connect, equalOf, left, pressed, said, setSetpoint, verdict } from './serial.mjs';
 
 const ALL = 15; // SETPOINT, GAINS, LIMITS, MANUAL
@@ -32,12 +32,11 @@ const state = (here) => here.evaluate(() => window.tuner.currentState());
 const EQUAL = /^[\d\u202F]+ steps equal, bit for bit\.$/;
 
 // --- Without a browser ------------------------------------------------------------
-const { fitOf } = await moduleOf('models');
 const { createComparison, stepFigures } = await moduleOf('predicted');
 const { createTrace } = await moduleOf('trace');
 const { presetState } = await moduleOf('state');
 const { run: runScene, startEngine } = await moduleOf('engine');
-const { FIT_REASON, STEP } = await moduleOf('built');
+const { STEP } = await moduleOf('built');
 const { bytesOfFile, bytesOfText } = await moduleOf('log');
 const { takeBytes, twinCounts, beginTwin, commandBytes } = await moduleOf('twin');
 await startEngine();
@@ -75,24 +74,6 @@ async function streamed(steps) {
     const [output, p, i, d] = [one.at(-6), one.at(-3), one.at(-2), one.at(-1)];
     check('its terms add up to the output', Math.abs(p / 256 + i / 65536 + d / 256 - output) <= 0.51, `${p} ${i} ${d} ${output}`);
 }
-{
-    // The board's plant, by another hand: lag 64, gain 4, dead time 8 and the step between.
-    const [u, y] = [[], []];
-    let x = 20;
-    const draw = random(5);
-    for (let k = 0; k < 1500; k++) {
-        y.push(Math.round(x + 2 * draw() - 1));
-        u.push(k < 300 ? 60 : 60 + Math.round(40 * Math.exp(-(k - 300) / 150) + 20 * Math.sin(k / 90)));
-        x += (4 * (u[k - 8] ?? 60) + 20 - x) / 64;
-    }
-    const t = u.map((_, k) => k);
-    const { reason, models, chosen } = fitOf({ t, u, y }, null);
-    const { plant, rest } = models[chosen];
-    check('a closed loop’s plant is found', reason === FIT_REASON.USABLE && Math.abs(plant.lag - 64) < 2 && Math.abs(plant.gain - 4) < 0.1 && Math.abs(plant.dead - 8) < 1.5 && Math.abs(rest - 20) < 6, JSON.stringify(models[chosen].plant));
-    check('an output that stands still shows nothing', fitOf({ t, u: u.map(() => 60), y }, null).reason === FIT_REASON.DRIVE_STANDS);
-    check('what does not follow is refused', fitOf({ t, u, y: u.map(() => 100 * draw()) }, null).reason !== FIT_REASON.USABLE);
-}
-
 {
     const figures = stepFigures([0, 60, 130, 96, 104, 101, 100], { from: 0, to: 100, band: 5 });
     check('figures of a step', figures.overshoot === 30 && figures.settled === 3 && figures.iae === 100 + 40 + 30 + 4 + 4 + 1, JSON.stringify(figures));
