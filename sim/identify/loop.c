@@ -288,11 +288,11 @@ static struct number loop_at(const struct sampled *s, double angle)
 
 // The loop's characteristic polynomial, of 1/z: what is below the line in plant
 // and controller, times 1 + loop.
-static struct number characteristic(const struct sampled *s, double angle,
-                                    struct number loop)
+static struct number characteristic(const struct sampled *s, double angle)
 {
     const struct loop_controller *c = s->controller;
     const struct number fall = change(angle, 1);
+    const struct number loop = loop_at(s, angle);
     const struct number away = {1.0 + loop.re, loop.im};
     struct number all = product(bottom_at(s, fall), back(angle, s->states));
 
@@ -307,24 +307,19 @@ static struct number characteristic(const struct sampled *s, double angle,
 
 // A loop is stable if none of its polynomial's zeros lies in the unit circle:
 // then the polynomial, which is real at 0 and at pi, comes back without a turn.
-// One at 1, which is half a turn's half, is an integral that nothing at rest
-// answers, as a pendulum's base: what is measured does not have it. Angles are
-// as near to each other as the turn asks for, and the dead time where the loop
-// is not small.
+// One at 1, a quarter of a turn, is an integral that no measurement shows, as
+// where a pendulum's base is. Angles are as near to each other as the turn asks
+// for.
 static bool is_stable(const struct sampled *s, double lowest)
 {
     double angle = 1e-4 * lowest;
     double ratio = WIDEST;
     double turned = 0.0;
-    struct number loop = loop_at(s, angle);
-    struct number last = characteristic(s, angle, loop);
+    struct number last = characteristic(s, angle);
 
     while ((angle < PI) && (fabs(turned) < 4.0 * PI)) {
-        const double dead = (size_of(loop) > 0.5) ? (s->steps * angle) : 0.0;
-        const double widest = smaller(ratio, 1.0 + (1.0 / (dead + 1e-9)));
-        const double next = smaller(angle * widest, PI);
-        const struct number there = loop_at(s, next);
-        const struct number now = characteristic(s, next, there);
+        const double next = smaller(angle * ratio, PI);
+        const struct number now = characteristic(s, next);
         const struct number by = quotient(now, last);
         const double turn = atan2(by.im, by.re);
         if ((fabs(turn) > 1.0) && (ratio > (1.0 + 1e-9))) {
@@ -333,7 +328,6 @@ static bool is_stable(const struct sampled *s, double lowest)
         }
         turned += turn;
         angle = next;
-        loop = there;
         last = now;
         ratio = smaller(ratio * ratio, WIDEST);
     }
