@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Long tables of numbers are sorted by a click on a column's name. Wide ones, like wide
-// code, move sideways by themselves, and can be reached by keys to do so. The search has
-// a name for those who hear it.
+// Long tables of numbers, and those of CSV files, are sorted by a click on a column's name. Wide
+// ones, like wide code, move sideways by themselves, and can be reached by keys to do so. The
+// search has a name for those who hear it.
 'use strict';
 
 const LONG = 8; // rows
@@ -54,7 +54,7 @@ function makeSortable(table) {
 }
 
 for (const table of document.querySelectorAll('.md-typeset table:not([class])')) {
-    if (table.tHead && table.tBodies[0].rows.length >= LONG && hasNumbers(table)) {
+    if (table.tHead && table.tBodies[0].rows.length >= LONG && ('sorted' in table.dataset || hasNumbers(table))) {
         makeSortable(table);
     }
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The table of docs/assurance.md: what is claimed, how it is known, of how much, and
-# the command that shows it. What can be counted is counted here.
+# The tables of docs/assurance.md: what is claimed, how it is known, of how much, and the command
+# that shows it; the theorems; and what the proofs assume. What can be counted is counted here.
+require 'csv'
 require_relative '../../prove/assembly'
 require_relative '../../prove/domains'
 require_relative '../../prove/seeded'
@@ -15,7 +16,8 @@ Claim = Struct.new(:how, :what, :amount, :command)
 
 # All of them.
 module Assurance
-  HOW = %w[proved exhausted tested measured argued].freeze
+  HOW = %w[proved exhaustive tested measured argued].freeze
+  PAGE = 'docs/assurance.md'.freeze
 
   # What is proved of a module of whose header a part is only tested or tried.
   PARTLY = {
@@ -29,36 +31,42 @@ module Assurance
 
   module_function
 
+  # Each file's text.
+  def files
+    { 'docs/data/claims.csv' => csv(%w[known claim amount command], table), 'docs/data/theorems.csv' => csv(%w[module theorem assumed command], theorems),
+      'docs/data/domains.csv' => csv(%w[module domain holds], domains) }
+  end
+
+  def csv(head, rows)
+    CSV.generate { |lines| [head, *rows].each { |cells| lines << cells } }
+  end
+
   def table
-    rows = claims.sort_by.with_index { |claim, i| [HOW.index(claim.how), i] }
-                 .map { |claim| "| #{claim.how} | #{claim.what} | #{claim.amount} | #{claim.command} |\n" }
-    "| | claim | of how much | command |\n|---|---|---|---|\n#{rows.join}"
+    claims.sort_by.with_index { |claim, i| [HOW.index(claim.how), i] }.map(&:to_a)
   end
 
   # The sentences that stand above the theorems' proofs.
   def theorems
-    rows = groups.fetch(THEOREMS).uniq { |proof| [proof.form, proof.what] }.map do |proof|
-      "| `fixpid_#{proof.form}` | #{proof.sentence} | #{proof.assumed} | `tools/prove #{THEOREMS} #{proof.what}` |\n"
+    groups.fetch(THEOREMS).uniq { |proof| [proof.form, proof.what] }.map do |proof|
+      ["fixpid_#{proof.form}", proof.sentence, proof.assumed, "`tools/prove #{THEOREMS} #{proof.what}`"]
     end
-    "| | theorem | beside a state that the functions make, it assumes | command |\n|---|---|---|---|\n#{rows.join}"
   end
 
   # What the proofs of each module assume: the words above its domains.
   def domains
-    rows = Domains.all.group_by(&:group).slice(*groups.keys).map do |group, of_module|
-      "| `fixpid_#{group}` | #{of_module.map { |domain| "`#{domain.name}`: #{domain.words}" }.join(' ')} |\n"
+    Domains.all.group_by(&:group).slice(*groups.keys).flat_map do |group, of_module|
+      of_module.map { |domain| ["fixpid_#{group}", domain.name, domain.words] }
     end
-    "| | the domains of its proofs |\n|---|---|\n#{rows.join}"
   end
 
   # The commands that do not exist.
   def failures
     claims.flat_map { |claim| claim.command.scan(/`([^`]+)`/).flatten }.uniq.reject { |command| Commands.known?(command) }
-          .map { |command| "docs/assurance.md: no #{command}" }
+          .map { |command| "#{PAGE}: no #{command}" }
   end
 
   def claims
-    proved + exhausted + tested + measured + argued
+    proved + exhaustive + tested + measured + argued
   end
 
   def proved
@@ -68,7 +76,7 @@ module Assurance
       noticed = breaks.count { |broken| broken.proof.group == group } + (drawn * Seeded::BREAKS)
       forms = group == THEOREMS ? [] : proofs.map(&:form).uniq - ['any']
       Claim.new('proved', of_the_proofs(group, proofs),
-                "#{proofs.size} proofs#{", in the forms #{forms.join(', ')}" if forms.any?}; #{noticed} breaks refuted",
+                "#{proofs.size} proofs#{", in the forms #{forms.join(', ')}" if forms.any?}; planted faults refuted: #{noticed}",
                 "`tools/prove #{group}`")
     end + beside_the_proofs
   end
@@ -86,23 +94,23 @@ module Assurance
     functions = Assembly.claims.map { |claim| [Assembly.family(claim.image), claim.function] }.uniq
     families = functions.map(&:first).tally.map { |family, count| "#{count} of #{family}" }
     Claim.new('proved', 'the assembly, as it is linked, equals the C that it replaces, for all operands',
-              "#{families[0..-2].join(', ')} and #{families.last}; but for what is [named below](#the-assembly)", '`tools/prove --assembly`')
+              "#{families[0..-2].join(', ')} and #{families.last}; but for what docs/assurance.md names", '`tools/prove --assembly`')
   end
 
   def of_the_proofs(group, proofs)
-    return "the proofs' machines are the ones meant" if group == 'model'
-    return "[the theorems](#theorems): #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}" if group == THEOREMS
+    return 'the proofs run with words of 16, 32 and 64 bits' if group == 'model'
+    return "the theorems: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}" if group == THEOREMS
 
     said = PARTLY.fetch(group, 'as its header says')
     "`fixpid_#{group}`, #{said}: #{proofs.map { |proof| proof.what.tr('_', ' ') }.uniq.join(', ')}"
   end
 
-  def exhausted
-    [Claim.new('exhausted', 'the primitives, with all operands', "#{groups[PRIMITIVES].count { |proof| proof.what == 'all' }} forms",
+  def exhaustive
+    [Claim.new('exhaustive', 'the primitives, with all operands', "#{groups[PRIMITIVES].count { |proof| proof.what == 'all' }} forms",
                "`tools/prove #{PRIMITIVES} all`"),
-     Claim.new('exhausted', 'what a window of `fixpid_tpo` asks for, duty * window', 'all duties in all windows', "`tools/prove #{PRIMITIVES} tpo`"),
-     Claim.new('exhausted', 'a record with 1, 2 or 3 wrong bits is refused', 'all of them', '`tools/test unit`'),
-     Claim.new('exhausted', "the AN964 forms' products and quotients, as the chips' assembly has them",
+     Claim.new('exhaustive', 'what a window of `fixpid_tpo` asks for, duty * window', 'all duties in all windows', "`tools/prove #{PRIMITIVES} tpo`"),
+     Claim.new('exhaustive', 'a record with 1, 2 or 3 wrong bits is refused', 'all of them', '`tools/test unit`'),
+     Claim.new('exhaustive', "the AN964 forms' products and quotients, as the chips' assembly has them",
                'all gains; operands of 14 bits in strides', '`test/chips/target/run arith`')]
   end
 
@@ -150,16 +158,16 @@ module Assurance
                'closed loops on simulated chips', '`tools/test chip`'),
      Claim.new('tested', 'with a fault the drive stays inside its limits, and the loop is back in time or off',
                "#{here} faults here, #{there} on simulated chips: flips in the controller's object, resets, hangs, inputs and ticks; " \
-               "#{long} here in [faults.md](faults.md#many-more), with an older version of the motor and the oven",
+               "#{long} here in docs/faults.md, with an older version of the motor and the oven",
                '`tools/demo --whole faults faults_chip`'),
      Claim.new('measured', "what a flip elsewhere in a chip does: in the port's variables, the others, the registers, the stack in RAM",
                "#{FaultPlaces::LONG_RUNS} flips in each place of #{FaultPlaces::CHIPS.size} firmwares; those where the simulator stops show nothing: " \
-               '[faults.md](faults.md#elsewhere-in-a-chip)', '`tools/demo --long faults_places`')]
+               'docs/faults.md', '`tools/demo --long faults_places`')]
   end
 
   def of_the_tests
-    [Claim.new('tested', 'a small break of the portable C or of a macro is noticed by a named test',
-               "all breaks but #{rows_of('test/tools/mutants/equivalent.txt')} that change nothing; " \
+    [Claim.new('tested', 'a small change of the portable C or of a macro is noticed by a named test',
+               "all changes but #{rows_of('test/tools/mutants/equivalent.txt')} that change nothing; " \
                "#{Faults.of('unit').size} faults of other kinds", '`tools/test mutants`'),
      Claim.new('tested', 'every checker reports an error that is seeded for it', 'one error each',
                '`tools/test gates`')]
@@ -172,21 +180,21 @@ module Assurance
      Claim.new('measured', 'how good the gains of the tuners are',
                "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants and " \
                "#{LONG_SEEDS.size * MACHINES_EACH * MACHINE_KINDS} machines " \
-               'in [tuning.md](tuning.md#which-autotuner)',
+               'in docs/tuning.md',
                '`tools/demo random_plants`'),
-     Claim.new('measured', 'how the loops settle, and beside double precision', 'all loops of `tools/demo`',
+     Claim.new('measured', 'how the loops settle, and beside double precision', 'all of its loops',
                '`tools/demo`')]
   end
 
   def argued
-    [Claim.new('argued', 'the recorded steps are those of the notes: they were taken from their firmware', '',
-               '[errata.md](errata.md)'),
+    [Claim.new('argued', 'the recorded steps are those of the notes, because they were taken from their firmware', '',
+               'docs/migrating.md'),
      Claim.new('argued', 'a step takes no longer than its bound: interrupts and what waits for hardware are not in it',
-               '', '[cost.md](cost.md)'),
+               '', 'docs/cost.md'),
      Claim.new('argued', 'a rate that the caller keeps is the rate that the gains are for', '',
-               '[SECURITY.md](../SECURITY.md#time)'),
-     Claim.new('argued', 'silicon does what the simulators do, but for what is known of them', '',
-               '[ports.md](ports.md)')]
+               'SECURITY.md'),
+     Claim.new('argued', 'silicon does what the simulators do, but for their known defects', '',
+               'docs/ports.md')]
   end
 
   def groups

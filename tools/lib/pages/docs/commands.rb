@@ -5,7 +5,7 @@
 require_relative '../../prove/proofs'
 
 module Commands
-  DOCUMENTS = Dir['*.md', 'docs/**/*.md'].sort.freeze
+  DOCUMENTS = Dir['*.md', 'docs/**/*.md', 'docs/data/*.csv'].sort.freeze
   CITED = /`((?:\S+\/)+\w+(?: [^`]+)?)`/.freeze
   RUNS = %r{\A(?:tools/(?:test|prove|demo|cost|firmware)|test/\S+/run)\b}.freeze
   TARGETS = /\btargets? ((?:`\w+`(?:, | and )?)+)/.freeze

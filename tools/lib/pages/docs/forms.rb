@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Which form of its arithmetic each controller takes on which chip, as the
 # preprocessor chooses it from the macros of the chip's compiler.
+require 'csv'
 require 'fileutils'
 require 'open3'
 
 module Forms
+  FILE = 'docs/data/forms.csv'.freeze
   FOLDER = 'build/test/docs/forms'.freeze
   GCC = '__GNUC__=12'.freeze
   CHIPS = {
@@ -26,13 +28,10 @@ module Forms
   CONTROLLERS = %w[fixpid_pid fixpid_an937 fixpid_an964 fixpid_an964_8bit].freeze
 
   class << self
-    def table
+    def csv
       standard_headers
-      rows = CHIPS.map do |chip, macros|
-        "| #{chip} | #{CONTROLLERS.map { |controller| form(controller, macros) }.join(' | ')} |\n"
-      end
-      heads = CONTROLLERS.map { |controller| "`#{controller}`" }
-      "| | #{heads.join(' | ')} |\n|#{'---|' * (heads.size + 1)}\n#{rows.join}"
+      rows = CHIPS.map { |chip, macros| [chip, *CONTROLLERS.map { |controller| form(controller, macros) }] }
+      CSV.generate { |lines| [['chip', *CONTROLLERS], *rows].each { |cells| lines << cells } }
     end
 
     private

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require 'csv'
 require 'fileutils'
 require 'open3'
 
 # How many return addresses a call takes where nothing is inlined, for a PIC16's stack of
 # eight: from the object files of the library as XC8 preprocesses it for one, which
 # avr-gcc compiles without optimization. A call to the compiler's own helper, such as a
-# product of 32 bits, takes one.
+# product of 32 bits, takes one. The last column is what exceeds the stack from main.
 class Levels
+  FILE = 'docs/data/levels.csv'
   STACK = 8
   INTERRUPT = 1 # one that calls nothing
   FOLDER = 'build/test/levels'
@@ -16,10 +18,10 @@ class Levels
                -D_PIC14 -O0 -ffunction-sections -Iinclude -c].freeze
 
   class << self
-    def table
+    def csv
       FileUtils.mkdir_p(FOLDER)
       rows = Dir['include/fixpid_*.h'].sort.map { |header| new(File.basename(header, '.h')).row }
-      "| module | step | deepest call | does not fit |\n|---|---|---|---|\n#{rows.join}"
+      CSV.generate { |lines| [['module', 'step', 'deepest call', 'does not fit'], *rows].each { |cells| lines << cells } }
     end
   end
 
@@ -34,15 +36,10 @@ class Levels
     levels = functions.to_h { |one| [one, 1 + below(one)] }
     deepest = levels.values.max
     too_deep = levels.select { |_, level| level + INTERRUPT > STACK }.keys.sort
-    "| `#{@noun}` | #{levels.fetch("#{@noun}_step", '-')} | #{deepest}: #{named(levels.select { |_, level| level == deepest }.keys)} | " \
-      "#{too_deep.empty? ? '-' : named(too_deep)} |\n"
+    [@noun, levels["#{@noun}_step"], "#{deepest}: #{levels.select { |_, level| level == deepest }.keys.join(', ')}", too_deep.join(', ')]
   end
 
   private
-
-  def named(functions)
-    functions.map { |one| "`#{one}`" }.join(', ')
-  end
 
   # Those that the header declares and a source has.
   def functions

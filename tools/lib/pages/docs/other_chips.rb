@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require 'csv'
+
 # What to change in a copy of the nearest port for a chip that has none, from gputils'
 # header and linker script of both: which of the port's registers and settings it has
 # not, or elsewhere, and what memory it has.
@@ -20,7 +22,7 @@ class OtherChip
   end
 
   def row
-    "| PIC#{@name.upcase} | PIC#{@port.chip.upcase} | #{registers} | #{memory} | #{settings} |\n"
+    ["PIC#{@name.upcase}", "PIC#{@port.chip.upcase}", registers, memory, settings]
   end
 
   def differences
@@ -77,7 +79,7 @@ class OtherChip
   end
 
   def access
-    @memory.access_end == @port.access_end ? '' : format('; `ACCESS_RAM_END` 0x%02X', @memory.access_end)
+    @memory.access_end == @port.access_end ? '' : format('; ACCESS_RAM_END 0x%02X', @memory.access_end)
   end
 
   # The last place where it fits, if the port's own is none.
@@ -94,14 +96,15 @@ class OtherChip
   end
 end
 
-# The table of docs/ports.md.
+# Beside the ports that there are.
 module OtherChips
+  FILE = 'docs/data/ports.csv'
   NAMES = %w[18f2431 18f4331 18f2331 18f46k22 18f45k22 18f25k22 18f4420 18f4620 18f2420 18f2520 18f2620
              18f4550 18f2550 18f452 16f690 16f685 16f887 16f616].freeze
 
-  def self.table
+  def self.csv
     rows = NAMES.map { |name| near(name).row }
-    "| chip | nearest port | its registers | memory | its settings |\n|---|---|---|---|---|\n#{rows.join}"
+    CSV.generate { |lines| [['chip', 'nearest port', 'registers', 'memory', 'settings'], *rows].each { |cells| lines << cells } }
   end
 
   def self.near(name)

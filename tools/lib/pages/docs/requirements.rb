@@ -20,17 +20,16 @@ module Requirements
       CSV.generate { |lines| [rows.headers, *rows.map { |row| row.to_h.merge('fault' => fault(row)).values }].each { |cells| lines << cells } }
     end
 
-    # The rows of a condition.
-    def table(number)
-      lines = rows.select { |row| row['number'] == number }.map do |row|
-        "| #{row['sentence']} (`#{row['header']}`) | `#{row['test']}` | #{row['proof'] ? "`tools/prove #{row['proof']}`" : ''} |\n"
-      end
-      "| what the header says | test | proof |\n|---|---|---|\n#{lines.join}"
+    # What shows the library's side of a condition.
+    def shown(number)
+      rows.select { |row| row['number'] == number }.map do |row|
+        "* `#{row['header']}`: `#{row['test']}`#{", `tools/prove #{row['proof']}`" if row['proof']}\n"
+      end.join
     end
 
-    # A page's text with the tables of its conditions.
+    # A page's text with what shows its conditions.
     def renewed(text)
-      text.gsub(/(<!-- condition (C\d+):begin -->\n).*?(<!-- condition \2:end -->)/m) { "#{$1}#{table($2)}#{$3}" }
+      text.gsub(/(<!-- condition (C\d+):begin -->\n).*?(<!-- condition \2:end -->)/m) { "#{$1}#{shown($2)}#{$3}" }
     end
 
     def failures
@@ -74,7 +73,7 @@ module Requirements
       conditions = rows.map { |row| row['number'] }.grep(/\AC\d/).uniq
       marked = File.read(PAGE).scan(/<!-- condition (C\d+):begin -->/).flatten
       (headings - conditions).map { |number| "#{FILE} has no #{number}, which #{PAGE} has" } +
-        (conditions - headings).map { |number| "#{PAGE} has no #{number}" } + (conditions - marked).map { |number| "#{PAGE} has no table of #{number}" }
+        (conditions - headings).map { |number| "#{PAGE} has no #{number}" } + (conditions - marked).map { |number| "#{PAGE} has no mark of #{number}" }
     end
 
     # The prose of a header's comments in one line.

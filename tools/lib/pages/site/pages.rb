@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 require 'cgi'
+require 'csv'
 require 'fileutils'
 
 # The pages of the site: documents as mkdocs reads them, and every file of the project
@@ -125,7 +126,16 @@ class Pages
   LANGUAGES = { '.c' => 'c', '.h' => 'c', '.cc' => 'cpp', '.py' => 'python', '.rb' => 'ruby' }.freeze
 
   def source(path)
+    return table(path) if path.end_with?('.csv')
+
     "# #{File.basename(path)}\n\n`#{path}`\n\n````#{LANGUAGES.fetch(File.extname(path), 'text')}\n#{File.read(path)}````\n"
+  end
+
+  # Words in backticks are code, as in a document.
+  def table(path)
+    head, *rows = CSV.read(path).map { |row| row.map { |cell| CGI.escapeHTML(cell.to_s).gsub(/`([^`]+)`/, '<code>\1</code>') } }
+    body = rows.map { |row| "<tr>#{row.map { |cell| "<td>#{cell}</td>" }.join}</tr>\n" }.join
+    "# #{File.basename(path)}\n\n`#{path}`\n\n<table data-sorted>\n<thead><tr>#{head.map { |name| "<th>#{name}</th>" }.join}</tr></thead>\n<tbody>\n#{body}</tbody>\n</table>\n"
   end
 
   def listing(folder)
