@@ -78,7 +78,7 @@ async function sorting() {
 
 // On a dark page a picture is dark, and what is drawn on it is light.
 async function pictures() {
-    const page = await tab(`${host}/docs/behaviour.html`);
+    const page = await tab(`${host}/docs/controller.html`);
     const problems = [];
     await page.evaluate(() => document.body.setAttribute('data-md-color-scheme', 'slate'));
     for (const picture of await page.locator('article img').all()) {

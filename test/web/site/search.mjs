@@ -13,7 +13,7 @@ const QUERIES = {
     'docs/start/esp32.html': ['ESP32'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt'],
     'docs/start/download.html': ['license', 'download'], 'docs/start/arduino.html': ['Arduino Uno'], 'docs/start/platformio.html': ['PlatformIO'],
     'docs/start/cmake.html': ['find_package'], 'docs/start/zephyr.html': ['Zephyr'], 'docs/start/esp_idf.html': ['ESP-IDF'], 'docs/installing.html': ['install'],
-    'docs/scaling.html': ['overflow', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/behaviour.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
+    'docs/scaling.html': ['overflow', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
     'docs/migrating.html': ['FastPID', 'PIDMain', 'C18'], 'docs/cost.html': ['flash size'], 'docs/assurance.html': ['MISRA'], 'docs/faults.html': ['watchdog'],
     'python/index.html': ['numpy'], 'docs/chips.html': ['simulator'],
 };

@@ -19,7 +19,7 @@ module Docs
                                           'guard' => :guard, 'interpolated' => :interpolated,
                                           'behind_tpo' => :behind_tpo, 'retune' => :retune,
                                           'spikes' => :spikes, 'back_from_limit' => :back_from_limit } },
-    'docs/behaviour.md' => { 'recipes' => { 'saturations' => :saturations } },
+    'docs/controller.md' => { 'recipes' => { 'saturations' => :saturations } },
     'docs/faults.md' => { 'faults' => { 'faults' => :faults, 'limits' => :fault_limits,
                                         'staying' => :staying, 'staying_limits' => :staying_limits },
                           'guard' => { 'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
