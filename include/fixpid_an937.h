@@ -18,7 +18,7 @@
 // not interrupt each other, except that fixpid_an937_tick may interrupt all of
 // them where the compiler's code is re-entrant: fixpid.h says where it is not.
 //
-// docs/errata.md lists where the firmware that Microchip shipped with the note
+// docs/migrating.md lists where the firmware that Microchip shipped with the note
 // differs: the sign of delta, an error of 0, and when the first delta is taken.
 #ifndef FIXPID_AN937_H
 #define FIXPID_AN937_H

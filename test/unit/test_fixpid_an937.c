@@ -99,7 +99,7 @@ void test_step_recorded_rows_match_the_firmware(void)
         if (row[AN937_TICK] != 0) {
             fixpid_an937_tick(&an937_controller);
         }
-        TEST_ASSERT_NOT_EQUAL(0, row[AN937_ERROR]); // as docs/errata.md says
+        TEST_ASSERT_NOT_EQUAL(0, row[AN937_ERROR]); // as docs/migrating.md says
         TEST_ASSERT_EQUAL_INT32(
             row[AN937_PID_OUT],
             fixpid_an937_step(&an937_controller, (int16_t)row[AN937_ERROR]));
@@ -188,7 +188,7 @@ void test_set_gains_motor_goes_to_144_and_the_output_jumps_by_the_law(void)
     TEST_ASSERT_EQUAL_INT32(before + INT32_C(64) * 1500 / 16, step(0));
 }
 
-// docs/errata.md: the firmware gives a shrinking error the sign of the error.
+// docs/migrating.md: the firmware gives a shrinking error the sign of the error.
 void test_step_error_shrinks_derivative_pushes_against_proportional(void)
 {
     tick_and_step(1000);
@@ -201,7 +201,7 @@ void test_step_error_shrinks_derivative_pushes_against_proportional(void)
         0, fixpid_an937_proportional(&an937_controller));
 }
 
-// docs/errata.md: the firmware holds its output and skips the tick.
+// docs/migrating.md: the firmware holds its output and skips the tick.
 void test_step_error_zero_is_computed_like_any_other(void)
 {
     tick_and_step(100);

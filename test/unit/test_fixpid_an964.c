@@ -89,7 +89,7 @@ void test_step_recorded_rows_match_the_firmware(void)
                                 fixpid_an964_integral(&an964_controller));
         TEST_ASSERT_EQUAL_INT16(row[AN964_DERIVATIVE],
                                 fixpid_an964_derivative(&an964_controller));
-        // No row reaches a limit, as docs/errata.md says.
+        // No row reaches a limit, as docs/migrating.md says.
         TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
         rows++;
     }
@@ -228,7 +228,7 @@ void test_flags_sum_limited_lasts_until_a_step_within_or_a_reset(void)
     TEST_ASSERT_EQUAL_HEX8(0, fixpid_an964_flags(&an964_controller));
 }
 
-// docs/errata.md: the program keeps the error in a signed char.
+// docs/migrating.md: the program keeps the error in a signed char.
 void test_step_error_beyond_a_byte_does_not_wrap(void)
 {
     start(1023, 0, 0);
@@ -236,7 +236,7 @@ void test_step_error_beyond_a_byte_does_not_wrap(void)
     TEST_ASSERT_EQUAL_INT16(-179, step(-180));
 }
 
-// docs/errata.md: 117 * 281 and 120 * 274 do not fit the program's 16 bits.
+// docs/migrating.md: 117 * 281 and 120 * 274 do not fit the program's 16 bits.
 void test_step_products_beyond_16_bits_are_exact(void)
 {
     start(16, 281, 0);

@@ -169,7 +169,7 @@ void test_port_read_every_code_is_where_the_converter_has_it(void)
     TEST_ASSERT_EQUAL_UINT16(0, port_read(PORT_KD));
 }
 
-// docs/errata.md: AN964's program loses the two low duty bits.
+// docs/migrating.md: AN964's program loses the two low duty bits.
 void test_port_drive_every_duty_count_reaches_the_bridge(void)
 {
     for (int16_t duty = -PORT_DRIVE_FULL; duty <= PORT_DRIVE_FULL; duty++) {
