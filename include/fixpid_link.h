@@ -70,7 +70,7 @@
 // A command whose tag and first byte are those of the last one of 0x42..0x47 is
 // answered as that was and not carried out again, unless the tag is 0: who gets
 // no answer may repeat it. An output by hand gets no more time from that.
-// docs/link.md has more of the other end.
+// sim/link/link_twin.h has what the other end does.
 #ifndef FIXPID_LINK_H
 #define FIXPID_LINK_H
 #include <stdbool.h>
