@@ -11,25 +11,22 @@
 //    fixpid_pid_state, puts the key frame's bytes 11 to 24 over its bytes 0 to
 //    13, and calls fixpid_pid_restore.
 // 2. For a step's frame with the next number it makes one step: output and
-// flags
-//    must be equal. Another number is a gap: it waits for the next key frame.
+//    flags must be equal. Another number is a gap: it waits for a key frame.
 // 3. A key frame with the next number is compared likewise, and the state's
 //    bytes 2 to 13, too. With reason 8 (changed) nothing is compared, and it
 //    asks for the record as in 5. A log goes on from the state, as in 1; if a
 //    step differs there before a key frame was equal, the gains are others, and
 //    it waits for a record.
 // 4. When the answer to a command says done, it gives the command's bytes to
-// its
-//    own fixpid_link_receive and fixpid_link_answer. In a log, with answers to
-//    commands of somebody else, it waits for a record behind a write, and for a
-//    key frame behind an output by hand.
+//    its own fixpid_link_receive and fixpid_link_answer. In a log, with answers
+//    to commands of somebody else, it waits for a record behind a write, and
+//    for a key frame behind an output by hand.
 // 5. If a key frame's tag is not that of the last answer, or a command other
 //    than stream is answered during a gap, it asks for the record again, and
 //    then for the stream. A record that is as the one it has changes nothing.
 // 6. Behind a tracked step it calls fixpid_pid_track with what came. A key
-// frame
-//    does not say what was applied in its step: there it takes the integral
-//    from it, and compares output, flags, derivative and feed-forward.
+//    frame does not say what was applied in its step: there it takes the
+//    integral from it, and compares output, flags, derivative and feed-forward.
 //
 // It says "different" only where no frame is missing between, and counts the
 // steps that it did not compare. If only each n-th step is sent, it has a plot
