@@ -21,6 +21,7 @@ require_relative 'demo/thermostat'
 require_relative 'demo/loops'
 require_relative 'demo/autotune'
 require_relative 'demo/double'
+require_relative 'demo/anti_windup'
 require_relative 'demo/random_plants'
 require_relative 'demo/recipes'
 require_relative 'demo/guard'
@@ -47,6 +48,7 @@ LOOPS = {
   'random_plants' => Loop.new('gains for plants of 22 families and machines of 23 kinds',
                               -> { random_plants }),
   'double' => Loop.new('as good on five plants as in double precision', -> { double }),
+  'anti_windup' => Loop.new('no overshoot, and soon back from a setpoint out of reach', -> { anti_windup }),
   'recipes' => Loop.new('what is built around a controller: cascade, override, ramp, relay and more', -> { recipes }),
   'guard' => Loop.new('few false alarms on whole machines, each of eight faults seen on nearly all', -> { guard }),
   'faults' => Loop.new('four loops broken in 18 ways: back in control, or off, in time; in 15 for good: seen',

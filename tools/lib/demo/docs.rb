@@ -6,7 +6,7 @@ require_relative 'tables'
 
 # The parts of the documents that come from the demo's runs.
 module Docs
-  PICTURES = %w[pendulum motor oven tuning thermostat autotune random_plants guard chip
+  PICTURES = %w[anti_windup pendulum motor oven tuning thermostat autotune random_plants guard chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
   # Document, and by loop its parts between markers with what makes each of them.

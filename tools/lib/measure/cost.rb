@@ -19,6 +19,7 @@ require_relative 'features'
 require_relative 'daily'
 require_relative 'documented'
 require_relative 'together'
+require_relative 'anti_windup'
 
 Encoding.default_external = 'UTF-8'
 
@@ -35,6 +36,10 @@ class Cost
   def print
     puts Tables.plain(Tables.steps(measured)) if @subjects.any?
     puts Tables.plain(Tables.modules(called)) if @modules.any?
+  end
+
+  def print_beside
+    puts Tables.plain(Tables.rivals(measured, AntiWindup.figures))
   end
 
   def print_all
@@ -185,7 +190,7 @@ class Cost
      [page, 'pics', Tables.beside_pics(measured)],
      [page, 'quality', Tables.quality],
      [page, 'limits', Tables.limits(limits.others)],
-     ["#{Host.root}/README.md", 'cost', Tables.readme(measured)]]
+     ["#{Host.root}/README.md", 'rivals', Tables.rivals(measured, AntiWindup.figures)]]
   end
 end
 
@@ -218,6 +223,7 @@ def main(mode, root = nil, *words)
   when 'search' then cost.search(seed)
   when 'tighten' then cost.tighten
   when 'loosen' then cost.loosen(words)
+  when 'beside' then cost.print_beside
   else words.empty? ? cost.print_all : cost.print
   end
 end

@@ -98,3 +98,10 @@ QUALITY = [
   ['CMSIS-DSP, q31', 'none', '208', 217, 33_962, '0', 623, 174_392, '-168'],
   ['AVR221', 'none', '229', 195, 33_742, '0', 560, 174_460, '-560 to -592']
 ].freeze
+
+# Those of README.md, with the version and the commit that were measured: their rows of PEERS and of QUALITY.
+RIVALS = {
+  'Arduino PID (PID_v1) 1.2.1, 524a426, float' => ['Arduino PID, double', 'Arduino PID, pms67, SimpleFOC'],
+  'FastPID 1.3.2, e00f476' => ['FastPID 1.3.2', 'FastPID 1.3.2'],
+  'AVR221, the code of Atmel\'s note' => %w[AVR221 AVR221]
+}.freeze

@@ -15,9 +15,9 @@ module Tables
   PIC_COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520' }.freeze
   QUALITY_HEAD = ['', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
                   'sum until then', 'error left, low gains'].freeze
-  # Of README.md: what one would build.
-  BEST = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2',
-           'cortex-m4' => '-O2', 'rv32imc' => '-O2', 'rv32ec' => '-O2' }.freeze
+  # Of README.md: in our builds what most need, and all.
+  OURS = { 'pid_typical' => '`fixpid_pid`, what most loops need', 'pid' => '`fixpid_pid`, every feature' }.freeze
+  RIVALS_HEAD = ['', 'overshoot, counts', 'back from the limit after, steps', 'a step on an ATmega328P, cycles', 'flash, bytes'].freeze
 
   class << self
     def steps(measured)
@@ -76,12 +76,16 @@ module Tables
       [['', 'at most', 'now']] + limits.map(&:cells)
     end
 
-    def readme(measured)
-      head = ['', *BEST.keys.map { |chip| CHIPS.find { |one| one.name == chip }.title }]
-      rows = CONTROLLERS.map do |controller|
-        [controller.title, *BEST.map { |chip, build| short(measured, controller, chip, build) }]
+    # Ours, from a loop that is closed here, a bound and the flash; and what is published of others.
+    def rivals(measured, loop)
+      ours = OURS.map do |id, title|
+        [title, loop['overshoot'], loop['back'], find(measured, id, 'atmega328p', '-O2').bound, find(measured, id, 'atmega328p', '-Os').needed]
       end
-      [head] + rows + NOTES.map { |note| [note.title, *BEST.keys.map { |chip| note.costs.fetch(chip, '') }] }
+      [RIVALS_HEAD] + ours + RIVALS.map do |title, (peer, quality)|
+        other = PEERS.find { |one| one.title == peer }
+        row = QUALITY.find { |one| one.first == quality }
+        [title, row[2], row[6], other.worst('atmega328p-O2'), other.flash]
+      end
     end
 
     # What sentences of the documents say, by the names of docs/figures.json.
@@ -162,11 +166,6 @@ module Tables
     def other_rows(others, columns)
       others.select { |other| (columns.keys & other.costs.keys).any? }
             .map { |other| [other, [other.title, *columns.keys.map { |column| other.shown(column) }]] }
-    end
-
-    def short(measured, controller, chip, build)
-      figures = find(measured, controller.id, chip, build) or return ''
-      figures.cycles ? "#{figures.most}, #{in_cycles(figures)} cycles; #{figures.needed}" : "#{figures.most}; #{figures.needed}"
     end
   end
 end
