@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The quick start ends with the lines that stand in the README:
+# The quick start ends with the lines that stand in its page:
 #
-#   cmake -DPROGRAM=quick_start -DREADME=README.md -P quick_start.cmake
+#   cmake -DPROGRAM=quick_start -DPAGE=docs/start/index.md -P quick_start.cmake
 #
 # with -DEMULATOR=wine before a program of Windows, whose lines end in two characters.
 execute_process(COMMAND ${EMULATOR} ${PROGRAM} OUTPUT_VARIABLE printed
@@ -11,10 +11,10 @@ if(NOT status EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ends with ${status}")
 endif()
 
-file(READ ${README} text)
+file(READ ${PAGE} text)
 set(marker "<!-- quick_start_output:")
 if(NOT text MATCHES "${marker}begin -->\n```[a-z]*\n(.+)```\n${marker}end -->")
-  message(FATAL_ERROR "${README} has no output of the quick start")
+  message(FATAL_ERROR "${PAGE} has no output of the quick start")
 endif()
 set(promised "${CMAKE_MATCH_1}")
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The boiler of README.md's quick start, broken for good in eight ways, without
+// The boiler of the quick start, broken for good in eight ways, without
 // fixpid_guard and with it:
 //
 //   boiler STEPS_PER_SECOND NOISE

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require 'csv'
+
 require_relative 'harness'
 require_relative '../../../tools/lib/measure/meters'
 
@@ -198,10 +200,10 @@ module Alone
 
   # The tests, and what they have found.
   class Tests
-    DOCUMENT = 'docs/choosing.md'
+    DOCUMENT = 'docs/data/tuner_alone.csv'
     # Of the flash; an application wants the rest.
     WHOLE_MOST = 0.6
-    HEAD = ['', 'flash', 'experiment alone adds', 'its RAM, and stack', 'the whole tuner adds', 'take', 'the whole tuner from'].freeze
+    HEAD = ['chip', 'flash', 'experiment alone adds', 'its RAM, and stack', 'the whole tuner adds', 'take', 'the whole tuner from'].freeze
 
     def initialize(folder, update)
       @folder = folder
@@ -258,8 +260,7 @@ module Alone
     end
 
     def table
-      rows = CHIPS.map { |chip| row(chip, @found.fetch(chip.name)) }
-      [HEAD, HEAD.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
+      [HEAD, *CHIPS.map { |chip| row(chip, @found.fetch(chip.name)) }].map(&:to_csv).join
     end
 
     def row(chip, found)
@@ -278,18 +279,13 @@ module Alone
       kilobytes
     end
 
-    def renewed(text)
-      text.sub(/(<!-- alone:begin -->\n).*?(<!-- alone:end -->)/m) { "#{$1}#{table}#{$2}" }
-    end
-
     def rewrite
-      File.write(DOCUMENT, renewed(File.read(DOCUMENT)))
+      File.write(DOCUMENT, table)
       "#{DOCUMENT} is rewritten"
     end
 
     def check
-      text = File.read(DOCUMENT)
-      return DOCUMENT if renewed(text) == text
+      return DOCUMENT if table == File.read(DOCUMENT)
 
       raise Host::Failure, "#{DOCUMENT} is stale; test/chips/families/run --update alone renews it"
     end

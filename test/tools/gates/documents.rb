@@ -9,11 +9,11 @@ ABSENT = 'not_there' # a whole name would be one that the project has
 
 # [file, text, instead, what must be said]
 FAULTS = [
-  ['README.md', '<!-- quick_start:begin -->', "<!-- quick_start:begin -->\n", /README.md is stale/],
+  ['docs/start/index.md', '<!-- quick_start:begin -->', "<!-- quick_start:begin -->\n", /docs.start.index.md is stale/],
   ['web/site/home.md', '<!-- chips -->', '<!-- chip -->', /web.site.home.md: no number is called chip$/],
   ['docs/figures.json', '"rows": ', '"rows": 1', /docs.figures.json: rows is 14000, but 4000 was found$/],
   ['docs/start/zephyr.md', 'CONFIG_FIXPID=y', 'CONFIG_FIXPID=n', /docs.start.zephyr.md is stale/],
-  ['docs/start/rtos.md', /\z/, "\n```ini\nnobody = 1\n```\n", /docs.start.rtos.md: a block of ini shows no file/],
+  ['docs/start/esp.md', /\z/, "\n```ini\nnobody = 1\n```\n", /docs.start.esp.md: a block of ini shows no file/],
   ['docs/scaling.md', /\z/, "\n| a | b |\n|---|---|---|\n", /docs.scaling.md: no table, .*: \| a \| b \|$/],
   ['docs/scaling.md', /\z/, "\nThe product is 117 * 1023 / 16 = 7481.\n", /docs.scaling.md: 117 \* 1023 . 16 = 7481 is wrong/],
   ['docs/scaling.md', /\z/, "\nSo says `test_what_is_not_there_is_missed`.\n", /no test test_what_is_not_there_is_missed/],
@@ -36,7 +36,7 @@ FAULTS = [
   ['include/fixpid_pid.h', '// reverse', '// feedforward', /fixpid_pid.h does not say ".*HAS_REVERSE/],
   ['SECURITY.md', 'tools/prove autotune total', 'tools/prove autotune totals', /SECURITY.md: no tools.prove autotune totals/],
   ['SECURITY.md', 'targets `bytes`', 'targets `byte`', /SECURITY.md: no test.fuzz.run byte$/],
-  ['docs/choosing.md', '| Z80 | yes |', '| Z80 | no |', /docs.choosing.md: `fixpid_an937` on Z80: no, but docs.chips.md says [0-9 ]+ rows/],
+  ['docs/data/chip_choices.csv', 'Z80,yes', 'Z80,no', /chip_choices.csv: `fixpid_an937` on Z80: no, but docs.chips.md says [0-9 ]+ rows/],
   ['docs/requirements.csv', 'Errors and differences saturate', 'Errors and differences wrap', /requirements.csv, PID-1: fixpid_pid.h does not say "Errors and differences wrap/],
   ['docs/requirements.csv', 'output_is_rounded_half_up', 'output_is_rounded_half_down', /requirements.csv, PID-2: no test test_step_output_is_rounded_half_down$/],
   ['docs/requirements.csv', 'theorems bumpless', 'theorems bumpy', /requirements.csv, PID-17: no tools.prove theorems bumpy$/],
@@ -52,10 +52,10 @@ FAULTS = [
 
 # For the linter.
 MARKDOWN = [
-  ['docs/start/cmake.md', "\n| a | b |\n|---|---|\n| 1 |\n", /cmake.md.* MD056.*Too few cells/],
-  ['docs/start/esp32.md', "\n| a | b |\n|---|---|\n| 1 | 2\n", /esp32.md.* MD055.*missing trailing pipe/i],
+  ['docs/start/zephyr.md', "\n| a | b |\n|---|---|\n| 1 |\n", /zephyr.md.* MD056.*Too few cells/],
+  ['docs/start/esp.md', "\n| a | b |\n|---|---|\n| 1 | 2\n", /esp.md.* MD055.*missing trailing pipe/i],
   ['docs/start/stm32.md', "\nSee [what is not there](nowhere.md).\n", /stm32.md.*"nowhere.md" should exist/],
-  ['docs/start/rtos.md', "\nSee [what is not there](stm32.md#nowhere).\n", /rtos.md.*"stm32.md#nowhere" should have a valid fragment/],
+  ['docs/start/arduino.md', "\nSee [what is not there](stm32.md#nowhere).\n", /arduino.md.*"stm32.md#nowhere" should have a valid fragment/],
   ['docs/start/glossary.md', "\n##### Nothing above it\n", /glossary.md.* MD001/]
 ].freeze
 

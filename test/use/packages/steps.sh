@@ -28,10 +28,10 @@ small_files() {
     done
 }
 
-# quick_start COMMAND...: it prints what README.md has for the quick start.
+# quick_start COMMAND...: it prints what docs/start/index.md has for the quick start.
 quick_start() {
     "$@" >printed || return 1
-    sed -n '/quick_start_output:begin/,/quick_start_output:end/p' "$root/README.md" |
+    sed -n '/quick_start_output:begin/,/quick_start_output:end/p' "$root/docs/start/index.md" |
         grep ' s: ' | cmp - printed
 }
 

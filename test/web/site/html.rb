@@ -126,7 +126,7 @@ end
 def with_address
   system('ruby', 'tools/lib/pages/site.rb', MADE, ADDRESS) || abort('site.rb failed')
   config = YAML.load_file("#{MADE}/mkdocs.yml")
-  kept = %w[index.md docs/tuning.md docs/start/cmake.md]
+  kept = %w[index.md docs/tuning.md docs/start/arduino.md]
   Dir["#{MADE}/pages/**/*.md"].each { |path| File.delete(path) unless kept.include?(path.delete_prefix("#{MADE}/pages/")) }
   config['nav'] = kept
   File.write("#{MADE}/mkdocs.yml", YAML.dump(config))

@@ -9,11 +9,11 @@ const [site] = process.argv.slice(2);
 
 // The page that must be the first result for each of these words.
 const QUERIES = {
-    'docs/start/index.html': ['getting started'], 'docs/start/glossary.html': ['bumpless', 'kd', 'FOPDT'], 'docs/start/rtos.html': ['FreeRTOS'], 'docs/start/stm32.html': ['STM32'],
-    'docs/start/esp32.html': ['ESP32'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt'],
-    'docs/start/download.html': ['license', 'download'], 'docs/start/arduino.html': ['Arduino Uno'], 'docs/start/platformio.html': ['PlatformIO'],
-    'docs/start/cmake.html': ['find_package'], 'docs/start/zephyr.html': ['Zephyr'], 'docs/start/esp_idf.html': ['ESP-IDF'], 'docs/installing.html': ['install'],
-    'docs/scaling.html': ['overflow', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
+    'docs/start/index.html': ['getting started'], 'docs/start/glossary.html': ['bumpless', 'kd', 'FOPDT'], 'docs/start/stm32.html': ['STM32', 'FreeRTOS', 'CMake', 'thread safe'],
+    'docs/start/esp.html': ['ESP32', 'ESP-IDF'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/start/sdcc.html': ['SDCC'], 'docs/start/zephyr.html': ['Zephyr'],
+    'docs/start/arduino.html': ['Arduino Uno', 'PlatformIO'], 'docs/installing.html': ['install', 'download', 'find_package'], 'docs/project.html': ['license', 'roadmap'],
+    'docs/choosing.html': ['CMSIS', 'QuickPID', 'compare'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt', 'slew', 'NTC'],
+    'docs/scaling.html': ['overflow', 'sample time', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
     'docs/migrating.html': ['FastPID', 'PIDMain', 'C18'], 'docs/cost.html': ['flash size'], 'docs/assurance.html': ['MISRA'], 'docs/faults.html': ['watchdog'],
     'python/index.html': ['numpy'], 'docs/chips.html': ['simulator'],
 };

@@ -141,14 +141,14 @@ for (const [i, [sensor, error]] of sensors.entries()) {
 
 // --- Costs ----------------------------------------------------------------------
 // The card's figures are those of the documents: of one noun on each chip, and with a feature
-// for each chip that docs/choosing.md has.
+// for each chip that has prices.
 function documented(path, name) {
     const [, part] = readFileSync(path, 'utf8').split(new RegExp(`<!-- ${name}:(?:begin|end) -->`));
     return part.trim().split('\n').map((line) => line.split('|').slice(1, -1).map((cell) => cell.trim()));
 }
 
 const [titles, , ...steps] = documented('docs/cost.md', 'steps');
-const features = documented('docs/choosing.md', 'features');
+const { features } = JSON.parse(readFileSync('docs/figures.json', 'utf8'));
 
 function costOf(noun, chip) {
     const row = steps.find((one) => one[0] === noun && one[1] === chip && ['object', '-O2'].includes(one[2]));
@@ -157,7 +157,7 @@ function costOf(noun, chip) {
 
 function withFilter(chip) {
     const at = features[0].findIndex((title) => title.startsWith(chip));
-    const sum = (column) => Number(features[2][column]) + Number(features[3][column]);
+    const sum = (column) => Number(features[1][column]) + Number(features[2][column]);
     return at < 0 ? costOf('PID', chip) : [sum(at), sum(at + 1), costOf('PID', chip)[2]];
 }
 

@@ -54,7 +54,7 @@ class Cost
   def check
     good = limits.all.map { |limit| tell(limit.good?, limit.what, limit.wrong) }
     all_parts.each do |document, name, rows|
-      changes = Document.new(document).replace(name, rows)
+      changes = Document.of(document).replace(name, rows)
       good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
     end
     stale = NamedFigures.stale(named, Host.root)
@@ -83,7 +83,7 @@ class Cost
 
   def update
     all_parts.group_by(&:first).each do |path, parts|
-      document = Document.new(path)
+      document = Document.of(path)
       parts.each { |_, name, rows| puts document.replace(name, rows) }
       document.write
     end
@@ -170,7 +170,7 @@ class Cost
 
   # Daily none and all of them are measured, as PID, typical and PID.
   def features
-    @left_out.empty? ? [["#{Host.root}/docs/choosing.md", 'features', Features.table(prices)]] : []
+    @left_out.empty? ? [["#{Host.root}/docs/data/features.csv", 'features', Features.table(prices)]] : []
   end
 
   # What docs/figures.json has of it.

@@ -1,8 +1,31 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require 'csv'
+
+# A table that is a file of docs/data, and what it said before.
+class DataFile
+  def initialize(path)
+    @path = path
+  end
+
+  def replace(_name, rows)
+    @rows = rows.map { |row| row.map(&:to_s) }
+    old = CSV.read(@path)
+    old == @rows ? [] : Changes.new(Tables.markdown(old), rows).to_a
+  end
+
+  def write
+    File.write(@path, @rows.map(&:to_csv).join)
+  end
+end
+
 # Tables between markers of the documents, and what they said before.
 class Document
+  def self.of(path)
+    path.end_with?('.csv') ? DataFile.new(path) : new(path)
+  end
+
   def initialize(path)
     @path = path
     @text = @old = File.read(path)

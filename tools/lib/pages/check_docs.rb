@@ -60,7 +60,7 @@ end
 
 def renewed(path, text)
   case path
-  when 'README.md'
+  when 'docs/start/index.md'
     # Without the line of the licence.
     text = part(text, 'quick_start', "```c\n#{File.readlines('examples/quick_start.c').drop(1).join}```\n")
     part(text, 'quick_start_output', "```\n#{quick_start_output}```\n")
@@ -71,8 +71,8 @@ def renewed(path, text)
     Recipes.names.reduce(text) { |so_far, name| part(so_far, "recipe #{name}", Recipes.part(name)) }
   when HOME
     part(text, 'version', format(Shown.version, '../../CHANGELOG.md'))
-  when 'docs/start/download.md'
-    text = part(part(text, 'version', format(Shown.version, '../../CHANGELOG.md')), 'release files', Shown.released)
+  when 'docs/installing.md'
+    text = part(part(text, 'version', format(Shown.version, '../CHANGELOG.md')), 'release files', Shown.released)
     part(text, 'folders', Shown.folders)
   else
     text

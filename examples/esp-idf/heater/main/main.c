@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The quick start of README.md as a task of ESP-IDF. The boiler is simulated:
+// The quick start as a task of ESP-IDF. The boiler is simulated:
 // read a converter and set a PWM in its place.
 #include <stdio.h>
 

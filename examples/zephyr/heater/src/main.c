@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The quick start of README.md under Zephyr. The boiler is simulated: read
+// The quick start under Zephyr. The boiler is simulated: read
 // a converter and set a PWM in its place.
 #include <zephyr/kernel.h>
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Whether docs/choosing.md says "no" of a controller and a chip where a simulated one did in
+require 'csv'
+# Whether docs/data/chip_choices.csv says "no" of a controller and a chip where a simulated one did in
 # docs/chips.md, and only there.
 module ChipChoices
-  CHOOSING = 'docs/choosing.md'.freeze
+  CHOOSING = 'docs/data/chip_choices.csv'.freeze
   CHIPS = 'docs/chips.md'.freeze
   CONTROLLERS = { '`fixpid_an937`' => 'AN937', '`fixpid_an964`' => 'AN964', '`fixpid_an964_8bit`' => 'AN964 8-bit', '`fixpid_pid`' => 'PID' }.freeze
   # What the simulated ones are called, where they are others' names.
@@ -38,7 +39,7 @@ module ChipChoices
     end
 
     def chosen
-      table(File.read(CHOOSING)[/^\| chip \| .*?\n\n/m])
+      CSV.read(CHOOSING, headers: true).map(&:to_h)
     end
 
     def simulated

@@ -5,6 +5,7 @@ require_relative '../../project'
 # write is what a test builds. A page for beginners shows no other code but C, which is compiled.
 module Shown
   MARKED = /^<!-- shown (\S+):begin -->\n.*?^<!-- shown \1:end -->\n/m.freeze
+  GENERATED = /^<!-- (\w+):begin -->\n.*?^<!-- \1:end -->\n/m.freeze
   BEFORE = /<!-- shown \S+:begin -->\n\z/.freeze # a block that is a file's
   LANGUAGES = { '.c' => 'c', '.ino' => 'cpp', '.txt' => 'cmake', '.conf' => 'ini',
                 '.asm' => 'nasm', '.yml' => 'yaml' }.freeze
@@ -20,7 +21,7 @@ module Shown
     def failures(path, text)
       return [] unless path.match?(BEGINNERS)
 
-      text.gsub(MARKED, '').scan(/^```(\w*)$.*?^```$/m).flatten.reject { |language| language == 'c' }
+      text.gsub(MARKED, '').gsub(GENERATED, '').scan(/^```(\w*)$.*?^```$/m).flatten.reject { |language| language == 'c' }
           .map { |language| "#{path}: a block of #{language.empty? ? 'no language' : language} shows no file" }
     end
 
