@@ -15,6 +15,7 @@ FAULTS = [
   ['docs/start/zephyr.md', 'CONFIG_FIXPID=y', 'CONFIG_FIXPID=n', /docs.start.zephyr.md is stale/],
   ['docs/start/esp.md', /\z/, "\n```ini\nnobody = 1\n```\n", /docs.start.esp.md: a block of ini shows no file/],
   ['docs/scaling.md', /\z/, "\n| a | b |\n|---|---|---|\n", /docs.scaling.md: no table, .*: \| a \| b \|$/],
+  ['docs/scaling.md', /\z/, "\nOf all\n<!-- chips -->18 some.\n", /docs.scaling.md: a line begins with a mark: <!-- chips/],
   ['docs/scaling.md', /\z/, "\nThe product is 117 * 1023 / 16 = 7481.\n", /docs.scaling.md: 117 \* 1023 . 16 = 7481 is wrong/],
   ['docs/scaling.md', /\z/, "\nSo says `test_what_is_not_there_is_missed`.\n", /no test test_what_is_not_there_is_missed/],
   ['docs/scaling.md', /\z/, "\nCall `fixpid_pid_#{ABSENT}`, of `src/fixpid_#{ABSENT}.c`.\n",

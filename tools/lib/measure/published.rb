@@ -101,7 +101,7 @@ QUALITY = [
 
 # Those of README.md, with the version and the commit that were measured: their rows of PEERS and of QUALITY.
 RIVALS = {
-  'Arduino PID (PID_v1) 1.2.1, 524a426, float' => ['Arduino PID, double', 'Arduino PID, pms67, SimpleFOC'],
-  'FastPID 1.3.2, e00f476' => ['FastPID 1.3.2', 'FastPID 1.3.2'],
-  'AVR221, the code of Atmel\'s note' => %w[AVR221 AVR221]
+  'PID_v1 1.2.1 (524a426)' => ['Arduino PID, double', 'Arduino PID, pms67, SimpleFOC'],
+  'FastPID 1.3.2 (e00f476)' => ['FastPID 1.3.2', 'FastPID 1.3.2'],
+  'Atmel AVR221' => %w[AVR221 AVR221]
 }.freeze

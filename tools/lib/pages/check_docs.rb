@@ -87,6 +87,11 @@ def check_heads(path, text)
   end
 end
 
+# A line of a paragraph that begins with a mark is HTML to GitHub: what follows in it is no Markdown.
+def check_marks(path, text)
+  text.scan(/^ *(<!-- \w+ -->\d.*)/).flatten.each { |line| @failures << "#{path}: a line begins with a mark: #{line}" }
+end
+
 def check_named_tests(path, text, tests)
   text.scan(/`(test_\w+)`/).flatten.each do |test|
     @failures << "#{path}: no test #{test}" unless tests.include?(test)
@@ -108,6 +113,7 @@ documents.each do |path|
   end
   @failures.concat(NamedFigures.unknown(text).map { |name| "#{path}: no number is called #{name}" })
   check_heads(path, new_text)
+  check_marks(path, new_text)
   check_named_tests(path, new_text, tests)
   @failures.concat(Sums.failures(path, new_text))
 end
