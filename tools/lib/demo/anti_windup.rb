@@ -15,8 +15,8 @@ end
 LIMIT_ENDS = 2000 # of the run, at this step
 
 def draw_anti_windup(run)
-  plot = Plot.new('anti_windup', 'One loop: with the anti-windup of fixpid, and without any', width: 840, height: 440, columns: [1.0, 1.4],
-                                                                                              rows: [1.7, 1.0], margins: { top: 0.85, bottom: 0.12 })
+  plot = Plot.new('anti_windup', 'One loop: with the anti-windup of fixpid, and without any',
+                  width: 840, height: 440, columns: [1.0, 1.4], rows: [1.7, 1.0], margins: { top: 0.85, bottom: 0.12 })
   [[0, 350, 'a step change from 0 to 700'], [LIMIT_ENDS - 100, LIMIT_ENDS + 600, 'back to 700 from a setpoint out of reach']]
     .each_with_index do |(from, to, title), column|
       range = "set xrange [#{from}:#{to}]"
