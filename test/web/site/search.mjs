@@ -13,7 +13,7 @@ const QUERIES = {
     'docs/start/esp.html': ['ESP32', 'ESP-IDF'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/start/sdcc.html': ['SDCC'], 'docs/start/zephyr.html': ['Zephyr'],
     'docs/start/arduino.html': ['Arduino Uno', 'PlatformIO'], 'docs/installing.html': ['install', 'download', 'find_package'], 'docs/project.html': ['license', 'roadmap'],
     'docs/choosing.html': ['DCL', 'compare'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt', 'slew', 'NTC'],
-    'docs/scaling.html': ['overflow', 'sample time', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/behaviour.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
+    'docs/scaling.html': ['overflow', 'sample time', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
     'docs/migrating.html': ['FastPID', 'PIDMain', 'C18'], 'docs/cost.html': ['flash size'], 'docs/assurance.html': ['MISRA'], 'docs/faults.html': ['watchdog'],
     'python/index.html': ['numpy'], 'docs/chips.html': ['simulator'],
 };
