@@ -140,15 +140,15 @@ for (const [i, [sensor, error]] of sensors.entries()) {
 }
 
 // --- Costs ----------------------------------------------------------------------
-// The card's figures are those of the documents: of one noun on each chip, and with a feature
-// for each chip that has prices.
-function documented(path, name) {
-    const [, part] = readFileSync(path, 'utf8').split(new RegExp(`<!-- ${name}:(?:begin|end) -->`));
-    return part.trim().split('\n').map((line) => line.split('|').slice(1, -1).map((cell) => cell.trim()));
+// The card's figures are those of docs/data: of one noun on each chip, and with a feature for
+// each chip that has prices.
+function documented(name) {
+    return readFileSync(`docs/data/${name}.csv`, 'utf8').trim().split('\n')
+        .map((line) => line.match(/"[^"]*"|[^,]+/g).map((cell) => cell.replaceAll('"', '')));
 }
 
-const [titles, , ...steps] = documented('docs/cost.md', 'steps');
-const { features } = JSON.parse(readFileSync('docs/figures.json', 'utf8'));
+const [titles, ...steps] = documented('cost_steps');
+const features = documented('features');
 
 function costOf(noun, chip) {
     const row = steps.find((one) => one[0] === noun && one[1] === chip && ['object', '-O2'].includes(one[2]));

@@ -54,8 +54,8 @@ class Cost
   def check
     good = limits.all.map { |limit| tell(limit.good?, limit.what, limit.wrong) }
     all_parts.each do |document, name, rows|
-      changes = Document.of(document).replace(name, rows)
-      good << tell(changes.empty?, "#{name} of #{File.basename(document)}", *changes)
+      changes = Document.of(document, Host.root).replace(name, rows)
+      good << tell(changes.empty?, "#{name} of #{document}", *changes)
     end
     stale = NamedFigures.stale(named, Host.root)
     good << tell(stale.empty?, NamedFigures::FILE, *stale)
@@ -83,7 +83,7 @@ class Cost
 
   def update
     all_parts.group_by(&:first).each do |path, parts|
-      document = Document.of(path)
+      document = Document.of(path, Host.root)
       parts.each { |_, name, rows| puts document.replace(name, rows) }
       document.write
     end
@@ -127,7 +127,7 @@ class Cost
   end
 
   def documented
-    @documented ||= Documented.new(File.read(page))
+    @documented ||= Documented.new
   end
 
   # What each feature of fixpid_pid costs.
@@ -160,37 +160,32 @@ class Cost
     warn "cost: #{@done} of #{@total ||= (@subjects - @left_out).then { |some| some.size + some.count(&:has_plain_c?) }}" if (@done % 10).zero?
   end
 
-  def page
-    "#{Host.root}/docs/cost.md"
-  end
-
   def limits
     @limits ||= Limits.new(measured, called, plain_c, left_out: @left_out)
   end
 
   # Daily none and all of them are measured, as PID, typical and PID.
   def features
-    @left_out.empty? ? [["#{Host.root}/docs/data/features.csv", 'features', Features.table(prices)]] : []
+    @left_out.empty? ? [[DataTables::FOLDER, 'features', Features.table(prices)]] : []
   end
 
   # What docs/figures.json has of it.
   def named
-    tables = { 'steps' => Tables.steps(measured), 'modules' => Tables.modules(called) }
-    Tables.named(measured, called).merge(tables, features.to_h { |_, name, rows| [name, rows] })
+    Tables.named(measured, called)
   end
 
   def all_parts
-    [[page, 'steps', Tables.steps(measured)],
-     [page, 'modules', Tables.modules(called)],
-     [page, 'together', Together.table(together)],
-     ["#{Host.root}/docs/recipes.md", 'masked', Tables.masked(called)],
+    [*files.map { |name, rows| [DataTables::FOLDER, "cost_#{name}", rows] },
      *features,
-     [page, 'ratios', Tables.ratios(measured, plain_c)],
-     [page, 'beside', Tables.beside(measured)],
-     [page, 'pics', Tables.beside_pics(measured)],
-     [page, 'quality', Tables.quality],
-     [page, 'limits', Tables.limits(limits.others)],
-     ["#{Host.root}/README.md", 'rivals', Tables.rivals(measured, AntiWindup.figures)]]
+     ['docs/cost.md', 'summary', Tables.summary(measured)],
+     ['docs/recipes.md', 'masked', Tables.masked(called)],
+     ['README.md', 'rivals', Tables.rivals(measured, AntiWindup.figures)]]
+  end
+
+  def files
+    { 'steps' => Tables.steps(measured), 'modules' => Tables.modules(called), 'together' => Together.table(together),
+      'ratios' => Tables.ratios(measured, plain_c), 'beside' => Tables.beside(measured), 'pics' => Tables.beside_pics(measured),
+      'quality' => Tables.quality, 'limits' => Tables.limits(limits.others) }
   end
 end
 

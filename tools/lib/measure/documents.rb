@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require 'csv'
+require_relative '../data_tables'
 
-# A table that is a file of docs/data, and what it said before.
-class DataFile
-  def initialize(path)
-    @path = path
+# Tables that are files of docs/data, and what they said before.
+class DataFiles
+  def initialize(root)
+    @root = root
+    @tables = {}
   end
 
-  def replace(_name, rows)
-    @rows = rows.map { |row| row.map(&:to_s) }
-    old = CSV.read(@path)
-    old == @rows ? [] : Changes.new(Tables.markdown(old), rows).to_a
+  def replace(name, rows)
+    @tables[name] = rows
+    DataTables.difference(name, rows, @root) ? Changes.new(Tables.markdown(DataTables.read(name, @root)), rows).to_a : []
   end
 
   def write
-    File.write(@path, @rows.map(&:to_csv).join)
+    @tables.each { |name, rows| DataTables.write(name, rows, @root) }
   end
 end
 
 # Tables between markers of the documents, and what they said before.
 class Document
-  def self.of(path)
-    path.end_with?('.csv') ? DataFile.new(path) : new(path)
+  # A page, or the folder of the tables.
+  def self.of(path, root)
+    path == DataTables::FOLDER ? DataFiles.new(root) : new("#{root}/#{path}")
   end
 
   def initialize(path)

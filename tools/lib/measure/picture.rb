@@ -4,77 +4,57 @@
 require_relative 'tables'
 require_relative '../demo/plot'
 
-# Dots of what a step costs at most, a panel for each chip, on logarithmic axes: ours are
-# filled and the bounds of their code, with the worst step found as a tick; the notes' and
-# the others' are hollow, and what was measured of them. Each panel has one order: ours,
-# the notes', the others by what they take on an ATmega.
+# Dots of what a step costs at most, a panel for each of two chips, on logarithmic axes: ours
+# are filled and the bounds of their code, with the worst step found as a tick; the others'
+# are hollow, and what was measured of them. Both panels have one order: ours, then the
+# others by what they take on an ATmega.
 class Picture
   Dot = Struct.new(:title, :most, :found, :kind)
 
   OURS = Plot::MEASUREMENT
-  NOTE = Plot::WITHOUT
   PEER = '#555555'
-  # Columns of panels: chip, build, and its title.
-  COLUMNS = [[['pic16f684', nil, 'PIC16F684, cycles'], ['pic18f4520', nil, 'PIC18F4520, cycles'],
-              ['atmega328p', '-O2', 'ATmega328P, -O2, cycles']],
-             [['cortex-m0', '-O2', 'Cortex-M0, -O2, instructions'],
-              ['cortex-m4', '-O2', 'Cortex-M4, -O2, instructions'],
-              ['rv32imc', '-O2', 'RV32IMC, -O2, instructions']]].freeze
-  # From where to where the axes of a column go; its names are on their left.
-  PLACES = [[0.28, 0.5], [0.73, 0.94]].freeze
-  ROW = 18 # pixels
-  HEAD = 58 # a panel's axis and the next one's title
+  # Chip, build, and the panel's title.
+  PANELS = [['atmega328p', '-O2', 'ATmega328P, -O2, cycles'], ['cortex-m4', '-O2', 'Cortex-M4, -O2, instructions']].freeze
+  # From where to where the axes of a panel go; its names are on their left.
+  PLACES = [[0.2, 0.44], [0.7, 0.94]].freeze
+  ROW = 19 # pixels
   TOP = 60
-  KEY = 110 # below the first column
+  KEY = 105 # the axes and what the dots are, below the panels
 
   def initialize(measured)
     @measured = measured
   end
 
   def draw
-    columns = COLUMNS.map { |panels| panels.map { |chip, build, title| [title, dots(chip, build)] } }
-    heights = columns.map { |panels| TOP + panels.sum { |_, list| list.size * ROW + HEAD } }
-    @height = [heights[0] + KEY, *heights].max - HEAD / 3
-    plot = Plot.new('cost', 'What a step costs at most', width: 1000, height: @height)
-    key(plot, heights[0])
-    columns.each_with_index { |panels, column| draw_column(plot, column, panels) }
+    panels = PANELS.map { |chip, build, title| [title, dots(chip, build)] }
+    rows = panels.map { |_, list| list.size }.max
+    @height = TOP + rows * ROW + KEY
+    plot = Plot.new('cost', 'What a step costs at most', width: 900, height: @height)
+    key(plot, TOP + rows * ROW + 25)
+    panels.each_with_index { |(title, list), at| draw_panel(plot, at, title, list) }
     plot.draw
   end
 
   private
 
   def dots(chip, build)
-    ours = @measured.select { |subject, _| subject.chip.name == chip && (build.nil? || subject.build == build) }
+    ours = @measured.select { |subject, _| subject.chip.name == chip && subject.build == build && subject.variant.nil? }
                     .reject { |subject, _| subject.controller.id == 'pid_plain' }
-    list = ours.map { |subject, figures| Dot.new(own_title(subject, build), figures.bound, figures.most, :ours) }
-    list + others(NOTES, chip, build, :note) + others(PEERS.sort_by { |peer| rank(peer) }, chip, build, :peer)
+    list = ours.map { |subject, figures| Dot.new("fixpid #{subject.controller.title}", figures.bound, figures.most, :ours) }
+    list + PEERS.sort_by { |peer| rank(peer) }.map { |peer| Dot.new(peer.title, peer.worst("#{chip}#{build}"), nil, :peer) }.select(&:most)
   end
 
   def rank(peer)
     peer.worst('atmega328p-O2') || Float::INFINITY
   end
 
-  def own_title(subject, build)
-    "fixpid #{[subject.controller.title, build ? subject.variant&.name : subject.built].compact.join(', ')}"
-  end
-
-  def others(list, chip, build, kind)
-    list.map { |other| Dot.new(other.title, other.worst("#{chip}#{build}"), nil, kind) }.select(&:most)
-  end
-
   # In the plot's own rows, so that a row is as high in each panel.
-  def draw_column(plot, column, panels)
-    at = TOP
-    panels.each_with_index do |(title, list), i|
-      top = 1.0 - at.fdiv(@height)
-      bottom = top - (list.size * ROW).fdiv(@height)
-      at += list.size * ROW + HEAD
-      plot.panel_at(PLACES[column], [bottom, top], curves("#{column}-#{i}", list), settings(title, list))
-    end
+  def draw_panel(plot, at, title, list)
+    top = 1.0 - TOP.fdiv(@height)
+    plot.panel_at(PLACES[at], [top - (list.size * ROW).fdiv(@height), top], curves(at, list), settings(title, list))
   end
 
-  STYLES = { ours: "pointtype 7 linecolor '#{OURS}'", note: "pointtype 6 linewidth 1.8 linecolor '#{NOTE}'",
-             peer: "pointtype 6 linewidth 1.4 linecolor '#{PEER}'" }.freeze
+  STYLES = { ours: "pointtype 7 linecolor '#{OURS}'", peer: "pointtype 6 linewidth 1.4 linecolor '#{PEER}'" }.freeze
 
   def curves(name, list)
     rows = list.each_with_index.to_a
@@ -109,10 +89,10 @@ class Picture
   def settings(title, list)
     low, high = list.flat_map { |dot| [dot.most, dot.found].compact }.minmax
     names = list.each_with_index.map { |dot, i| "\"#{name_of(dot)}\" #{i}" }
-    numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.most}\" at graph 1.17, first #{i} right font ',9'" }
+    numbers = list.each_with_index.map { |dot, i| "set label \"#{dot.most}\" at graph 1.17, first #{i} right font ',10'" }
     ["set title \"{/:Bold #{title}}\" offset 0,-0.7", 'set logscale x', "set xrange [#{low * 0.8}:#{high * 1.25}]",
-     "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) scale 0 font ',9'",
-     "set xtics (#{ticks(low, high)}) offset 0,0.4 font ',9'", "set grid linecolor '#e4e4e4' linetype 1", 'set border 1', *numbers]
+     "set yrange [#{list.size - 0.5}:-0.5]", "set ytics (#{names.join(', ')}) scale 0 font ',10'",
+     "set xtics (#{ticks(low, high)}) offset 0,0.4 font ',10'", "set grid linecolor '#e4e4e4' linetype 1", 'set border 1', *numbers]
   end
 
   # Ours in bold. The others' may have what gnuplot takes for a subscript.
@@ -126,14 +106,14 @@ class Picture
     tens.select { |value| value.between?(low * 0.8, high * 1.25) }.sort.join(', ')
   end
 
-  # Below the first column, `top` pixels from above. gnuplot draws no key of
+  # Below the first panel, `top` pixels from above. gnuplot draws no key of
   # nothing, so there is a curve out of sight.
   def key(plot, top)
     entries = [["pointtype 7 linecolor '#{OURS}'", 'fixpid, the bound of its code'],
                ["pointtype '|' linecolor '#{OURS}'", 'and the worst step found'],
-               [STYLES[:note], 'the notes\' own firmware'], [STYLES[:peer], 'other libraries, the worst of a trace']]
+               [STYLES[:peer], 'other libraries, the worst of a trace']]
     curves = entries.map { |style, title| "keyentry with points pointsize 1.1 #{style} title \"#{title}\"" }
-    plot.panel_at([PLACES[0][0], 0.55], [1.0 - (top + KEY - 30).fdiv(@height), 1.0 - (top - 10).fdiv(@height)],
+    plot.panel_at([PLACES[0][0], 0.55], [0.01, 1.0 - top.fdiv(@height)],
                   ['-1 notitle', *curves],
                   ['unset border', 'unset tics', 'unset grid', 'set xrange [0:1]', 'set yrange [0:1]',
                    'set key left top vertical reverse Left samplen 1'])

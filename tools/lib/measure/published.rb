@@ -30,7 +30,8 @@ NOTES = [
 # trace of 480 calls that docs/cost.md describes: AVR in simavr with gcc 5.4, the
 # others by instruction count in QEMU 7.2 with gcc 12.2. What the PIC18F4520
 # takes, in gpsim with SDCC 4.2, all of geekfactory PID, flash and RAM are from an
-# earlier run, of 64 calls.
+# earlier run, of 64 calls; TI's DCL, its parallel PID of commit bae4f5c6, is from a
+# later one, of 640 steps of the same loop.
 PEERS = [
   Other.new(title: 'MarbleAccelerator, PI',
             costs: { 'atmega328p-O2' => [270, 282], 'atmega328p-Os' => [276, 286], 'cortex-m0-O2' => [31, 35],
@@ -62,6 +63,9 @@ PEERS = [
   Other.new(title: 'Arduino PID, double', flash: 3426, ram: 60,
             costs: { 'atmega328p-O2' => [1844, 2099], 'atmega328p-Os' => [1844, 2077], 'cortex-m0-O2' => [1906, 2115],
                      'cortex-m4-O2' => [722, 841] }),
+  Other.new(title: 'TI DCL, float',
+            costs: { 'atmega328p-O2' => [1950, 2126], 'cortex-m0-O2' => [1178, 1260], 'cortex-m4-O2' => [556, 609],
+                     'rv32imc-O2' => [1126, 1198] }),
   Other.new(title: 'SimpleFOC, float',
             costs: { 'atmega328p-O2' => [2461, 2641], 'atmega328p-Os' => [2567, 2751], 'cortex-m0-O2' => [1558, 1718],
                      'cortex-m4-O2' => [743, 785], 'rv32imc-O2' => [1248, 1340] }),

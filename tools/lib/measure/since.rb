@@ -1,37 +1,41 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# What a change costs: the figures of docs/cost.md at a commit, and those that it has here, as
+# What a change costs: the figures of docs/data at a commit, and those that it has here, as
 # a table in Markdown for a pull request. Nothing is measured: tools/cost --check, which
-# tools/test runs, holds the page to what is.
+# tools/test runs, holds the tables to what is.
 #
 #   since.rb COMMIT
+require 'csv'
 require 'open3'
 
 class Since
-  PAGE = 'docs/cost.md'
   # Tables, and the columns that are no figures of a build.
   TABLES = %w[steps modules together].freeze
-  KEYS = ['', 'chip', 'built', '`fixpid_pid`'].freeze
+  KEYS = ['controller', 'function', 'chip', 'built', '`fixpid_pid`'].freeze
   NUMBER = /\d+(?:\.\d+)?/.freeze
 
+  def self.path(name)
+    "docs/data/cost_#{name}.csv"
+  end
+
+  # The text of each table.
   def initialize(before, after)
-    @rows = TABLES.flat_map { |name| changes(name, table(before, name), table(after, name)) }
-    @same = TABLES.sum { |name| (figures(table(before, name)).to_a & figures(table(after, name)).to_a).size }
+    @rows = TABLES.flat_map { |name| changes(name, table(before[name]), table(after[name])) }
+    @same = TABLES.sum { |name| (figures(table(before[name])).to_a & figures(table(after[name])).to_a).size }
   end
 
   def to_s
-    return "No figure of `#{PAGE}` changed: #{@same} are as they were.\n" if @rows.empty?
+    return "No cost changed: #{@same} figures are as they were.\n" if @rows.empty?
 
-    "| | figure | before | after | |\n|---|---|---|---|---|\n#{@rows.join}\n#{@same} figures of `#{PAGE}` are as they were.\n"
+    "| | figure | before | after | |\n|---|---|---|---|---|\n#{@rows.join}\n#{@same} figures are as they were.\n"
   end
 
   private
 
-  # The rows of a table, each with its cells by the names of the columns.
-  def table(text, name)
-    head, _, *rows = text[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1].to_s.lines.map { |line| line.split('|')[1...-1].map(&:strip) }
-    rows.map { |cells| head.zip(cells).to_h }
+  # Its rows, each with its cells by the names of the columns.
+  def table(text)
+    CSV.parse(text.to_s, headers: true).map(&:to_h)
   end
 
   # { [row, column] => cell }
@@ -60,8 +64,10 @@ class Since
 end
 
 if $PROGRAM_NAME == __FILE__
-  before, errors, status = Open3.capture3('git', 'show', "#{ARGV.fetch(0)}:#{Since::PAGE}")
+  _, errors, status = Open3.capture3('git', 'rev-parse', '--verify', "#{ARGV.fetch(0)}^{commit}")
   abort "cost: #{errors.lines.first}" unless status.success?
 
-  puts Since.new(before, File.read(Since::PAGE))
+  # Of a commit without them all are new.
+  before = Since::TABLES.to_h { |name| [name, Open3.capture2e('git', 'show', "#{ARGV[0]}:#{Since.path(name)}").then { |text, shown| shown.success? ? text : '' }] }
+  puts Since.new(before, Since::TABLES.to_h { |name| [name, File.read(Since.path(name))] })
 end

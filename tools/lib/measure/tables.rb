@@ -5,15 +5,17 @@ require_relative 'published'
 
 # The figures as tables: rows of cells, the head first.
 module Tables
-  HEAD = ['', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash of the step', 'with init', 'linked',
+  HEAD = ['controller', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash of the step', 'with init', 'linked',
           'RAM each', 'RAM once', 'stack'].freeze
   # Of the comparisons with others.
   COLUMNS = { 'atmega328p-O2' => 'ATmega328P -O2', 'atmega328p-Os' => 'ATmega328P -Os',
               'cortex-m0-O2' => 'Cortex-M0 -O2', 'cortex-m4-O2' => 'Cortex-M4 -O2',
               'rv32imc-O2' => 'RV32IMC -O2' }.freeze
+  SUMMARY = { 'pic16f684' => 'object', 'pic18f4520' => 'object', 'atmega328p' => '-O2', 'cortex-m0' => '-O2', 'cortex-m4' => '-O2',
+              'rv32imc' => '-O2' }.freeze # what one would build
   NAMED = { 'typical' => 'pid_typical', 'full' => 'pid' }.freeze # in sentences
   PIC_COLUMNS = { 'pic16f684' => 'PIC16F684', 'pic18f4520' => 'PIC18F4520' }.freeze
-  QUALITY_HEAD = ['', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
+  QUALITY_HEAD = ['library', 'anti-windup', 'overshoot', 'settled after', 'sum of errors', 'error left', 'back after',
                   'sum until then', 'error left, low gains'].freeze
   # Of README.md: in our builds what most need, and all.
   OURS = { 'pid_typical' => '`fixpid_pid`, typical', 'pid' => '`fixpid_pid`, all features' }.freeze
@@ -24,9 +26,21 @@ module Tables
       [HEAD] + measured.map { |subject, figures| step(subject, figures) }
     end
 
+    # What one would build on a chip of each kind: bounds in cycles, and flash.
+    def summary(measured)
+      shown = CONTROLLERS.reject { |one| one.id == 'pid_plain' }
+      rows = SUMMARY.map do |name, build|
+        chip = CHIPS.find { |one| one.name == name }
+        cells = shown.map { |one| find(measured, one.id, name, build).then { |all| all ? "#{in_cycles(all)}; #{all.needed}" : '-' } }
+        ["#{chip.title}, #{build}#{', flash in words' if chip.flash == 'words'}", *cells]
+      end
+      ram = shown.map { |one| find(measured, one.id, 'atmega328p', '-O2').instance }
+      [['cycles at most; bytes of flash', *shown.map(&:title)], *rows, ['bytes of RAM, each', *ram]]
+    end
+
     # What stands beside a controller, a row for each function.
     def modules(called)
-      [['', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
+      [['function', 'chip', 'built', 'least', 'mean', 'worst found', 'bound', 'bound in cycles', 'flash', 'RAM each']] + called.flat_map do |subject, functions|
         functions.map do |name, figures|
           [subject.title_of(subject.called.functions.fetch(name)), subject.chip.title, subject.build, figures.least, figures.mean, figures.most,
            figures.bound || '-', in_cycles(figures), subject.chip.flash == 'words' ? "#{figures.flash} words" : figures.flash,
@@ -51,13 +65,13 @@ module Tables
         [*cells, small&.needed || '-', small&.instance || '-']
       end
       others = other_rows(PEERS, COLUMNS).map { |other, cells| [*cells, other.flash || '-', other.ram || '-'] }
-      [['', *COLUMNS.values, 'flash, ATmega328P -Os', 'RAM']] + ours + others
+      [['library', *COLUMNS.values, 'flash, ATmega328P -Os', 'RAM']] + ours + others
     end
 
     # The same on the PICs, with the notes' own programs.
     def beside_pics(measured)
       ours = own_rows(measured, PIC_COLUMNS).map(&:last)
-      [['', *PIC_COLUMNS.values]] + ours + other_rows(NOTES + PEERS, PIC_COLUMNS).map(&:last)
+      [['program', *PIC_COLUMNS.values]] + ours + other_rows(NOTES + PEERS, PIC_COLUMNS).map(&:last)
     end
 
     def quality
@@ -66,14 +80,14 @@ module Tables
 
     # The worst found against that of the straightforward form: { subject => its worst }.
     def ratios(measured, plain_c)
-      [['', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + plain_c.map do |subject, most|
+      [['controller', 'chip', 'built', 'fixpid', 'straightforward', 'ratio']] + plain_c.map do |subject, most|
         [subject.controller.title, subject.chip.title, subject.build, measured.fetch(subject).most, most,
          format('%.2f', measured.fetch(subject).most.fdiv(most))]
       end
     end
 
     def limits(limits)
-      [['', 'at most', 'now']] + limits.map(&:cells)
+      [['what', 'at most', 'now']] + limits.map(&:cells)
     end
 
     # Ours, from a loop that is closed here, a bound and the flash; and what is published of others.

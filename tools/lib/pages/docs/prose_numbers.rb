@@ -2,6 +2,7 @@
 # The sentences of prose_numbers.txt, in documents and in comments of the public headers: each
 # stands in its file, and a number of it that is computed is what it must be.
 require 'open3'
+require_relative '../../data_tables'
 require_relative '../../named_figures'
 
 Encoding.default_external = 'UTF-8'
@@ -171,6 +172,12 @@ module ProseNumbers
       # Of docs/figures.json.
       def figure(name)
         NamedFigures.all.fetch(name).to_r
+      end
+
+      # Of a table of docs/data: the first number of a cell, by the text that its row begins with and the column.
+      def data(name, row, column)
+        found = DataTables.hashes(name).find { |one| one.values.first.start_with?(row) } or abort "#{TABLE}: #{name}: no row #{row}"
+        found.fetch(column)[/-?\d+(?:\.\d+)?/].to_r
       end
 
       # Of a generated table of the same document: the first number of a cell, chosen by the text that

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 require 'cgi'
-require_relative '../../named_figures'
+require_relative '../../data_tables'
 
 # What a page tells of a function beside its comment: arguments, result, what a call costs, and
 # five lines of a program that calls it.
@@ -79,11 +79,11 @@ class Functions
   end
 
   def measured(name)
-    table, row_name = STEPS.key?(name) ? ['steps', STEPS[name]] : ['modules', MODULES[name]]
+    table, row_name = STEPS.key?(name) ? ['cost_steps', STEPS[name]] : ['cost_modules', MODULES[name]]
     return [] unless row_name
 
-    rows = NamedFigures.table(table).select { |row| row[''] == row_name }
-    rows.empty? ? abort("#{NamedFigures::FILE} has no row of #{row_name}") : rows
+    rows = DataTables.hashes(table).select { |row| row.values.first == row_name }
+    rows.empty? ? abort("#{DataTables.path(table)} has no row of #{row_name}") : rows
   end
 
   # The lines about its first call.

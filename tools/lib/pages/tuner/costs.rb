@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require_relative '../../named_figures'
+require_relative '../../data_tables'
 
 # What a step costs on each chip, from the tables that tools/cost writes and checks.
 module Costs
@@ -10,19 +10,19 @@ module Costs
   class << self
     # Rows [controller, chip, bound, flash with init, its unit, RAM each].
     def steps
-      NamedFigures.table('steps').filter_map do |row|
+      DataTables.hashes('cost_steps').filter_map do |row|
         next unless BUILDS.include?(row['built'])
 
         number, unit = row['flash of the step'].split
         raise "no unit: #{number}" unless unit
 
-        [row[''], row['chip'], row['bound'].to_i, row['with init'].to_i, unit, row['RAM each'].to_i]
+        [row['controller'], row['chip'], row['bound'].to_i, row['with init'].to_i, unit, row['RAM each'].to_i]
       end
     end
 
     # { chip => rows [bit, steps more, bytes more] }, the first row with none.
     def features
-      rows = NamedFigures.table('features').reject { |row| row['feature'] == 'all' }
+      rows = DataTables.hashes('features').reject { |row| row['feature'] == 'all' }
       head = rows.first.keys
       head.each_index.select { |at| head[at].match?(/ (cycles|instructions)\z/) }.to_h do |at|
         [head[at][/\A[^,\s]+/], rows.map { |row| [row['bit'][/0x\h+/].hex, row.values[at].to_i, row.values[at + 1].to_i] }]
