@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-# The tables of docs/chips.md, which --long --update writes. A shorter run finds no
-# more than the worst steps that stand there, and all else as it stands.
+require_relative '../../../tools/lib/data_tables'
+
+# Two tables of docs/data, which --long --update writes. A shorter run finds no more than the
+# worst steps that stand there, and all else as it stands.
 class Document
-  PATH = 'docs/chips.md'
-  HEAD = ['', 'mean', 'worst', 'flash', 'RAM'].freeze
+  HEAD = %w[controller mean worst flash RAM].freeze
+  WORST = HEAD.index('worst')
 
   def initialize(results, long)
     @results = results
@@ -13,49 +15,39 @@ class Document
   end
 
   def update
-    File.write(PATH, renewed(File.read(PATH)))
-    "#{PATH} is rewritten"
+    tables.each { |name, rows| DataTables.write(name, rows) }
+    "#{tables.keys.join(', ')} of #{DataTables::FOLDER}"
   end
 
   def check
-    old = File.read(PATH)
-    expected = renewed(old.dup)
-    stale = old.lines.zip(expected.lines).reject { |was, is| same?(was, is) }
-    return PATH if stale.empty?
-
-    raise Host::Failure, "#{PATH} is stale; test/chips/families/run --update renews it\n#{stale.first.join}"
+    tables.each do |name, rows|
+      was, is = DataTables.difference(name, allowed(name, rows)) or next
+      raise Host::Failure, "#{DataTables.path(name)} is stale; test/chips/families/run --update renews it\n#{[was, is].map(&:to_a).map(&:to_csv).join}"
+    end
+    "#{tables.keys.join(', ')} of #{DataTables::FOLDER}"
   end
 
   private
 
-  def same?(was, is)
-    return was == is if @long
+  # What may stand there: in a shorter run a worst step that it has not found.
+  def allowed(name, rows)
+    return rows if @long || name != COSTS
 
-    was.sub(WORST, '\1') == is.sub(WORST, '\1') && was[WORST, 2].to_i >= is[WORST, 2].to_i
+    old = DataTables.read(name)
+    rows.each_with_index.map do |row, at|
+      worst = old.dig(at, WORST)
+      worst.to_i > row[WORST].to_i ? row.dup.tap { |one| one[WORST] = worst } : row
+    end
   end
 
-  # Of a row of costs, whose cells are numbers.
-  WORST = /\A(\| [^|]+ \| \d+ \|) (\d+)/.freeze
-
-  def renewed(text)
-    tables.reduce(text) { |all, (name, content)| put(all, name, content) }
-  end
-
-  def put(text, name, content)
-    text.sub!(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
-      raise Host::Failure, "#{PATH} has no markers of #{name}"
-  end
+  COSTS = 'chips_family_costs'
 
   def tables
-    { 'families' => exact, 'family-costs' => costs }
-  end
-
-  def markdown(head, rows)
-    [head, head.map { '---' }, *rows].map { |cells| "| #{cells.join(' | ')} |\n" }.join
+    @tables ||= { 'chips_families' => exact, COSTS => costs }
   end
 
   def exact
-    markdown(['', *TITLES.values], FAMILIES.map { |family| [family.title, *TITLES.keys.map { |name| exact_cell(family, name) }] })
+    [['chip', *TITLES.values], *FAMILIES.map { |family| [family.title, *TITLES.keys.map { |name| exact_cell(family, name) }] }]
   end
 
   def exact_cell(family, controller)
@@ -69,7 +61,7 @@ class Document
     rows = FAMILIES.select(&:costs_listed?).flat_map do |family|
       family.controllers.map { |controller| costs_row(family, controller, @results.fetch([family.name, controller])) }
     end
-    markdown(HEAD, rows)
+    [HEAD, *rows]
   end
 
   def costs_row(family, controller, result)

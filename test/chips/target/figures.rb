@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-# Tables of docs/chips.md from what test/chips/target/run has measured:
+# Tables of docs/data from what test/chips/target/run has measured:
 #
-#   figures.rb LOGS SIZES.json DOCUMENT [--update]
+#   figures.rb LOGS SIZES.json [--update]
 #
-# Fails if the document says something else, which --update rewrites, or if a limit of the
+# Fails if a table says something else, which --update rewrites, or if a limit of the
 # firmware is exceeded.
 require 'json'
 require_relative '../../../tools/bound/bound'
+require_relative '../../../tools/lib/data_tables'
 require_relative '../../../tools/lib/measure/subjects'
 require_relative 'firmware_limits'
 
@@ -52,11 +53,6 @@ def thousands(number)
   number.to_s.reverse.scan(/\d{1,3}/).join(' ').reverse
 end
 
-def table(head, rows)
-  lines = [head, head.map { '---' }] + rows
-  lines.map { |cells| "| #{cells.join(' | ')} |\n" }.join
-end
-
 # [rows, random steps, different] of all modes.
 def sum(names, pattern)
   numbers = names.flat_map { |name| LOGS.read(name).scan(pattern).flat_map { |line| line.scan(/([a-z]+) (\d+)/) } }
@@ -79,7 +75,7 @@ def on_chip(controller, chip)
 end
 
 def exact
-  table(['', *TITLES.values], PROCESSORS.map { |chip, name| [name, *TITLES.keys.map { |controller| on_chip(controller, chip) }] })
+  [['chip', *TITLES.values], *PROCESSORS.map { |chip, name| [name, *TITLES.keys.map { |controller| on_chip(controller, chip) }] }]
 end
 
 INTERRUPTED = PROCESSORS.merge('atmega328p' => 'AVR').freeze
@@ -109,7 +105,7 @@ def interrupts
     came, neither = [0, 1].map { |at| calls.sum { |call| call[at].to_i } }
     rows << ["#{name} #{TICKING}", came, '-', neither, '-']
   end
-  table(['', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], rows)
+  [['chip', 'interrupts', 'ticks lost', 'answers changed', 'lost by the racy port'], *rows]
 end
 
 TICKING = 'AN937, `fixpid_an937_tick` in the interrupt'
@@ -160,23 +156,13 @@ def examples
 end
 
 SIZES.each { |name, size| depth_of(name, size) }
-document = ARGV[2]
-old = File.read(document)
 firmware = examples
 limits = FirmwareLimits.of(FirmwareLimits::HEAD, firmware)
-tables = { 'exact' => exact, 'interrupts' => interrupts, 'firmware' => table(FirmwareLimits::HEAD, firmware),
-           'firmware-limits' => table(['', 'at most', 'now'], limits.map(&:cells)) }
-new = tables.reduce(old) do |text, (name, content)|
-  text.sub(/(<!-- #{name}:begin -->\n).*?(<!-- #{name}:end -->)/m) { "#{$1}#{content}#{$2}" } or
-    abort "figures: #{document} has no markers of #{name}"
-end
+tables = { 'chips_exact' => exact, 'chips_interrupts' => interrupts, 'chips_firmware' => [FirmwareLimits::HEAD, *firmware],
+           'chips_firmware_limits' => [['figure', 'at most', 'now'], *limits.map(&:cells)] }
 exceeded = limits.reject(&:kept?)
 abort exceeded.map { |limit| "figures: #{limit.what}: #{limit.wrong}" }.join("\n") if exceeded.any?
-exit if new == old
-if UPDATE
-  File.write(document, new)
-  puts "#{document} is rewritten"
-else
-  puts "#{document} is stale; test/chips/target/run --update renews it", (new.lines - old.lines).first(20)
-  exit 1
-end
+stale = tables.select { |name, rows| DataTables.difference(name, rows) }
+stale.each { |name, rows| UPDATE ? DataTables.write(name, rows) : puts("#{name}, now: #{DataTables.difference(name, rows).last.inspect}") }
+puts "#{stale.keys.join(', ')} of #{DataTables::FOLDER}: #{UPDATE ? 'rewritten' : 'stale; test/chips/target/run --update renews them'}" if stale.any?
+exit(UPDATE ? true : stale.empty?)

@@ -3,7 +3,7 @@
 
 require_relative '../../../tools/lib/measure/limit'
 
-# What the examples' firmware must not exceed, whatever docs/chips.md says; figures.rb has
+# What the examples' firmware must not exceed, whatever docs/data says; figures.rb has
 # its table, which these name by row and column.
 module FirmwareLimits
   ALL = {
@@ -22,7 +22,7 @@ module FirmwareLimits
     'no_row' => [1, 0, 'motor', 'motor, PIC18F4520, interrupt: -, at most 18 cycles allowed'],
     'no_column' => [-1, 3, 'stack', 'pendulum, PIC16F684, stack used: -, at most 4 levels allowed']
   }.freeze
-  HEAD = ['', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt', 'of a tick'].freeze
+  HEAD = ['firmware', 'flash', 'RAM, bytes', 'stack used', 'step', 'pass with a tick', 'pass without', 'interrupt', 'of a tick'].freeze
   GOOD = [['pendulum, PIC16F684', '928 of 2048 words', '69 of 128', '4 of 8', 504, 1489, '-', 23, '19 %'],
           ['motor, PIC18F4520', '2762 of 32768 bytes', '305 of 1536', '7 of 31', 283, 1696, 1394, 18, '17 %']].freeze
 

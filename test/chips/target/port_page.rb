@@ -4,10 +4,12 @@
 # port_page.rb BUILD DOCUMENT: does docs/ports.md say what the tests of the ports
 # in BUILD have measured? Each number of its table must be one of them, or of the
 # data sheets below. Prints what is missing or unknown and fails.
+require_relative '../../../tools/lib/data_tables'
+
 build, document = ARGV
 PAGE = File.read(document)
 TEXT = PAGE.gsub(/\s+/, ' ')
-FIRMWARE = File.read(File.join(File.dirname(document), 'chips.md'))
+FIRMWARE = DataTables.hashes('chips_firmware').to_h { |row| [row['firmware'], row] }
 
 # Column of the table, cycles a second, counts of the duty a cycle.
 Chip = Struct.new(:name, :column, :rate, :counts)
@@ -120,9 +122,9 @@ class Measured
   end
 end
 
-# How often the motor's loop comes round in a tick at least, by docs/chips.md.
+# How often the motor's loop comes round in a tick at least.
 def passes(title, period)
-  with, without, interrupt = FIRMWARE[/^\| motor, #{title} \|(.*)\|$/, 1].split('|').map(&:to_i).values_at(4, 5, 6)
+  with, without, interrupt = FIRMWARE["motor, #{title}"].values_at('pass with a tick', 'pass without', 'interrupt').map(&:to_i)
   format('%.1f', 1 + ((period - interrupt - with) / without.to_f))
 end
 
@@ -156,7 +158,7 @@ sentences = [
   "dead zone of #{pic16.dead_zone} of full drive, or #{pic18.dead_zone}",
   "start-up takes #{pic18.start_up}, mostly to clear RAM, the pendulum's #{pic16.start_up}",
   "The ATmega328P starts in #{avr.start_up}",
-  "uses #{FIRMWARE[/^\| pendulum, PIC16F684 \|.*?\| (\d of 8) \|/, 1]} levels",
+  "uses #{FIRMWARE['pendulum, PIC16F684']['stack used']} levels",
   "comes round #{passes('ATmega328P', 16_000)} times a tick, not #{passes('PIC18F4520', 10_000)} times"
 ]
 wrong += sentences.reject { |phrase| TEXT.include?(phrase) }.map { |phrase| "does not say: #{phrase}" }

@@ -382,7 +382,7 @@ class Table
     needs = @tests.names.grep(/\A(replay|interrupts_\w+|interrupted|firmware)-/)
     test('figures', 'figures', needs: needs) do
       Images.firmware
-      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', 'docs/chips.md', *@update)
+      said('ruby', "#{HERE}/figures.rb", LOGS, 'build/firmware/sizes.json', *@update)
     end
   end
 end

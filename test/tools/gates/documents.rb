@@ -37,7 +37,7 @@ FAULTS = [
   ['include/fixpid_pid.h', '// reverse', '// feedforward', /fixpid_pid.h does not say ".*HAS_REVERSE/],
   ['SECURITY.md', 'tools/prove autotune total', 'tools/prove autotune totals', /SECURITY.md: no tools.prove autotune totals/],
   ['SECURITY.md', 'targets `bytes`', 'targets `byte`', /SECURITY.md: no test.fuzz.run byte$/],
-  ['docs/data/chip_choices.csv', 'Z80,yes', 'Z80,no', /chip_choices.csv: `fixpid_an937` on Z80: no, but docs.chips.md says [0-9 ]+ rows/],
+  ['docs/data/chip_choices.csv', 'Z80,yes', 'Z80,no', /chip_choices.csv: `fixpid_an937` on Z80: no, but the run says [0-9 ]+ rows/],
   ['docs/requirements.csv', 'Errors and differences saturate', 'Errors and differences wrap', /requirements.csv, PID-1: fixpid_pid.h does not say "Errors and differences wrap/],
   ['docs/requirements.csv', 'output_is_rounded_half_up', 'output_is_rounded_half_down', /requirements.csv, PID-2: no test test_step_output_is_rounded_half_down$/],
   ['docs/requirements.csv', 'theorems bumpless', 'theorems bumpy', /requirements.csv, PID-17: no tools.prove theorems bumpy$/],

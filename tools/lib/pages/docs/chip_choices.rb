@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-require 'csv'
-# Whether docs/data/chip_choices.csv says "no" of a controller and a chip where a simulated one did in
-# docs/chips.md, and only there.
+require_relative '../../data_tables'
+
+# Whether docs/data/chip_choices.csv says "no" of a controller and a chip where a simulated one did,
+# and only there.
 module ChipChoices
   CHOOSING = 'docs/data/chip_choices.csv'.freeze
-  CHIPS = 'docs/chips.md'.freeze
+  CHIPS = %w[chips_exact chips_families].freeze
   CONTROLLERS = { '`fixpid_an937`' => 'AN937', '`fixpid_an964`' => 'AN964', '`fixpid_an964_8bit`' => 'AN964 8-bit', '`fixpid_pid`' => 'PID' }.freeze
   # What the simulated ones are called, where they are others' names.
   SIMULATED = { 'PIC16F684' => 'PIC14', 'PIC18F4520' => 'PIC18', '8051, small model' => '8051, small', '8051, large model' => '8051, large' }.freeze
@@ -28,10 +29,10 @@ module ChipChoices
     end
 
     def wrong(row, name, answers)
-      return ["#{CHOOSING}: #{CHIPS} has no #{name}"] unless answers
+      return ["#{CHOOSING}: #{CHIPS.join(', ')} have no #{name}"] unless answers
 
       CONTROLLERS.reject { |controller, title| no?(row[controller]) == no?(answers[title]) }
-                 .map { |controller, title| "#{CHOOSING}: #{controller} on #{name}: #{row[controller]}, but #{CHIPS} says #{answers[title]}" }
+                 .map { |controller, title| "#{CHOOSING}: #{controller} on #{name}: #{row[controller]}, but the run says #{answers[title]}" }
     end
 
     def no?(cell)
@@ -39,18 +40,11 @@ module ChipChoices
     end
 
     def chosen
-      CSV.read(CHOOSING, headers: true).map(&:to_h)
+      DataTables.hashes('chip_choices')
     end
 
     def simulated
-      text = File.read(CHIPS)
-      %w[exact families].flat_map { |name| table(text[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1]) }
-                        .to_h { |row| [row[''], row] }
-    end
-
-    def table(text)
-      head, _, *rows = text.lines.grep(/\A\|/).map { |line| line.split('|')[1...-1].map(&:strip) }
-      rows.map { |cells| head.zip(cells).to_h }
+      CHIPS.flat_map { |name| DataTables.hashes(name) }.to_h { |row| [row['chip'], row] }
     end
   end
 end
