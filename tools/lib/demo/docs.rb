@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
+require_relative '../data_tables'
 require_relative '../named_figures'
 require_relative 'tables'
 
@@ -9,7 +10,7 @@ module Docs
   PICTURES = %w[anti_windup pendulum motor oven tuning thermostat autotune random_plants guard chip
                 faults-pendulum faults-motor faults-oven faults-thermostat].freeze
 
-  # Document, and by loop its parts between markers with what makes each of them.
+  # Document, or the folder of tables, and by loop its parts with what makes each of them.
   PARTS = {
     'docs/tuning.md' => { 'tuning' => { 'tuning' => :tuning },
                           'autotune' => { 'gains' => :found_gains, 'autotune' => :autotune },
@@ -20,16 +21,16 @@ module Docs
                                           'behind_tpo' => :behind_tpo, 'retune' => :retune,
                                           'spikes' => :spikes, 'back_from_limit' => :back_from_limit } },
     'docs/controller.md' => { 'recipes' => { 'saturations' => :saturations } },
-    'docs/faults.md' => { 'faults' => { 'faults' => :faults, 'limits' => :fault_limits,
-                                        'staying' => :staying, 'staying_limits' => :staying_limits },
-                          'guard' => { 'guard_sees' => :guard_sees, 'guard_boiler' => :guard_boiler,
-                                       'guard_healthy' => :guard_healthy } }
+    'docs/faults.md' => { 'faults' => { 'limits' => :fault_limits, 'staying_limits' => :staying_limits } },
+    DataTables::FOLDER => { 'faults' => { 'faults' => :faults, 'faults_staying' => :staying },
+                            'guard' => { 'faults_guard_sees' => :guard_sees, 'faults_guard_boiler' => :guard_boiler,
+                                         'faults_guard_healthy' => :guard_healthy } }
   }.freeze
   # These tell of all that a loop has.
   WHOLE = %i[faults staying guard_sees guard_healthy].freeze
 
   # Made by tools/demo --long only, of these loops.
-  LONG = { 'docs/faults.md' => { 'long' => :long_faults, 'places' => :fault_places },
+  LONG = { DataTables::FOLDER => { 'faults_long' => :long_faults, 'faults_places' => :fault_places },
            'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
                                 'study_refusals' => :study_refusals, 'study_machines' => :study_machines,
                                 'study_heaters' => :study_heaters, 'study_advice' => :study_advice } }.freeze
@@ -41,7 +42,7 @@ module Docs
       return true if %w[run renew].include?(mode)
 
       parts = Extent.long? ? long_parts(loops) : parts_of(loops)
-      stale = parts.map { |name, parts| renew(mode, "#{root}/#{name}", parts) }
+      stale = parts.map { |name, parts| name == DataTables::FOLDER ? renew_tables(mode, root, parts) : renew(mode, "#{root}/#{name}", parts) }
       copy_pictures(root) if mode == 'docs'
       NamedFigures.keep(Tables.study_figures, root) if mode == 'long' && loops.include?('random_plants')
       stale.none?
@@ -59,6 +60,17 @@ module Docs
     # Those of which all loops were run.
     def long_parts(loops)
       LONG.transform_values { |tables| tables.select { |_, table| (LONG_LOOPS.fetch(table, %w[random_plants]) - loops).empty? } }
+    end
+
+    # True where a table is stale and stays so.
+    def renew_tables(mode, root, parts)
+      stale = parts.transform_values { |table| Tables.public_send(table) }.select { |name, rows| DataTables.difference(name, rows, root) }
+      if mode == 'check-docs'
+        stale.each_key { |name| warn "demo: #{DataTables.path(name)} is stale; tools/demo --docs renews it" }
+        return stale.any?
+      end
+      stale.each { |name, rows| DataTables.write(name, rows, root) }
+      false
     end
 
     # True where a document is stale and stays so.

@@ -118,7 +118,7 @@ module Tables
 
     # What came of the faults, a row for each kind and its numbers for each loop.
     def faults
-      table('fault', *FAULT_LOOPS.keys, FAULT_KINDS.map do |kind, what|
+      rows('fault', *FAULT_LOOPS.keys, FAULT_KINDS.map do |kind, what|
         [what, *FAULT_LOOPS.keys.map { |name| fault_cell(name, kind) }]
       end)
     end
@@ -127,7 +127,7 @@ module Tables
     def staying
       loops = FAULT_LOOPS.select { |_, rules| rules.guard }
       heads = loops.flat_map { |name, rules| ["#{name}: seen after", "#{rules.guard.unit}, without", 'the drive cut'] }
-      table('it stays so', *heads, STAYING_FAULTS.keys.map do |what|
+      rows('it stays so', *heads, STAYING_FAULTS.keys.map do |what|
         [what, *loops.keys.flat_map { |name| staying_cells(Report.numbers["faults #{name}"]['staying'][what]) }]
       end)
     end
@@ -144,7 +144,7 @@ module Tables
     # What fixpid_guard sees of machines that break, and how many get far beyond their setpoint.
     def guard_sees
       far = GUARD_CLASSES.keys.map { |title| "#{title}: far over, without and with" }
-      table('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, 'heaters: guard', *GUARD_PEERS.values, GUARD_FAULTS.map do |fault, title|
+      rows('it stays so', 'seen', 'after, in T + L: median, 95 %', *far, 'heaters: guard', *GUARD_PEERS.values, GUARD_FAULTS.map do |fault, title|
         row = Report.numbers['guard'][fault]
         [title, row['seen'], row['times'].map { |time| format('%.1f', time) }.join(', '),
          *row['far'].map { |without, with| without.zero? ? 'none' : "#{without}, #{with}" },
@@ -154,20 +154,20 @@ module Tables
 
     # How many whole machines raise an alarm.
     def guard_healthy
-      table('set by', 'machines', 'with an alarm', *GUARD_FLAGS.keys.map { |flag| "`#{flag}`" }, 'with half of the patience',
-            GUARD_RULES.map do |rule, (title, _)|
-              row = Report.numbers['guard']["healthy #{rule}"]
-              [title, row['plants'], row['alarms'], *row['flags'].values, row['hasty']]
-            end + GUARD_PEERS.map do |peer, title|
-              row = Report.numbers['guard']["healthy #{peer}"]
-              ["#{title}'s rule", row['plants'], row['alarms'], *['-'] * (GUARD_FLAGS.size + 1)]
-            end)
+      rows('set by', 'machines', 'with an alarm', *GUARD_FLAGS.keys.map { |flag| "`#{flag}`" }, 'with half of the patience',
+           GUARD_RULES.map do |rule, (title, _)|
+             row = Report.numbers['guard']["healthy #{rule}"]
+             [title, row['plants'], row['alarms'], *row['flags'].values, row['hasty']]
+           end + GUARD_PEERS.map do |peer, title|
+             row = Report.numbers['guard']["healthy #{peer}"]
+             ["#{title}'s rule", row['plants'], row['alarms'], *['-'] * (GUARD_FLAGS.size + 1)]
+           end)
     end
 
     # How hot the boiler of the quick start gets.
     def guard_boiler
       heads = BOILERS.flat_map { |title, _| ["#{title}: without", 'with the guard', 'alarm after'] }
-      table('from 60 s on', *heads, BOILER_FAULTS.map do |fault, title|
+      rows('from 60 s on', *heads, BOILER_FAULTS.map do |fault, title|
         cells = BOILERS.keys.flat_map do |boiler|
           row = Report.numbers['guard'][boiler][fault]
           [format('%.1f C', row['without']), format('%.1f C', row['with']), format('%.1f s', row['alarm'])]
@@ -192,24 +192,24 @@ module Tables
     # Of each loop that was broken, on the host and on chips.
     def long_faults
       loops = Report.numbers.select { |name, numbers| name.start_with?('faults') && numbers['kinds'] }
-      table('loop', 'runs', 'back in control', 'fallen and off', 'off', 'out of control until a reset',
-            'longest until back', 'drive', 'off after the watchdog\'s time', loops.map do |name, numbers|
-              kinds = numbers['kinds']
-              [name.sub('faults_chip', 'chip,').sub('faults', 'host,'), numbers['runs'],
-               *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
-               format('%.2f s', kinds.map { |row| row['back_s'] }.max),
-               "#{numbers['low']} to #{numbers['high']}", format('%.2f ms', 1e3 * numbers['late_s'])]
-            end)
+      rows('loop', 'runs', 'back in control', 'fallen and off', 'off', 'out of control until a reset',
+           'longest until back', 'drive', 'off after the watchdog\'s time', loops.map do |name, numbers|
+             kinds = numbers['kinds']
+             [name.sub('faults_chip', 'chip,').sub('faults', 'host,'), numbers['runs'],
+              *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
+              format('%.2f s', kinds.map { |row| row['back_s'] }.max),
+              "#{numbers['low']} to #{numbers['high']}", format('%.2f ms', 1e3 * numbers['late_s'])]
+           end)
     end
 
     # Of each chip, what came of the bits that flipped in each place.
     def fault_places
-      table('a bit flips in', 'flips', 'back in time, by itself', 'back in time, after a reset', 'off in time', 'out of control',
-            'the simulator stopped', 'drive beyond its limits', FaultPlaces::CHIPS.flat_map do |name, title|
-              Report.numbers["faults_places #{name}"]['places'].map do |place, row|
-                ["#{title}: #{FaultPlaces::NAMES.fetch(place)}", *row.values_at('runs', 'back', 'reset', 'off', 'out', 'stopped', 'beyond')]
-              end
-            end)
+      rows('a bit flips in', 'flips', 'back in time, by itself', 'back in time, after a reset', 'off in time', 'out of control',
+           'the simulator stopped', 'drive beyond its limits', FaultPlaces::CHIPS.flat_map do |name, title|
+             Report.numbers["faults_places #{name}"]['places'].map do |place, row|
+               ["#{title}: #{FaultPlaces::NAMES.fetch(place)}", *row.values_at('runs', 'back', 'reset', 'off', 'out', 'stopped', 'beyond')]
+             end
+           end)
     end
 
     def cascade
@@ -300,6 +300,11 @@ module Tables
     end
 
     private
+
+    # Of a table of docs/data.
+    def rows(*head, rows)
+      [head, *rows]
+    end
 
     def table(*head, rows)
       lines = [head, head.map { '---' }, *rows]
