@@ -21,8 +21,8 @@ class Document
 
   def check
     tables.each do |name, rows|
-      was, is = DataTables.difference(name, allowed(name, rows)) or next
-      raise Host::Failure, "#{DataTables.path(name)} is stale; test/chips/families/run --update renews it\n#{[was, is].map(&:to_a).map(&:to_csv).join}"
+      lines = DataTables.difference(name, allowed(name, rows)) or next
+      raise Host::Failure, "#{DataTables.path(name)} is stale; test/chips/families/run --update renews it\n#{lines.map { |row| row.to_a.to_csv }.join}"
     end
     "#{tables.keys.join(', ')} of #{DataTables::FOLDER}"
   end

@@ -126,14 +126,14 @@ module Tables
     # What stays broken: when it is seen, and where the plant has been.
     def staying
       loops = FAULT_LOOPS.select { |_, rules| rules.guard }
-      heads = loops.flat_map { |name, rules| ["#{name}: seen after", "#{rules.guard.unit}, without", 'the drive cut'] }
+      heads = loops.flat_map { |name, rules| ["#{name}: seen after", "#{rules.guard.unit}, without", 'the output cut'] }
       rows('it stays so', *heads, STAYING_FAULTS.keys.map do |what|
         [what, *loops.keys.flat_map { |name| staying_cells(Report.numbers["faults #{name}"]['staying'][what]) }]
       end)
     end
 
     def staying_limits
-      table('loop', 'seen within', 'a sensor 1 or 3 % beside the set point within', 'where the plant stays, the drive cut',
+      table('loop', 'seen within', 'a sensor 1 or 3 % beside the setpoint within', 'where the plant stays, the output cut',
             FAULT_LOOPS.select { |_, rules| rules.guard }.map do |name, rules|
               guard = rules.guard
               [name, *[guard.seen_s, guard.near_s].map { |time| short_time(time) },
@@ -178,7 +178,7 @@ module Tables
 
     # What must hold of them.
     def fault_limits
-      table('loop', 'drive', 'back in control within', 'or off', 'nothing works: off',
+      table('loop', 'output', 'back in control within', 'or off', 'nothing works: off',
             'sensor at an end: off within', 'flips that may last', FAULT_LOOPS.map do |name, rules|
               [name, "#{rules.duties.first} to #{rules.duties.last}", "#{rules.back} s",
                rules.fallen ? "fallen, and off within #{rules.fallen} s" : "off within #{rules.back} s",
@@ -193,7 +193,7 @@ module Tables
     def long_faults
       loops = Report.numbers.select { |name, numbers| name.start_with?('faults') && numbers['kinds'] }
       rows('loop', 'runs', 'back in control', 'fallen and off', 'off', 'out of control until a reset',
-           'longest until back', 'drive', 'off after the watchdog\'s time', loops.map do |name, numbers|
+           'longest until back', 'output', 'off after the watchdog\'s time', loops.map do |name, numbers|
              kinds = numbers['kinds']
              [name.sub('faults_chip', 'chip,').sub('faults', 'host,'), numbers['runs'],
               *%w[back fallen off out].map { |how| kinds.sum { |row| row[how] } },
@@ -205,7 +205,7 @@ module Tables
     # Of each chip, what came of the bits that flipped in each place.
     def fault_places
       rows('a bit flips in', 'flips', 'back in time, by itself', 'back in time, after a reset', 'off in time', 'out of control',
-           'the simulator stopped', 'drive beyond its limits', FaultPlaces::CHIPS.flat_map do |name, title|
+           'the simulator stopped', 'output beyond its limits', FaultPlaces::CHIPS.flat_map do |name, title|
              Report.numbers["faults_places #{name}"]['places'].map do |place, row|
                ["#{title}: #{FaultPlaces::NAMES.fetch(place)}", *row.values_at('runs', 'back', 'reset', 'off', 'out', 'stopped', 'beyond')]
              end

@@ -35,7 +35,7 @@ module Tables
         ["#{chip.title}, #{build}#{', flash in words' if chip.flash == 'words'}", *cells]
       end
       ram = shown.map { |one| find(measured, one.id, 'atmega328p', '-O2').instance }
-      [['cycles at most; bytes of flash', *shown.map(&:title)], *rows, ['bytes of RAM, each', *ram]]
+      [['cycles at most; bytes of flash', *shown.map(&:title)], *rows, ['bytes of RAM, ATmega328P', *ram]]
     end
 
     # What stands beside a controller, a row for each function.
