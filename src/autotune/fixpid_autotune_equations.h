@@ -6,7 +6,68 @@
 // verb between each two. TIMES and OVER go first; apart from that it goes from
 // left to right. ROUNDER: FORM MINUS C1_03 LESSER C0_47, for example, is
 // ROUNDER = min(FORM - 1.03, 0.47), and ONE MINUS ONE is 0. A table ends with
-// END. The letters are those of docs/arithmetic.md, which says what they mean.
+// END.
+//
+// What they compute. x is the deviation of the measurement from the setpoint,
+// limited to 32767 on each side.
+//
+// Noise: the first 34 steps sum up 32 second differences of x, each at most
+// 1023. Three standard deviations of the noise are 3 / 64 of that sum, and the
+// hysteresis h that it asks for is 1 more.
+//
+// Relays: the overshoot beyond the hysteresis on a side is in proportion to the
+// output left on that side, so a relay is centred where the setpoint divides
+// the overshoot. Its amplitude is scaled by the overshoot that `swing` allows
+// over the one seen. Its hysteresis is 3/13 of the overshoot that it will make
+// (3/16 of the swing), but at least h and what makes a swing of 6 h. It sums up
+// x, x while the output is high, and the steps of both, over its cycles.
+//
+// Slope, of one relay of height D: t1 and t2 are the mean lengths of its
+// halves, P is their sum, A the area of a half's lobe, and X what the
+// hysteresis adds to a half.
+//   M = t1 * t2 / P
+//   k = J + X^2 / M^2 / (J + X^2 / M^2 / J), J = 2 A / (D * M^2)
+// k is K / T, of the static gain and the lag. Numbers have 16 significant bits
+// and a wide exponent; they truncate, and a difference is never below 0.
+//
+// Shape, where k and M are the means of both relays and W is the swing:
+//   round = k M D / 2 / W less its noise    1/2 is a triangle, 1 a square
+//   chi   = X / (k M)                       what the hysteresis makes of it
+//   q     = |k1 - k2| / k                   above 1/2: two processes
+//   r     = k M / (2 K)                     0 is an integrator, 1 a delay
+// 1 / K is the difference of the mean outputs over that of the mean
+// measurements, if the latter is above 1/16 of the swing; otherwise r is 0. If
+// more measurement was held with less output and r is above 0.06, the process
+// runs away.
+// - There is no PID for a process that runs away, for two processes, for a
+//   round of at most 0.3, or for a chi above 1.5.
+// - There is no PI for a process that runs away with a q of at most 0.2. Where
+//   the slopes differ more, the means shift by themselves, and r is 0.
+// - For two processes a PI takes the larger slope as k, and q is 1/2.
+// - One lag with dead time has the round f(r) = 1/2 + r^2 (0.3 + 0.2 r). Where
+//   that is above 1.1 round + 1 / M + 0.3 chi, the load has moved: r is reduced
+//   by a sixteenth until it fits.
+// - s is r less what the mean outputs leave open: a quarter of the relay times
+//   1/32 and a step per cycle. Below 0.03 it is an integrator.
+//
+// Model: k' = k / (1 - r (0.05 + r (0.64 + 0.31 r^3))), and unless integrating
+// the lag T = k M / (2 s k'). The delay c, for which the gains allow, is M
+// times a sum of products of these numbers. Its factors come from a regression:
+// the delay that gives a PI a maximum sensitivity of exactly 1.6, on 92 % of
+// random integrators and 93 % of random lags.
+//
+// Gains, with R the robustness in sixteenths, C = c (R + 18) / 32, L = C / 2:
+//   PI              kp = (1 / k' + 0.2 c / K) / C    Ti = T + 0.2 c
+//   PI, integrator  kp = 1 / (k' C)                  Ti = 4 C
+//   PID             kp = 0.2 / K + 0.45 / (k' L)
+//                   Ti = L (0.4 L + 0.8 T) / (L + 0.1 T)
+//                   Td = L T / (1.2 L + 4 T)         half of AMIGO's
+//   PID, integrator kp = (1 + 10 z) 0.45 / (k' L)
+//                   Ti = 8 L / (1 + 6 z)             Td = L / 4
+// z is the round above 0.53, at most 0.12; 1 / K and T are by s. Where T is
+// above 4 C, a PI has Ti = 4 C (1 + 0.2 c k' / K) and ki = 1 / (4 k' C^2). A K
+// found too small makes T too short by the same factor; without 0.2 c / K the
+// loop would then be little more than an integral, too large by that factor.
 #ifndef FIXPID_AUTOTUNE_EQUATIONS_H
 #define FIXPID_AUTOTUNE_EQUATIONS_H
 #include <stdint.h>

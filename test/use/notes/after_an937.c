@@ -1,5 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The motor of before_an937.asm with fixpid_an937, for SDCC and XC8.
+// The motor of before_an937.asm with fixpid_an937, for SDCC and XC8. To build
+// it by hand with SDCC and look at it in gpsim, type in the folder of the
+// sources:
+//
+//     tools/lib/build/build_pic pic18f4520 build/motor -Iinclude \
+//         -Iport/pic/pic18f4520 -Itest/use/notes -DFIXPID_AN937_OBJECT=motor \
+//         test/use/notes/after_an937.c src/an937/*.c
+//     gpsim -i -s build/motor.cod
+//     BreakOnInvalidRegisterWrite=false
+//     break c 2000000
+//     run
+//     dump r
+//     quit
+//
+// The last five lines are for gpsim. The first of them allows that SDCC's
+// start-up clears more RAM than this chip has. After 2000000 cycles, 0.2 s, the
+// dump has the output at the address of `_pid_out` in build/motor.map, lowest
+// byte first. Nothing is measured, so the error is 2000 and the accumulated
+// error at its limit: output is (96 * 2000 + 80 * 4000) / 16 = 32000.
 #include "chip.h"
 #include "fixpid_an937.h"
 
