@@ -3,9 +3,11 @@
 // it by hand with SDCC and look at it in gpsim, type in the folder of the
 // sources:
 //
-//     tools/lib/build/build_pic pic18f4520 build/motor -Iinclude \
-//         -Iport/pic/pic18f4520 -Itest/use/notes -DFIXPID_AN937_OBJECT=motor \
-//         test/use/notes/after_an937.c src/an937/*.c
+//     here=test/use/notes
+//     paths="-Iinclude -Iport/pic/pic18f4520 -I$here"
+//     flags="$paths -DFIXPID_AN937_OBJECT=motor"
+//     sources="$here/after_an937.c src/an937/*.c"
+//     tools/lib/build/build_pic pic18f4520 build/motor $flags $sources
 //     gpsim -i -s build/motor.cod
 //     BreakOnInvalidRegisterWrite=false
 //     break c 2000000
