@@ -72,6 +72,8 @@ async function sorting() {
         await table.getByRole('button', { name: 'worst found', exact: true }).press('Enter');
         problems.push(...(String(await values()) === String(wanted) ? [] : [`sorted: ${await values()}`]));
     }
+    await page.goto(`${host}/docs/data/claims.csv.html`);
+    problems.push(...(await page.locator('th button').count() === 4 ? [] : ['a CSV file is no table that can be sorted']));
     await page.close();
     return problems;
 }
