@@ -61,7 +61,7 @@ async function searches(base) {
 }
 
 async function sorting() {
-    const page = await tab(`${host}/docs/cost.html`);
+    const page = await tab(`${host}/docs/data/cost_steps.csv.html`);
     const table = page.locator('table', { has: page.getByRole('button', { name: 'worst found', exact: true }) }).first();
     const column = (await table.locator('th').allInnerTexts()).findIndex((text) => text.trim() === 'worst found');
     const values = async () => (await table.locator(`tbody td:nth-child(${column + 1})`).allInnerTexts()).map(Number);
@@ -119,7 +119,7 @@ async function system() {
 
 // On a phone a row's name stays while its numbers move.
 async function names() {
-    const page = await tab(`${host}/docs/cost.html`, PHONE);
+    const page = await tab(`${host}/docs/data/cost_steps.csv.html`, PHONE);
     const places = await page.evaluate(() => {
         const box = document.querySelector('.md-typeset__scrollwrap');
         const cell = box.querySelector('tbody td');
