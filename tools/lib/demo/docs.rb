@@ -13,8 +13,7 @@ module Docs
   # Document, or the folder of tables, and by loop its parts with what makes each of them.
   PARTS = {
     'docs/tuning.md' => { 'tuning' => { 'tuning' => :tuning },
-                          'autotune' => { 'gains' => :found_gains, 'autotune' => :autotune },
-                          'random_plants' => { 'random_plants' => :random_plants, 'at_once' => :at_once } },
+                          'autotune' => { 'gains' => :found_gains } },
     'docs/recipes.md' => { 'recipes' => { 'cascade' => :cascade, 'override' => :override, 'two_rates' => :two_rates,
                                           'heat_cool' => :heat_cool, 'least_output' => :least_output, 'ramp_soak' => :ramp_soak,
                                           'guard' => :guard, 'interpolated' => :interpolated,
@@ -22,7 +21,9 @@ module Docs
                                           'spikes' => :spikes, 'back_from_limit' => :back_from_limit } },
     'docs/controller.md' => { 'recipes' => { 'saturations' => :saturations } },
     'docs/faults.md' => { 'faults' => { 'limits' => :fault_limits, 'staying_limits' => :staying_limits } },
-    DataTables::FOLDER => { 'faults' => { 'faults' => :faults, 'faults_staying' => :staying },
+    DataTables::FOLDER => { 'autotune' => { 'tuners_plants' => :autotune },
+                            'random_plants' => { 'tuners_picture' => :random_plants, 'tuners_at_once' => :at_once },
+                            'faults' => { 'faults' => :faults, 'faults_staying' => :staying },
                             'guard' => { 'faults_guard_sees' => :guard_sees, 'faults_guard_boiler' => :guard_boiler,
                                          'faults_guard_healthy' => :guard_healthy } }
   }.freeze
@@ -30,10 +31,12 @@ module Docs
   WHOLE = %i[faults staying guard_sees guard_healthy].freeze
 
   # Made by tools/demo --long only, of these loops.
-  LONG = { DataTables::FOLDER => { 'faults_long' => :long_faults, 'faults_places' => :fault_places },
-           'docs/tuning.md' => { 'study' => :study, 'study_words' => :study_words, 'study_families' => :study_families,
-                                'study_refusals' => :study_refusals, 'study_machines' => :study_machines,
-                                'study_heaters' => :study_heaters, 'study_advice' => :study_advice } }.freeze
+  LONG = { DataTables::FOLDER => { 'faults_long' => :long_faults, 'faults_places' => :fault_places,
+                                   'tuners_study' => :study, 'tuners_families' => :study_families,
+                                   'tuners_refusals' => :study_refusals,
+                                   'tuners_machines' => :study_machines, 'tuners_heaters' => :study_heaters,
+                                   'tuners_advice' => :study_advice },
+           'docs/tuners.md' => { 'study' => :study_summary } }.freeze
   LONG_LOOPS = { long_faults: %w[faults faults_chip], fault_places: %w[faults_places] }.freeze
 
   class << self

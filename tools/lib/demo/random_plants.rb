@@ -106,7 +106,7 @@ def keep_study(all)
   end
 end
 
-# The rows of the tables in docs/tuning.md.
+# The rows of the tables of docs/tuners.md.
 def tell_study(all)
   Report.number('plants', all.of('PI safe').count)
   Report.number('designs', design_rows(all))

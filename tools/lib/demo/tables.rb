@@ -4,8 +4,10 @@
 # The tables of the documents, from the numbers that the loops reported.
 module Tables
   LONG_STUDY = 'random_plants long'
-  LOOPS_HEAD = ['plants with gains', 'Ms: 5, 50, 95 %', 'max', 'Ms in 1.2 to 1.8', 'above 2.2', 'unstable', 'errors',
-                'lasts: 50, 90 %'].freeze
+  LOOPS_HEAD = ['rule', 'plants with gains', 'Ms 5 %', 'Ms 50 %', 'Ms 95 %', 'largest', 'Ms 1.2 to 1.8, %', 'above 2.2', 'unstable',
+                'errors', 'lasts 50 %', 'lasts 90 %'].freeze
+  SUMMARY_HEAD = ['rule', 'plants with gains', 'Ms 50 %', 'Ms 95 %', 'above 2.2', 'errors', 'lasts 50 %'].freeze
+  MACHINE_RULES = ['PI safe', 'PI quick', 'PID safe'].freeze
   TRACKED = %w[without with].to_h { |which| [which, "#{which} `fixpid_pid_track`"] }.freeze
 
   SATURATIONS = {
@@ -37,42 +39,36 @@ module Tables
     def autotune
       rows = Report.numbers['autotune']['plants'].map do |row|
         [row['plant'], row['steps'], *process(row), row['rule'], format('%.3f', row['kp']),
-         format('%.5f', row['ki']), format('%.2f', row['kd']), format('%.1f %%', row['overshoot']), row['settled']]
+         format('%.5f', row['ki']), format('%.2f', row['kd']), format('%.1f', row['overshoot']), row['settled']]
       end
-      table('plant', 'steps of the experiment', 'T found', 'L found', 'rule', 'kp', 'ki per step', 'kd', 'overshoot',
-            'settled after', rows)
+      rows('plant', 'steps of the experiment', 'T found', 'L found', 'rule', 'kp', 'ki per step', 'kd', 'overshoot, %',
+           'settled after', rows)
     end
 
-    def random_plants(loop = 'random_plants')
-      table('tuner', 'rule', *LOOPS_HEAD, Report.numbers[loop]['designs'].map { |row| ['`fixpid_autotune`', *design_row(row)] })
+    def random_plants
+      rows(*LOOPS_HEAD, design_rows('random_plants', 'designs'))
+    end
+
+    def at_once
+      rows(*LOOPS_HEAD, design_rows('random_plants', 'at_once'))
     end
 
     # The same of more plants, when they were asked for.
     def study
-      random_plants(LONG_STUDY)
+      rows(*LOOPS_HEAD, design_rows(LONG_STUDY, 'designs'))
     end
 
-    def at_once
-      table('rule', *LOOPS_HEAD, Report.numbers['random_plants']['at_once'].map { |row| design_row(row) })
-    end
-
-    # By PI and by PID.
-    def study_words
-      cells = Report.numbers[LONG_STUDY]['designs'].to_h do |row|
-        [row['rule'], [row['ms'].values_at(0, 2).join(' to '), row['thin'], format('%.2f', row['slower'])]]
-      end
-      table('word', 'PI: Ms, 5 to 95 %', 'above 2.2', 'errors', 'PID: Ms, 5 to 95 %', 'above 2.2', 'errors',
-            %w[quick safe calm].map do |word|
-              ["`FIXPID_AUTOTUNE_#{word.upcase}`", *cells.fetch("PI #{word}"), *cells.fetch("PID #{word}")]
-            end)
+    # A part of it for the page.
+    def study_summary
+      head, *all = study.map { |row| LOOPS_HEAD.zip(row).to_h.values_at(*SUMMARY_HEAD) }
+      table(*head, all)
     end
 
     def study_families
-      rows = Report.numbers[LONG_STUDY]['families'].map do |row|
-        loops = row['loops'].values.map { |loop| "#{loop['ms'].join(' / ')}, #{loop['thin']}" }
-        [row['family'], row['gains'], row['lasts']&.round || '-', *loops]
-      end
-      table('family', 'gains', 'lasts', *Study::DESIGNS, rows)
+      heads = Study::DESIGNS.flat_map { |rule| ["#{rule}: Ms 50 %", "#{rule}: largest", "#{rule}: above 2.2"] }
+      rows('family', 'gains', 'lasts', *heads, Report.numbers[LONG_STUDY]['families'].map do |row|
+        [row['family'], row['gains'], row['lasts']&.round, *row['loops'].values.flat_map { |loop| [*loop['ms'], loop['thin']] }]
+      end)
     end
 
     # What README.md says of it: gains by the rule and the word to take first.
@@ -89,31 +85,28 @@ module Tables
                 .flat_map { |kind, names| names.map { |name| [kind, name] } }
                 .select { |kind, name| families.sum { |row| row[kind][name] }.positive? }
       rows = families.map { |row| [row['family'], row['gains'], *columns.map { |kind, name| row[kind][name] }] }
-      table('family', 'gains', *columns.map { |_, name| name }, [*rows, totals('all', rows)])
+      rows('family', 'gains', *columns.map { |_, name| name }, [*rows, totals('all', rows)])
     end
 
     # What fixpid_autotune made of machines, and fixpid_reaction of those that are heated.
     def study_machines
-      rows = Report.numbers[LONG_STUDY]['machines'].map do |row|
-        [row['kind'], row['gains'], row['possible'], *row['loops'].values.map { |loop| machine_cell(loop) },
-         row['periods'].round, short_minutes(row['minutes'])]
-      end
-      table('machine', 'gains', 'a PI exists', 'PI safe', 'PI quick', 'PID safe', 'periods', 'minutes', rows)
+      rows('machine', 'gains', 'a PI exists', *machine_heads, 'periods', 'minutes', Report.numbers[LONG_STUDY]['machines'].map do |row|
+        [row['kind'], row['gains'], row['possible'], *machine_cells(row), row['periods'].round, short_minutes(row['minutes'])]
+      end)
     end
 
     def study_heaters
-      rows = Report.numbers[LONG_STUDY]['heaters'].map do |row|
-        [row['kind'], row['once'], row['gains'], *row['loops'].values.map { |loop| machine_cell(loop) },
-         row['minutes'].map { |minutes| short_minutes(minutes) }.join(', ')]
-      end
-      table('machine', 'gains at once', 'or with less output', 'PI safe', 'PI quick', 'PID safe', 'minutes: 50, 90 %', rows)
+      rows('machine', 'gains at once', 'or with less output', *machine_heads, 'minutes 50 %', 'minutes 90 %',
+           Report.numbers[LONG_STUDY]['heaters'].map do |row|
+             [row['kind'], row['once'], row['gains'], *machine_cells(row), *row['minutes'].map { |minutes| short_minutes(minutes) }]
+           end)
     end
 
     def study_advice
-      table('status or reason', 'what was changed', 'tried', 'gains', 'above 2.2',
-            Report.numbers[LONG_STUDY]['advice'].map do |row|
-              ["`#{row['ended']}`", row['advice'], row['tried'], row['gains'], row['thin'] + row['unstable']]
-            end)
+      rows('status or reason', 'what was changed', 'tried', 'gains', 'above 2.2',
+           Report.numbers[LONG_STUDY]['advice'].map do |row|
+             ["`#{row['ended']}`", row['advice'], row['tried'], row['gains'], row['thin'] + row['unstable']]
+           end)
     end
 
     # What came of the faults, a row for each kind and its numbers for each loop.
@@ -312,15 +305,20 @@ module Tables
            .gsub(/^\| ---.*/) { |line| line.delete(' ') }
     end
 
-    def design_row(row)
-      [row['rule'], row['gains'], row['ms'].first(3).join(', '), row['ms'].last, format('%.1f %%', row['robust']), row['thin'],
-       row['unstable'], row['slower'] ? format('%.2f', row['slower']) : '',
-       row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }.join(', ')]
+    def design_rows(loop, what)
+      Report.numbers[loop][what].map do |row|
+        [row['rule'], row['gains'], *row['ms'], format('%.1f', row['robust']), row['thin'], row['unstable'],
+         row['slower'] ? format('%.2f', row['slower']) : '',
+         *row['lasts'].map { |times| times < 10 ? format('%.1f', times) : times.round.to_s }]
+      end
     end
 
-    def machine_cell(loop)
-      middle, most = loop['ms']
-      "#{[middle, loop['high'], most].join(' / ')}, #{loop['thin'] + loop['unstable']}"
+    def machine_heads
+      MACHINE_RULES.flat_map { |rule| ["#{rule}: Ms 50 %", "#{rule}: 95 %", "#{rule}: largest", "#{rule}: above 2.2"] }
+    end
+
+    def machine_cells(row)
+      row['loops'].values.flat_map { |loop| [loop['ms'][0], loop['high'], loop['ms'][1], loop['thin'] + loop['unstable']] }
     end
 
     def short_minutes(minutes)

@@ -180,7 +180,7 @@ module Assurance
      Claim.new('measured', 'how good the gains of the tuners are',
                "#{STUDY_SEEDS.size * STUDY_PLANTS} plants; #{LONG_SEEDS.size * LONG_PLANTS} random plants and " \
                "#{LONG_SEEDS.size * MACHINES_EACH * MACHINE_KINDS} machines " \
-               'in docs/tuning.md',
+               'in docs/tuners.md',
                '`tools/demo random_plants`'),
      Claim.new('measured', 'how the loops settle, and beside double precision', 'all of its loops',
                '`tools/demo`')]
