@@ -2,6 +2,11 @@
 // Back from a limit: while the output is limited and the error pushes it
 // further, the integral drifts to the limit, where a long saturation brings the
 // actuator to rest. Four rules in ten scenarios.
+//
+// On an ATmega328P at -O2, with no other feature than tracking, a step with the
+// recipe took 358 cycles, and 528 at most where the output was limited; the step
+// alone, without tracking, took 222 to 244. Flash grew by 506 bytes. (Measured
+// once, in simavr by the meter of tools/cost.)
 #include <math.h>
 #include <stdio.h>
 
@@ -23,6 +28,7 @@ static int16_t saturated(int32_t value)
     return (int16_t)((high > INT16_MIN) ? high : INT16_MIN);
 }
 
+// shown
 static int16_t control(int16_t setpoint, int16_t measurement)
 {
     const int16_t output = fixpid_pid_step(&pid, setpoint, measurement);
@@ -39,6 +45,7 @@ static int16_t control(int16_t setpoint, int16_t measurement)
     }
     return output;
 }
+// end of shown
 // end of recipe
 
 enum rule { HELD, DRIFT, SLOW, CLAMPED, RULES };

@@ -71,6 +71,7 @@ struct order {
 static QueueHandle_t orders; // xQueueCreate(1, sizeof(struct order))
 static struct fixpid_pid pid;
 
+// shown
 // Nobody else calls a function of this controller.
 static void control_task(void *unused)
 {
@@ -87,6 +88,7 @@ static void control_task(void *unused)
         vTaskDelayUntil(&woken, pdMS_TO_TICKS(100));
     }
 }
+// end of shown
 
 // From any other task; in an interrupt it is xQueueOverwriteFromISR.
 static void change(const struct order *order)

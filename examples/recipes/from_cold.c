@@ -64,6 +64,7 @@ static void take_over(void)
     }
 }
 
+// shown
 static int16_t control(int16_t setpoint, int16_t measurement)
 {
     int16_t output = 0;
@@ -81,6 +82,7 @@ static int16_t control(int16_t setpoint, int16_t measurement)
     return ((fixpid_guard_flags(&guard) & FIXPID_GUARD_ALARMS) != 0u) ? 0
                                                                       : output;
 }
+// end of shown
 // end of recipe
 
 int main(void)

@@ -32,6 +32,7 @@ static void close_supply(void)
 static struct fixpid_pid pid;
 static struct fixpid_guard guard;
 
+// shown
 static int16_t control(int16_t setpoint, int16_t measurement)
 {
     int16_t output = fixpid_pid_step(&pid, setpoint, measurement);
@@ -47,6 +48,7 @@ static int16_t control(int16_t setpoint, int16_t measurement)
     }
     return output;
 }
+// end of shown
 
 // When a person has looked and pressed the button, and by nothing else.
 static void acknowledge(void)

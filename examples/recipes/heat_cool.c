@@ -47,6 +47,7 @@ static void set_mode(enum mode mode)
     }
 }
 
+// shown
 static void control(int16_t setpoint, int16_t measurement, bool *heat,
                     bool *cool)
 {
@@ -67,6 +68,7 @@ static void control(int16_t setpoint, int16_t measurement, bool *heat,
         cooler_rests = REST;
     }
 }
+// end of shown
 // end of recipe
 
 static void start(void)

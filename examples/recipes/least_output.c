@@ -20,6 +20,7 @@
 static struct fixpid_pid pid; // reverse: more fan, less heat
 static bool runs;
 
+// shown
 static int16_t fan(int16_t setpoint, int16_t measurement)
 {
     const int16_t wanted = fixpid_pid_step(&pid, setpoint, measurement);
@@ -31,6 +32,7 @@ static int16_t fan(int16_t setpoint, int16_t measurement)
     }
     return (wanted < LEAST) ? LEAST : wanted;
 }
+// end of shown
 // end of recipe
 
 static int16_t fan_tracked(int16_t setpoint, int16_t measurement)

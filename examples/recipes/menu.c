@@ -35,6 +35,7 @@ static bool start(void)
     return false;
 }
 
+// shown
 // When somebody has typed new gains. False: they do not fit, nothing changed.
 static bool take(uint32_t kp_milli, uint32_t ki_milli, uint32_t kd_milli)
 {
@@ -49,6 +50,7 @@ static bool take(uint32_t kp_milli, uint32_t ki_milli, uint32_t kd_milli)
     fixpid_record_pack(&eeprom, &config);
     return true;
 }
+// end of shown
 // end of recipe
 
 static void settle(struct motion *motion, const char *what, bool good)

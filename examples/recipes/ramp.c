@@ -28,6 +28,7 @@ static void start(int16_t measurement)
                      FIXPID_SLEW_RATE(10, 10));
 }
 
+// shown
 static int16_t control(int16_t setpoint, int16_t measurement)
 {
     const int16_t wanted =
@@ -37,6 +38,7 @@ static int16_t control(int16_t setpoint, int16_t measurement)
     fixpid_pid_track(&pid, output, 5); // Ti is 60 steps
     return output;
 }
+// end of shown
 // end of recipe
 
 static int16_t control_without(int16_t setpoint, int16_t measurement)

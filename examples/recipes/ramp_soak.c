@@ -33,6 +33,7 @@ static uint8_t segment;
 static uint16_t soaked;
 static int32_t hold_back = HOLD_BACK;
 
+// shown
 static int16_t ramp_and_soak(int16_t measurement)
 {
     const struct segment *const now = &profile[segment];
@@ -52,6 +53,7 @@ static int16_t ramp_and_soak(int16_t measurement)
     fixpid_slew_set_rates(&ramp, now->rate_q16, now->rate_q16);
     return fixpid_slew_step(&ramp, now->target);
 }
+// end of shown
 
 static int16_t control(int16_t measurement)
 {

@@ -29,6 +29,7 @@ static struct fixpid_pid pid;
 static struct fixpid_autotune tuner;
 static bool tuning;
 
+// shown
 // When the user asks for it and the process is at rest.
 static void retune(void)
 {
@@ -45,6 +46,7 @@ static void retune(void)
 
     tuning = fixpid_autotune_init(&tuner, &experiment);
 }
+// end of shown
 
 // Without gains the old ones stay, and the output goes on from where it was.
 static void end_tuning(void)

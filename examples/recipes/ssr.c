@@ -18,7 +18,7 @@ static struct fixpid_tpo relay;
 static void start(void)
 {
     static const struct fixpid_pid_config config = {
-        .gains = FIXPID_PID_GAINS(1.5, 0.01875, 0, 10, 0),
+        .gains = FIXPID_PID_GAINS(1.5, 0.04, 0, 10, 0),
         .output_min = 0,
         .output_max = FULL,
         .integral_min = 0,

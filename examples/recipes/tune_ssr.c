@@ -54,6 +54,7 @@ static void take_over(void)
     } // else fixpid_autotune_reason says why, and the heater stays off
 }
 
+// shown
 // The duty of the next window, once a second.
 static int16_t duty_of_window(int16_t setpoint, int16_t measurement)
 {
@@ -81,6 +82,7 @@ static bool control(int16_t setpoint, int16_t measurement)
     step = (uint8_t)((step + 1u) % RELAY_STEPS);
     return fixpid_tpo_step(&relay, duty);
 }
+// end of shown
 // end of recipe
 
 static int percent(void)

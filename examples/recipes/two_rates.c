@@ -19,6 +19,7 @@ static struct fixpid_pid outer; // speed: its output is a current
 static struct fixpid_pid inner; // current: its output is a voltage
 static uint8_t collected;       // what the inner one was limited by
 
+// shown
 static int16_t control_speed(int16_t setpoint, int16_t speed, int16_t current)
 {
     const uint8_t limited = FIXPID_PID_AT_MAX | FIXPID_PID_AT_MIN;
@@ -29,6 +30,7 @@ static int16_t control_speed(int16_t setpoint, int16_t speed, int16_t current)
     collected = 0;
     return fixpid_pid_step(&outer, setpoint, speed);
 }
+// end of shown
 
 // 10 000 times a second.
 static int16_t control(int16_t setpoint, int16_t speed, int16_t current)

@@ -69,6 +69,7 @@ K_MSGQ_DEFINE(orders, sizeof(struct order), 1, 4);
 K_TIMER_DEFINE(period, NULL, NULL);
 static struct fixpid_pid pid;
 
+// shown
 // Nobody else calls a function of this controller.
 static void control_thread(void *a, void *b, void *c)
 {
@@ -87,6 +88,7 @@ static void control_thread(void *a, void *b, void *c)
         (void)k_timer_status_sync(&period); // above 1: steps were missed
     }
 }
+// end of shown
 
 // From another thread or an interrupt. False: the last order still waits.
 static bool change(const struct order *order)

@@ -14,15 +14,11 @@ module Docs
   PARTS = {
     'docs/tuning.md' => { 'tuning' => { 'tuning' => :tuning },
                           'autotune' => { 'gains' => :found_gains } },
-    'docs/recipes.md' => { 'recipes' => { 'cascade' => :cascade, 'override' => :override, 'two_rates' => :two_rates,
-                                          'heat_cool' => :heat_cool, 'least_output' => :least_output, 'ramp_soak' => :ramp_soak,
-                                          'guard' => :guard, 'interpolated' => :interpolated,
-                                          'behind_tpo' => :behind_tpo, 'retune' => :retune,
-                                          'spikes' => :spikes, 'back_from_limit' => :back_from_limit } },
     'docs/controller.md' => { 'recipes' => { 'saturations' => :saturations } },
     'docs/faults.md' => { 'faults' => { 'limits' => :fault_limits, 'staying_limits' => :staying_limits } },
     DataTables::FOLDER => { 'autotune' => { 'tuners_plants' => :autotune },
                             'random_plants' => { 'tuners_picture' => :random_plants, 'tuners_at_once' => :at_once },
+                            'recipes' => { 'recipes' => :recipes },
                             'faults' => { 'faults' => :faults, 'faults_staying' => :staying },
                             'guard' => { 'faults_guard_sees' => :guard_sees, 'faults_guard_boiler' => :guard_boiler,
                                          'faults_guard_healthy' => :guard_healthy } }

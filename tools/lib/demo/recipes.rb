@@ -84,7 +84,7 @@ def check_ramp(run)
 end
 
 def check_ssr(run)
-  check_step('SSR', run, 'value', 960.0, 0.0, 900.0, 300.0, 1.0, 's')
+  check_step('SSR', run, 'value', 960.0, 0.0, 900.0, 115.0, 2.0, 's')
   on = run.values('on')
   settled = 900.0
   Report.at_most('SSR: mean of the temperature off its setpoint',
@@ -534,7 +534,7 @@ end
 
 def draw_ssr(run)
   recipe_picture('ssr', 'A heater behind a solid-state relay', value_and_setpoint(run),
-                 [0, 300], [0, 1000], SECONDS_COUNTS, [with_text('temperature', 40, 650), setpoint_text(10, 895)],
+                 [0, 300], [0, 1000], SECONDS_COUNTS, [with_text('temperature', 40, 650), setpoint_text(240, 885)],
                  OutputAxis.new(run, 'on', 0, 1, 'relay, on is 1', [10, 1.35]))
 end
 

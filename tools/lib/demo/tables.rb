@@ -8,7 +8,42 @@ module Tables
                 'errors', 'lasts 50 %', 'lasts 90 %'].freeze
   SUMMARY_HEAD = ['rule', 'plants with gains', 'Ms 50 %', 'Ms 95 %', 'above 2.2', 'errors', 'lasts 50 %'].freeze
   MACHINE_RULES = ['PI safe', 'PI quick', 'PID safe'].freeze
-  TRACKED = %w[without with].to_h { |which| [which, "#{which} `fixpid_pid_track`"] }.freeze
+
+  # What a recipe gains: the names of both numbers, and their form.
+  RECIPE_GAINS = {
+    'cascade: peak after the weak supply, of 500' => %w[cascade_without_peak cascade_with_peak %.0f],
+    'cascade: steps until within 2 %' => %w[cascade_without_settled cascade_with_settled %.0f],
+    'two rates: peak after the weak supply, of 500' => %w[two_rates_without_peak two_rates_with_peak %.0f],
+    'two rates: ms until within 2 %' => %w[two_rates_without_settled two_rates_with_settled %.0f],
+    'override: worst pressure, 700 allowed' => %w[override_without_pressure override_with_pressure %.0f],
+    'override: peak of the flow afterwards, of 600' => %w[override_without_flow override_with_flow %.0f],
+    **%w[300 700 900 1000].flat_map do |to|
+      { '' => 'drift', ', with n + 1' => 'slow' }.map do |how, rule|
+        ["back from a limit, to #{to}#{how}: steps until within 2 %",
+         ["limit_back_#{to}_held_settled", "limit_back_#{to}_#{rule}_settled", '%d']]
+      end
+    end.to_h,
+    'ramp and soak: s within 8 degrees of 150, 90 wanted' => %w[ramp_soak_without_150 ramp_soak_with_150 %d],
+    'ramp and soak: s within 8 degrees of 220, 40 wanted' => %w[ramp_soak_without_220 ramp_soak_with_220 %d],
+    'heat and cool: changes between them, of 11 needed' => %w[heat_cool_without_changes heat_cool_with_changes %d],
+    'behind an SSR: plants with gains, of 200' => %w[behind_tpo_direct_gains behind_tpo_tpo_gains %d],
+    'behind an SSR: largest Ms' => %w[behind_tpo_direct_largest behind_tpo_tpo_largest %.2f],
+    'behind an SSR: Ms above 2.2' => %w[behind_tpo_direct_thin behind_tpo_tpo_thin %d],
+    'behind an SSR: steps of the experiment, 50 %' => %w[behind_tpo_direct_middle behind_tpo_tpo_middle %d],
+    'behind an SSR: steps of the experiment, 95 %' => %w[behind_tpo_direct_long behind_tpo_tpo_long %d],
+    'retune: farthest from the setpoint of 500 while it tunes' => [nil, 'retune_far', '%.0f'],
+    'retune: sum of errors after a load' => %w[retune_old_errors retune_retuned_errors %.0f],
+    'least output: farthest from 50 degrees, told and not told' => %w[least_output_tracked_far least_output_with_far %.1f],
+    'interpolated: counts beyond a setpoint, gains of level 100' => %w[interpolated_low_over interpolated_with_over %.0f],
+    'interpolated: counts beyond a setpoint, gains of level 1000' => %w[interpolated_high_over interpolated_with_over %.0f],
+    'interpolated: travel of the valve, gains of level 100' => %w[interpolated_low_travel interpolated_with_travel %.0f],
+    'interpolated: travel of the valve, gains of level 1000' => %w[interpolated_high_travel interpolated_with_travel %.0f],
+    'wild readings: error, rms, degrees' => %w[spikes_plain_rms spikes_with_rms %.2f],
+    'wild readings, derivative filter 3: error, rms, degrees' => %w[spikes_filter_rms spikes_with_filter_rms %.2f],
+    'no wild readings, derivative filter 3: error, rms, degrees' => ['spikes_calm_rms', nil, '%.2f'],
+    'guard: hottest of 60 degrees, the sensor slips off' => %w[guard_slipped_without guard_slipped_with %.0f],
+    'guard: hottest of 60 degrees, the relay stays on' => %w[guard_shut_without guard_shut_with %.0f]
+  }.freeze
 
   SATURATIONS = {
     'step' => 'from rest to 700', 'back_300' => '1000 steps at 1100, back to 300', 'back_700' => 'the same, back to 700',
@@ -205,62 +240,10 @@ module Tables
            end)
     end
 
-    def cascade
-      table('cascade', 'peak of 500 after the weak supply', 'within 2 % after, steps',
-            recipe_rows('%.0f', %w[cascade_NAME_peak cascade_NAME_settled], TRACKED))
-    end
-
-    def override
-      table('override', 'worst pressure, 700 allowed', 'peak of the flow afterwards, of 600',
-            recipe_rows('%.0f', %w[override_NAME_pressure override_NAME_flow], TRACKED))
-    end
-
-    def two_rates
-      numbers = Report.numbers['recipes']
-      rows = recipe_rows('%.0f', %w[two_rates_NAME_peak two_rates_NAME_settled], 'without' => 'without flags', 'with' => 'flags collected')
-      table('two rates', 'peak of 500 after the weak supply', 'within 2 % after, ms', rows) +
-        "\nIn #{numbers['two_rates_limited']} outer steps the inner loop was at its limit, " \
-        "in #{numbers['two_rates_last']} of them in the last of the ten, too.\n"
-    end
-
-    def heat_cool
-      table('heat and cool', 'changes between heat and cool while the room crosses the setpoint 11 times',
-            recipe_rows('%d', %w[heat_cool_NAME_changes], 'without' => 'without a gap', 'with' => 'with a gap'))
-    end
-
-    def least_output
-      table('the controller is', 'farthest from 50 degrees',
-            recipe_rows('%.1f', %w[least_output_NAME_far], 'tracked' => 'told what the fan got', 'with' => 'not told'))
-    end
-
-    def ramp_soak
-      names = SOAKS.keys.map { |degrees| "ramp_soak_NAME_#{degrees.to_i}" }
-      table('ramp and soak', *SOAKS.map { |degrees, seconds| "within 8 degrees of #{degrees.to_i}, #{seconds.to_i} s wanted" },
-            recipe_rows('%d', names, 'without' => 'without waiting', 'with' => 'waiting'))
-    end
-
-    def guard
-      table('setpoint 60 degrees', 'hottest without a guard', 'with',
-            recipe_rows('%.0f', %w[guard_NAME_without guard_NAME_with], 'slipped' => 'the sensor slips off', 'shut' => 'the relay stays on'))
-    end
-
-    def interpolated
-      table('gains', 'farthest beyond a setpoint, of 1000', 'travel of the valve',
-            recipe_rows('%.0f', %w[interpolated_NAME_over interpolated_NAME_travel],
-                        'low' => 'of level 100', 'high' => 'of level 1000', 'with' => 'by the level'))
-    end
-
-    def spikes
-      table('readings and controller', 'error, rms, degrees',
-            recipe_rows('%.2f', %w[spikes_NAME_rms],
-                        'calm' => 'none is wild, derivative filter 3', 'plain' => 'no filter', 'filter' => 'derivative filter 3',
-                        'with' => 'median of three', 'with_filter' => 'median of three, derivative filter 3'))
-    end
-
-    def back_from_limit
-      backs = LIMIT_SCENARIOS.keys.grep(/back/)
-      table('steps until it stays within 2 %', *backs.map { |scenario| scenario.sub('_', ' to ') },
-            recipe_rows('%d', backs.map { |scenario| "limit_#{scenario}_NAME_settled" }, LIMIT_RULES.reject { |rule, _| rule == 'clamped' }))
+    def recipes
+      rows('measured', 'without', 'with', RECIPE_GAINS.map do |title, (without, with, form)|
+        [title, *[without, with].map { |name| name ? format(form, Report.numbers['recipes'].fetch(name)) : '' }]
+      end)
     end
 
     # Steps and sum of errors of each rule; the least sum is bold.
@@ -273,23 +256,6 @@ module Tables
           sum == sums.values.min ? "**#{cell}**" : cell
         end]
       end)
-    end
-
-    def behind_tpo
-      numbers = Report.numbers['recipes']
-      rows = { 'direct' => 'direct', 'tpo' => '`fixpid_tpo`' }.map do |way, title|
-        plants, gains, thin, largest, middle, long =
-          %w[plants gains thin largest middle long].map { |what| numbers["behind_tpo_#{way}_#{what}"] }
-        [title, "#{gains} of #{plants}", format('%.2f', largest), thin, middle, long]
-      end
-      table('output', 'plants with gains', 'largest Ms', 'above 2.2', 'steps of the experiment: 50 %', '95 %', rows)
-    end
-
-    def retune
-      numbers = Report.numbers['recipes']
-      far, new, old = %w[far retuned_errors old_errors].map { |what| format('%.0f', numbers["retune_#{what}"]) }
-      table('gains', 'farthest from the setpoint of 500 while it tunes', 'sum of errors after a load',
-            [['old', '-', old], ['new', far, new]])
     end
 
     private
@@ -337,13 +303,6 @@ module Tables
                ["#{row['off']} off", row['off'], row['off_s']], ["#{row['out']} out", row['out'], nil]]
       parts.select { |_, count, _| count.positive? }
            .map { |text, _, most| most ? "#{text}, #{format('%.2f', most)} s" : text }.join('; ')
-    end
-
-    # A row for each of `titles`: numbers of the recipes, which have its name for NAME.
-    def recipe_rows(form, numbers, titles)
-      titles.map do |name, title|
-        [title, *numbers.map { |number| format(form, Report.numbers['recipes'].fetch(number.sub('NAME', name))) }]
-      end
     end
 
     def short_time(seconds)

@@ -5,12 +5,14 @@
 # A block with a main is a program, linked with the whole library. Any other one
 # is compiled with all public headers, as a file or as the body of a function.
 # What it takes for granted stands before it: <!-- given: DECLARATIONS -->
+# Of a recipe the whole is compiled, whatever the document shows of it.
 # A file that is shown has a test of its own.
 #
 # A block must compile as C++11, too, for a PC and for an Arduino, unless this
 # stands before it: <!-- C only: REASON -->
 require 'fileutils'
 require 'open3'
+require_relative 'recipes'
 require_relative 'shown'
 
 class CodeBlocks
@@ -104,9 +106,10 @@ class CodeBlocks
   # prints nothing.
   def fragment(match, failures)
     head = Dir['include/*.h'].map { |file| "#include \"#{File.basename(file)}\"\n" }.join
-    head += "#{match[:given]}\n"
-    forms = { 'a file' => head + match[:code],
-              "a function's body" => "#{head}void fragment(void);\nvoid fragment(void)\n{\n#{match[:code]}}\n" }
+    recipe = match.pre_match[/^<!-- recipe (\w+):begin -->\n\z/, 1]
+    given, code = recipe ? [Recipes::GIVEN[recipe], Recipes.whole(recipe)] : [match[:given], match[:code]]
+    head += "#{given}\n"
+    forms = { 'a file' => head + code, "a function's body" => "#{head}void fragment(void);\nvoid fragment(void)\n{\n#{code}}\n" }
     compilers = { 'C' => ->(code) { compile(code, '-Wno-unused', '-c', '-o', "#{name}.o") } }
     compilers['C++'] = ->(code) { cplusplus(code) } unless match[:c_only]
     compilers.each do |language, compiler|

@@ -2,14 +2,15 @@
 # frozen_string_literal: true
 
 # What docs/recipes.md shows of examples/recipes: the lines between `// recipe`
-# and `// end of recipe`.
+# and `// end of recipe`, or those of them between `// shown` and `// end of shown`.
 module Recipes
   FOLDER = 'examples/recipes'
   MARKED = %r{^// recipe\n(.*?)^// end of recipe\n}m.freeze
+  SHOWN = %r{^// shown\n(.*?)^// end of shown\n}m.freeze
 
   PLANT = 'extern int16_t measure(void); extern void drive(int16_t);'
 
-  # What a recipe takes for granted, for the compiler of the document's blocks.
+  # What a recipe takes for granted, for the compiler that CodeBlocks calls.
   GIVEN = {
     'interrupt' => 'extern void disable_interrupts(void); extern void enable_interrupts(void);  ' \
                    "#{PLANT}",
@@ -34,16 +35,27 @@ module Recipes
       Dir["#{FOLDER}/*.c"].map { |path| File.basename(path, '.c') }.sort
     end
 
+    # All of it, without marks.
+    def whole(name)
+      marked(name).gsub(%r{^// (?:end of )?shown\n}, '')
+    end
+
     def part(name)
-      path = "#{FOLDER}/#{name}.c"
-      code = File.read(path)[MARKED, 1] or abort "#{path} marks no recipe"
-      given = GIVEN[name] ? "<!-- given: #{GIVEN[name]} -->\n" : ''
-      "#{given}```c\n#{code}```\n"
+      shown = marked(name)[SHOWN, 1] or return "```c\n#{whole(name)}```\n"
+
+      "```c\n#{shown}```\n\n[The whole program](../#{FOLDER}/#{name}.c)\n"
     end
 
     # The recipes that a document does not show.
     def missing(text)
       names.reject { |name| text.include?("<!-- recipe #{name}:begin -->") }
+    end
+
+    private
+
+    def marked(name)
+      path = "#{FOLDER}/#{name}.c"
+      File.read(path)[MARKED, 1] or abort "#{path} marks no recipe"
     end
   end
 end
