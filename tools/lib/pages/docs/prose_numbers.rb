@@ -179,15 +179,6 @@ module ProseNumbers
         found = DataTables.hashes(name).find { |one| one.values.first.start_with?(row) } or abort "#{TABLE}: #{name}: no row #{row}"
         found.fetch(column)[/-?\d+(?:\.\d+)?/].to_r
       end
-
-      # Of a generated table of the same document: the first number of a cell, chosen by the text that
-      # its row begins with and the head of its column.
-      def cell(name, row, column)
-        text = File.read(@file)[/<!-- #{name}:begin -->\n(.*?)<!-- #{name}:end -->/m, 1] or abort "#{TABLE}: #{@file} has no #{name}"
-        head, _, *rows = text.lines.grep(/\A\|/).map { |line| line.split('|')[1...-1].map(&:strip) }
-        cells = rows.find { |one| one.join(' | ').start_with?(row) } or abort "#{TABLE}: #{@file}, #{name}: no row #{row}"
-        head.zip(cells).to_h.fetch(column)[/-?\d+(?:\.\d+)?/].to_r
-      end
     end
   end
 end
