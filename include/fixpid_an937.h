@@ -18,8 +18,9 @@
 // not interrupt each other, except that fixpid_an937_tick may interrupt all of
 // them where the compiler's code is re-entrant: fixpid.h says where it is not.
 //
-// docs/migrating.md lists where the firmware that Microchip shipped with the note
-// differs: the sign of delta, an error of 0, and when the first delta is taken.
+// docs/migrating.md lists where the firmware that Microchip shipped with the
+// note differs: in the sign of delta, in an error of 0, and in when it takes
+// the first delta.
 #ifndef FIXPID_AN937_H
 #define FIXPID_AN937_H
 #include <stdbool.h>
@@ -27,7 +28,7 @@
 
 FIXPID_C_BEGIN
 
-// Makes a gain of its real value at compile time: FIXPID_AN937_GAIN(6.0) is 96.
+// Converts a real gain to Q4.4 at compile time: FIXPID_AN937_GAIN(6.0) is 96.
 // It rounds to the nearest 1/16; a constant outside 0..15.9375 (after rounding)
 // does not compile. No floating-point code is generated.
 #define FIXPID_AN937_GAIN(gain)                                                \
@@ -77,8 +78,8 @@ struct fixpid_an937 {
     uint8_t step_flags;
 };
 
-// Bits of fixpid_an937_flags. The first two describe the last step: the value
-// before the limit lay beyond it. The overrun stays until it is cleared.
+// Bits of fixpid_an937_flags. The first two are about the last step: a value
+// lay beyond its limit and was limited. The overrun stays until it is cleared.
 #define FIXPID_AN937_SUM_SATURATED 0x01u
 #define FIXPID_AN937_ACCUMULATED_ERROR_LIMITED 0x02u
 #define FIXPID_AN937_TICK_OVERRUN 0x04u // a tick came before the last was used
@@ -98,19 +99,19 @@ struct fixpid_an937 {
 
 // Starts from rest: no accumulated error, no pending tick, and the first tick
 // takes a derivative sample. A limit or a period of 0 is refused: the result is
-// false and the controller outputs 0 on every step, and its setters return
-// false, until a good init. An all-zero object is such a controller.
+// false. Until a good init the controller then outputs 0 on every step, and its
+// setters return false. An all-zero object is such a controller.
 bool fixpid_an937_init(FIXPID_DATA struct fixpid_an937 *self,
                        const struct fixpid_an937_config *config);
 
 // Back to rest, as after init; gains, limit and period stay.
 void fixpid_an937_reset(FIXPID_DATA struct fixpid_an937 *self);
 
-// New gains for the next step; every value is legal. The accumulated error does
-// not jump, so the output jumps by the change of ki times it. False, and
-// nothing changed, if the controller was refused. They are three numbers and
-// not a struct, because a PIC18 takes 42 cycles for them, and through a pointer
-// would take 130.
+// New gains for the next step; every value is legal. The accumulated error
+// stays, so the output jumps by the change of ki times the accumulated error.
+// False, and nothing changed, if the controller was refused. The gains are
+// three numbers, not a struct: a PIC18 takes 42 cycles for them, and would take
+// 130 through a pointer.
 bool fixpid_an937_set_gains(FIXPID_DATA struct fixpid_an937 *self,
                             uint8_t kp_q4, uint8_t ki_q4, uint8_t kd_q4);
 
@@ -125,8 +126,8 @@ bool fixpid_an937_set_derivative_period(FIXPID_DATA struct fixpid_an937 *self,
                                         uint8_t ticks);
 
 // Once per timer tick, from the loop that counted it. The next step accumulates
-// the error once; a tick that finds another still waiting is not added twice
-// but sets FIXPID_AN937_TICK_OVERRUN, because the loop is too slow.
+// the error once. If another tick still waits, the loop is too slow: the error
+// is not added twice, and FIXPID_AN937_TICK_OVERRUN is set.
 void fixpid_an937_tick(FIXPID_DATA struct fixpid_an937 *self);
 
 // One step; returns -1048575..1048575. With a tick pending:
@@ -168,15 +169,13 @@ void fixpid_an937_clear_flags(FIXPID_DATA struct fixpid_an937 *self);
 // file scope, not static. Calls stay as they are; the pointer is ignored.
 // Sources that disagree about the object or its place do not link.
 //
-// Addresses for SDCC, where the application has the room: in a PIC18's access
-// RAM a step is a seventh faster. Compile the application and
-// fixpid_an937*.c with
+// Addresses for SDCC, if the application has the room: in a PIC18's access RAM
+// a step is a seventh faster. Compile the application and fixpid_an937*.c with
 //   -DFIXPID_AN937_PLACE='__at(0x20)'          the object, 24 bytes
 //   -DFIXPID_AN937_SIGNALS_PLACE='__at(0x38)'  what a step works on, 2 bytes
-// or one of them, and define the object as
-// `FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE name;`. At 0x48 or below
-// it also has faster products. What a step works on has a place in pointer
-// mode, too.
+// or one of them, and define the object as `FIXPID_DATA struct fixpid_an937
+// FIXPID_AN937_PLACE name;`. At 0x48 or below it also has faster products. What
+// a step works on can also be placed in pointer mode.
 #ifdef FIXPID_AN937_OBJECT
 extern FIXPID_DATA struct fixpid_an937 FIXPID_AN937_PLACE FIXPID_AN937_OBJECT;
 #endif

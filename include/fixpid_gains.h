@@ -3,18 +3,18 @@
 // fixpid_gains: gains of fixpid_pid at run time, from a menu, an EEPROM or a
 // bus, in thousandths, and back for a display. 32-bit integers only: no float.
 //
-// Gains that are known when the program is compiled need none of this:
-// FIXPID_PID_GAINS folds them. Both round each gain half up. This module does
-// so exactly; the macros fold in double, where a number that ends in just a
-// half may round the other way.
+// Gains that are known when the program is compiled do not need this:
+// FIXPID_PID_GAINS computes them. Both round each gain half up. This module
+// does so exactly; the macros compute in double, where an exact half may round
+// the other way.
 //
 // The unit of time is free as long as ki, kd and the rate have the same one. A
 // slow oven whose ki is 0.0005 per second, half a thousandth, has 0.030 per
 // minute: 30 thousandths, with the rate in thousandths of steps per minute.
 //
-// The functions keep nothing and may be called at any time, but not from an
-// interrupt that interrupts them where fixpid.h says so. They divide by 32
-// bits: not for the hot path.
+// The functions have no state and may be called at any time, except, where
+// fixpid.h forbids it, from an interrupt that interrupts them. They divide
+// numbers of 32 bits: not for the hot path.
 #ifndef FIXPID_GAINS_H
 #define FIXPID_GAINS_H
 #include <stdbool.h>
@@ -47,11 +47,11 @@ bool fixpid_gains_from_milli(struct fixpid_pid_gains *gains,
                              const struct fixpid_gains_milli *milli,
                              uint32_t rate_milli, uint8_t filter);
 
-// The way back, each half up, for the same rate. It tells what the controller
-// has, which is not always what was typed: a kp of 0.100 is kept as 26 / 256
-// and comes back as 0.102. A menu that must show what was typed keeps that.
-// False, and *milli untouched, if the rate or a gain is out of range, or if ki
-// or kd would be above 4294967.294.
+// The reverse, each rounded half up, for the same rate. It tells what the
+// controller has, which is not always what was typed: a kp of 0.100 is kept as
+// 26 / 256 and comes back as 0.102. A menu that must show what was typed has to
+// keep it. False, and *milli untouched, if the rate or a gain is out of range,
+// or if ki or kd would be above 4294967.294.
 bool fixpid_gains_to_milli(struct fixpid_gains_milli *milli,
                            const struct fixpid_pid_gains *gains,
                            uint32_t rate_milli);

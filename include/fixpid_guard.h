@@ -1,47 +1,47 @@
 /* SPDX-License-Identifier: MIT */
 #include "fixpid.h"
-// fixpid_guard: says when a loop no longer does what it should.
+// fixpid_guard: reports when a loop no longer does what it should.
 //
-// Where the plant's dead time is longer than a quarter of its lag, what can do
-// harm needs a hardware cut-out, such as a thermal fuse: there nothing that
-// reads the sensor can be early enough. Elsewhere a guard in software is no
-// safety device, either, but it says early what would otherwise be seen late.
+// This is not a safety device. It reports early what would otherwise be noticed
+// late. If the plant's dead time is longer than a quarter of its lag and the
+// plant can do harm, it needs a hardware cut-out, such as a thermal fuse:
+// nothing that reads the sensor can then be early enough.
 //
-// A guard stands beside any controller and is called once per step, after it,
-// with what it got and gave:
+// A guard works with any controller. Call it once per step, after the
+// controller, with the controller's inputs and output:
 //   output = fixpid_pid_step(&pid, setpoint, y);
 //   flags = fixpid_guard_step(&guard, setpoint, y, output);
 //   if ((flags & FIXPID_GUARD_ALARMS) != 0) {
 //       off = true; // until a person says that the loop may go on
 //   }
-// It never changes the output: the application decides. What it should do with
-// an alarm is to switch the output off, to keep it off whatever the flags say
-// later, to tell a person, and to go on only when that person acknowledges,
-// with fixpid_guard_acknowledge. With FIXPID_GUARD_NOT_FALLING the output is
-// off already or does nothing: cut the supply, with a second contactor.
+// It never changes the output: the application decides. On an alarm it should
+// switch the output off, keep it off whatever the flags are later, tell a
+// person, and go on only when that person acknowledges, with
+// fixpid_guard_acknowledge. With FIXPID_GUARD_NOT_FALLING the output is already
+// off or has no effect: cut the supply, with a second contactor.
 //
 // The steps are the clock. Setpoint and measurement are counts of the sensor,
 // the output is counts of the actuator, any int16_t each. Nothing is rounded,
-// and no difference overflows. A step has no division, no product and no number
-// of 32 bits.
+// and no difference overflows. A step has no division, no multiplication and no
+// number of 32 bits.
 //
-// There is nothing to arm: a new setpoint, a ramp, a cold start, an output that
-// is long at its end while the reading moves are no faults and need no call.
-// While the loop is open, by hand or while a tuner runs, call
-// fixpid_guard_step(&guard, y, y, output): then only the sensor is judged.
-// Before fixpid_tpo, give the guard the duty, not the relay's state.
+// There is nothing to arm. A new setpoint, a ramp, a cold start, or an output
+// that stays at its end while the reading moves raise no alarm and need no
+// call. While the loop is open, in manual or while a tuner runs, call
+// fixpid_guard_step(&guard, y, y, output): then the guard watches only the
+// sensor. With fixpid_tpo, give the guard the duty, not the relay's state.
 //
 // Some loops swing for ever although nothing is broken: under on-off control,
-// with a PWM of ten levels, with a valve or a joint that sticks.
-// FIXPID_GUARD_OSCILLATING is true there. Make the band wider than the swing,
-// or leave this alarm out of those that switch off.
+// with a PWM of ten levels, with a valve or a joint that sticks. They set
+// FIXPID_GUARD_OSCILLATING. Make the band wider than the swing, or do not
+// switch off on this alarm.
 //
 // What it does not see: a sensor that drifts slowly; one without noise that
 // sticks exactly at the setpoint; one that sticks inside the band, until the
-// output comes to its end and stays there.
+// output reaches its end and stays there.
 //
 // Any number of them work side by side. Functions of one must not interrupt
-// each other; fixpid.h says on which chips those of two must not.
+// each other; fixpid.h lists the chips on which those of two must not either.
 #ifndef FIXPID_GUARD_H
 #define FIXPID_GUARD_H
 #include <stdbool.h>
@@ -52,50 +52,54 @@ FIXPID_C_BEGIN
 // What fixpid_guard_init takes. If a tuner has measured the plant,
 // fixpid_guard_from_model finds band, patience and `noisy`. Without a model:
 //   band      1.5 times the jitter of the reading at rest, peak to peak; at
-//             least 4 counts, and what two counts of the output move in the end
+//             least 4 counts, and at least as much as two counts of the output
+//             move the reading in the end
 //   patience  twice the steps in which full output, from cold, moves the
 //             reading by ten bands
-// A loop without an integral needs a band above its standing offset.
+// A loop without an integral needs a band above its steady-state offset.
 struct fixpid_guard_config {
     // The controller's range, output_min < output_max. An output at or beyond
     // an end counts as at that end.
     int16_t output_min;
     int16_t output_max;
 
-    // The readings that a sound sensor can give, measurement_min <
-    // measurement_max: an open or shorted one reads outside. If both are 0, any
-    // reading can be.
+    // The readings that a working sensor can give, measurement_min <
+    // measurement_max: an open or shorted sensor reads outside. If both are 0,
+    // every reading is possible.
     int16_t measurement_min;
     int16_t measurement_max;
 
-    // Where the ends of the output surely bring the process, within the
-    // readings above and farther apart than two bands. A setpoint beyond counts
-    // as this, so that "off" and "full" raise no alarm. A reading beyond may
-    // stand still. The lowest and the highest setpoint that the loop must hold
-    // are a safe choice. If both are 0, they are the readings' ends: only for a
-    // loop that reaches each setpoint that it gets, because a heater that is
-    // switched off by a setpoint of 0 never reads 0, and that is an alarm.
+    // The readings to which the ends of the output are sure to bring the
+    // process, within the readings above and more than two bands apart. A
+    // setpoint beyond one of them counts as this one, so that "off" and "full"
+    // raise no alarm. A reading beyond may stand still. The lowest and the
+    // highest setpoint that the loop must hold are a safe choice. If both are
+    // 0, they are measurement_min and measurement_max. That is only for a loop
+    // that reaches every setpoint: a heater that is switched off by a setpoint
+    // of 0 never reads 0, which is an alarm.
     int16_t reach_min;
     int16_t reach_max;
 
-    // The least movement that is not noise, 1..32767 counts of the measurement.
+    // The smallest movement that is not noise, 1..32767 counts of the
+    // measurement.
     uint16_t band;
 
-    // The steps in which an end of the output surely moves the reading by a
+    // The steps in which an end of the output is sure to move the reading by a
     // band: 2..32767.
     uint16_t patience;
 
     bool reverse; // the output falls to raise the reading
-    bool noisy;   // a sound sensor never gives 2 * patience equal readings
+    bool noisy;   // a working sensor never gives 2 * patience equal readings
 };
 
-// What a step returns: bits. An alarm stays set until fixpid_guard_acknowledge
-// or fixpid_guard_reset.
+// The bits that a step returns. An alarm stays set until
+// fixpid_guard_acknowledge or fixpid_guard_reset.
 //
-// NOT_RISING: asked to rise by the end of its range for `patience` steps, the
-// process has not come a band nearer to the setpoint than where it was
-// farthest from it. A heater is broken, a sensor off, stuck or shorted, a sign
-// wrong. NOT_FALLING: likewise downward, as with a relay that does not open.
+// NOT_RISING: the output has been at the end that raises the reading for
+// `patience` steps, and the reading has not come a band nearer to the setpoint
+// from where it was farthest. Causes: a broken heater; a sensor that is off,
+// stuck or shorted; a wrong sign. NOT_FALLING: the same downward, as with a
+// relay that does not open.
 #define FIXPID_GUARD_NOT_RISING 0x01u
 #define FIXPID_GUARD_NOT_FALLING 0x02u
 #define FIXPID_GUARD_FROZEN 0x04u      // the reading does not change
@@ -104,7 +108,8 @@ struct fixpid_guard_config {
 #define FIXPID_GUARD_SENSOR_HIGH 0x20u // 4 readings above measurement_max
 #define FIXPID_GUARD_ALARMS 0x3Fu      // all of the above
 
-// No alarm: the reading has been in the band for `patience` steps and is still.
+// Not an alarm: the reading has been in the band for `patience` steps and has
+// not left it.
 #define FIXPID_GUARD_SETTLED 0x40u
 
 // There was no good init: nothing is watched.
@@ -133,30 +138,30 @@ struct fixpid_guard {
     uint8_t strikes;
 };
 
-// What a tuner has found of the plant. The first three are all that struct
-// fixpid_reaction_process has, in its order; struct fixpid_autotune_process has
-// the gain, too.
+// What a tuner has found out about the plant. The first three members are those
+// of struct fixpid_reaction_process, in its order; struct
+// fixpid_autotune_process also has the gain.
 struct fixpid_guard_model {
     uint32_t slope_q24; // counts per step for one of the output, x 2^24
     uint32_t dead_q4;   // the delay L in steps, x 16
     uint16_t noise_q4;  // the noise s in counts, x 16
 
-    // The gain K, counts of the measurement for one of the output, x 256. 0 if
-    // it is not known; FIXPID_AUTOTUNE_INTEGRATING counts as 0.
+    // The gain K, counts of the measurement for one of the output, x 256; 0 if
+    // it is not known. FIXPID_AUTOTUNE_INTEGRATING counts as 0.
     uint32_t gain_q8;
 
-    // A band to take instead of the rule's: wider than a swing that is no
-    // fault, or than a standing offset. 0: the rule's.
+    // A band to use instead of the rule's: wider than a swing that is not a
+    // fault, or than a steady-state offset. 0: the rule's.
     uint16_t band;
 
-    // Within the patience, full output could move the reading by so many bands.
-    // 0: 20, for setpoints that 5 to 95 % of the output hold. What cools slowly
-    // needs more: 100 over the percentage that holds the lowest setpoint, 50
-    // for a kettle that 2 % keep hot.
+    // The number of bands by which full output could move the reading within
+    // the patience. 0 means 20, for setpoints that 5 to 95 % of the output
+    // hold. A plant that cools slowly needs more: 100 divided by the percentage
+    // that holds the lowest setpoint, as 50 for a kettle that 2 % keep hot.
     uint8_t bands;
 };
 
-// Writes band, patience and `noisy` of a configuration that has its output's
+// Writes band, patience and `noisy` into a configuration that has its output's
 // range, and nothing else:
 //   band     = ceil(max(8 s + 4, 2 K))
 //   patience = ceil(2 L + bands * band / (slope * (output_max -
@@ -164,34 +169,34 @@ struct fixpid_guard_model {
 //   noisy      if s >= 1 and patience >= 16
 // Half of that patience raises false alarms. False, and nothing written, if the
 // slope is 0, the output has no range, or band or patience would be above
-// 32767: then steps at a slower rate help. It divides, and it is in
-// fixpid_guard_more.c.
+// 32767: then use a slower rate. It divides, and it is in fixpid_guard_more.c.
 bool fixpid_guard_from_model(struct fixpid_guard_config *config,
                              const struct fixpid_guard_model *model);
 
-// Nothing is known yet, and no flag is set. A value outside its range above is
-// refused: the result is false, and until a good init the flags are
-// FIXPID_GUARD_REFUSED. An all-zero object is refused, too.
+// Starts anew: nothing is known yet, and no flag is set. A value outside its
+// range above is refused: the result is false, and until a good init the flags
+// are FIXPID_GUARD_REFUSED. An all-zero object is refused, too.
 bool fixpid_guard_init(FIXPID_DATA struct fixpid_guard *self,
                        const struct fixpid_guard_config *config);
 
 // As after init with the same configuration.
 void fixpid_guard_reset(FIXPID_DATA struct fixpid_guard *self);
 
-// The alarms are off, and so is all that was on its way to one. Call it when a
-// person has looked, and by nothing else. FIXPID_GUARD_SETTLED stays.
+// Clears the alarms and every count towards one. Call it only when a person has
+// looked at the plant. FIXPID_GUARD_SETTLED stays.
 void fixpid_guard_acknowledge(FIXPID_DATA struct fixpid_guard *self);
 
 // One step, after the controller's; returns the flags. What it counts:
 //   range        4 readings in a row outside measurement_min..max;
 //   frozen       `patience` equal readings within reach, and then as many in
 //                which the output is more than a quarter of its range away from
-//                where it was, or, of a noisy sensor, any;
+//                where it was; with a noisy sensor, then as many of any output;
 //   not rising   outside the band around the setpoint: steps at the end of the
-//   not falling  output that pushes the reading to it; steps not at an end do
-//                not count, nor do they begin the count anew. Inside: steps at
-//                an end, while the reading is not the setpoint itself; each
-//                step elsewhere takes one back, the other end clears the count;
+//   not falling  output that drives the reading to it; a step not at an end
+//                neither counts nor restarts the count. Inside the band: steps
+//                at an end, while the reading is not the setpoint itself; each
+//                step not at an end takes one back, and the other end clears
+//                the count;
 //   oscillating  changes from one side of the band to the other, while the
 //                setpoint does not move by more than a band and the loop does
 //                not settle.

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "fixpid.h"
-// fixpid_link: the steps of a fixpid_pid over a serial wire, and a few commands
-// back. A program on a PC that has the same C makes each step again, bit for
-// bit, and so knows P, I and D, which are not sent: it is called the twin.
+// fixpid_link: sends the steps of a fixpid_pid over a serial wire and receives
+// a few commands. A program on a PC, called the twin, runs the same C code on
+// the same inputs. So it knows P, I and D bit for bit, which are not sent.
 //
 // The module turns calls into bytes and bytes into calls. The application reads
-// and writes its UART; nothing here waits, and there is no clock: the steps are
-// the time. The loop, where send(n) writes the first n bytes of link.frame if
-// the UART takes all of them at once, and else calls fixpid_link_lost:
+// and writes its UART; nothing here waits, and the steps are the clock. In this
+// loop, send(n) writes the first n bytes of link.frame if the UART takes all of
+// them at once, and otherwise calls fixpid_link_lost:
 //
 //   while (uart_get(&byte)) {
 //       (void)fixpid_link_receive(&link, byte);
@@ -19,10 +19,10 @@
 //   output = fixpid_pid_step(&pid, setpoint, measurement);
 //   send(fixpid_link_step(&link, &pid, setpoint, measurement, output));
 //
-// Whoever has the wire may do what fixpid_link_allow allows, which is nothing
-// after init. No command widens what the board's constants allow: a setpoint
-// and output limits beyond them are refused, gains are those that
-// fixpid_pid_set_gains accepts, and an output by hand ends by itself when the
+// Anyone on the wire can do what fixpid_link_allow allows, which is nothing
+// after init. No command goes beyond the board's constants: a setpoint and
+// output limits beyond them are refused, gains must be ones that
+// fixpid_pid_set_gains accepts, and a manual output ends by itself when the
 // other end falls silent. There is no password: a radio needs its own.
 //
 // Only firmware that calls these functions grows: fixpid_link.c has the stream,
@@ -31,15 +31,15 @@
 // fixpid_pid_state.c and fixpid_record.c.
 //
 // Any number of them work side by side, each with a wire. Functions of one must
-// not interrupt each other; fixpid.h says on which chips those of two must not.
-// An interrupt that receives bytes keeps them for the loop.
+// not interrupt each other; fixpid.h lists the chips on which those of two must
+// not either. An interrupt that receives bytes keeps them for the loop.
 //
-// Framing. A frame is a payload, its CRC-16 (fixpid_record's, low byte first),
-// both stuffed by COBS so that no byte is 0, and a 0. An answer has a 0 in
-// front, too, so that text which the program prints spoils only itself. A
-// command has two bytes more behind the CRC: the sum of the payload's bytes,
-// and the sum of that sum's values after each byte, both modulo 256. Numbers
-// are little-endian. Payloads of the board:
+// Framing. A frame is a payload and its CRC-16 (that of fixpid_record, low byte
+// first), both encoded by COBS so that no byte is 0, and then a 0. An answer
+// also begins with a 0, so that text which the program prints does not corrupt
+// it. A command has two more bytes after the CRC: the sum of the payload's
+// bytes, and the sum of that sum's values after each byte, both modulo 256.
+// Numbers are little-endian. Payloads of the board:
 //
 //   step    0 flags + 8, 1..2 number modulo 16384, 3..4 measurement,
 //           5..6 output, 7..8 setpoint if it is not that of the frame before
@@ -53,8 +53,8 @@
 //   record  0 4, 1 tag, 2..24 the record of `config`
 //
 // The reasons are a sum: 1 the 256th frame since the last key frame, 2 a stream
-// begins, 4 a command, 8 changed, 16 lost. Payloads of commands, the tag behind
-// the first byte, a number of 16 bits behind the tag:
+// begins, 4 a command, 8 changed, 16 lost. Payloads of commands, with the tag
+// after the first byte and a number of 16 bits after the tag:
 //
 //   0x40 hello                      the tag of the last command becomes 0
 //   0x41 record
@@ -67,10 +67,10 @@
 //   0x47 write, 23 bytes: a record  needs FIXPID_LINK_GAINS, and for other
 //                                   limits FIXPID_LINK_LIMITS
 //
-// A command whose tag and first byte are those of the last one of 0x42..0x47 is
-// answered as that was and not carried out again, unless the tag is 0: who gets
-// no answer may repeat it. An output by hand gets no more time from that.
-// sim/link/link_twin.h has what the other end does.
+// A command with the tag and the first byte of the last command of 0x42..0x47
+// gets the same answer and is not carried out again, unless the tag is 0: a
+// command without an answer may be repeated. The repetition does not prolong a
+// manual output. sim/link/link_twin.h describes the other end.
 #ifndef FIXPID_LINK_H
 #define FIXPID_LINK_H
 #include <stdbool.h>
@@ -89,15 +89,15 @@ FIXPID_C_BEGIN
 #define FIXPID_LINK_SETPOINT 0x01u
 #define FIXPID_LINK_GAINS 0x02u
 #define FIXPID_LINK_LIMITS 0x04u // the output's and the integral's
-#define FIXPID_LINK_MANUAL 0x08u // by hand, automatic and seed
+#define FIXPID_LINK_MANUAL 0x08u // manual, automatic and seed
 
-// What a board is, for all of its time.
+// Constants of the board.
 struct fixpid_link_board {
     uint32_t period_us; // between two steps
 
-    // The other end sends its output by hand at least each so many steps, each
-    // time as a new command: with another tag, or with 0. Otherwise the
-    // controller is automatic again. 0: never by hand.
+    // The other end must repeat its manual output within this many steps, each
+    // time as a new command: with another tag, or with tag 0. Otherwise the
+    // controller returns to automatic. 0: manual is refused.
     uint16_t manual_steps;
 
     int16_t setpoint_min;
@@ -107,13 +107,13 @@ struct fixpid_link_board {
     uint8_t name[FIXPID_LINK_NAME]; // filled up with 0
 };
 
-// This is private but for `frame`, and open only so that the application can
+// This is private except `frame`, and open only so that the application can
 // allocate it: 79 bytes, 80 where a number of 32 bits is aligned.
 struct fixpid_link {
     uint32_t steps;
     int16_t setpoint;
     int16_t last_sent_setpoint; // which the other end knows
-    uint16_t manual; // steps that the other end's hand has; 0: it has none
+    uint16_t manual; // steps left of the other end's manual output; 0: none
     uint8_t allowed;
     uint8_t stream_interval; // steps from frame to frame; 0: no frames
     uint8_t steps_since_frame;
@@ -131,55 +131,59 @@ struct fixpid_link {
 // int16_t, until a command changes it.
 void fixpid_link_init(FIXPID_DATA struct fixpid_link *self, int16_t setpoint);
 
-// What commands may do from now on, in place of what they might before. A
-// jumper, a menu or a temperature may decide, and change, it. An output by hand
-// that came before keeps its time.
+// Sets what commands may do from now on, in place of the earlier permission. A
+// jumper, a menu or a temperature may decide it, and it may change at any time.
+// A manual output that came before keeps its time.
 void fixpid_link_allow(FIXPID_DATA struct fixpid_link *self, uint8_t allowed);
 
-// The program itself changed the controller, otherwise than by a step: by other
-// gains or limits, a feed-forward, a reset, or by a track without
-// fixpid_link_step_tracked. The next frame is a key frame. Where gains or
-// limits changed, change `config`, too. An output by hand of the other end
-// stays the other end's, and ends after its time.
+// Call it after the program itself has changed the controller other than by a
+// step: by new gains or limits, a feed-forward, a reset, or a track without
+// fixpid_link_step_tracked. The next frame is a key frame. If gains or limits
+// changed, change `config` as well. A manual output of the other end stays in
+// force and ends after its time.
 void fixpid_link_changed(FIXPID_DATA struct fixpid_link *self);
 
-// The same where the program itself has taken the hand, at a switch or for an
-// alarm: to be called after its own fixpid_pid_set_manual, set_auto or seed.
-// The time of the other end's hand ends here, so that it cannot make the
-// controller automatic later. A new command by hand takes the hand back: first
-// allow none. Firmware that only streams calls fixpid_link_changed.
+// The same after the program itself has taken manual control, at a switch or
+// for an alarm: call it after the program's own fixpid_pid_set_manual, set_auto
+// or seed. The time of the other end's manual output ends here, so that it
+// cannot make the controller automatic later. A new manual command takes
+// control back: to prevent that, first allow none. Firmware that only streams
+// calls fixpid_link_changed.
 void fixpid_link_taken(FIXPID_DATA struct fixpid_link *self);
 
-// A frame was not sent, for want of room. The next one is a key frame.
+// Call it if a frame was not sent because the UART had no room. The next frame
+// is a key frame.
 void fixpid_link_lost(FIXPID_DATA struct fixpid_link *self);
 
 // Takes a byte from the wire. True if it ends a whole command, which then
-// waits: until it is answered further bytes are ignored, and steps have no
-// frame. What is not a whole command, up to a 0, changes nothing.
+// waits: until it is answered, further bytes are ignored and steps have no
+// frame. Bytes up to a 0 that are not a whole command change nothing.
 bool fixpid_link_receive(FIXPID_DATA struct fixpid_link *self, uint8_t byte);
 
-// Carries out the command that waits, or nothing of it, between two steps, and
-// returns how many bytes of `frame` say so; 0 if none waits.
+// Carries out the waiting command, completely or not at all, and returns how
+// many bytes of `frame` are the answer; 0 if no command waits. Call it between
+// two steps.
 //
-// `config` is what the controller runs with: what init was given, and what the
-// program changed since. A written record changes it. Permission is asked
-// first. Then a command is refused, and changes nothing, for
+// `config` is what the controller runs with: what init was given, with the
+// program's changes since. A written record changes it. A command without
+// permission is not allowed. A command with permission is refused, and changes
+// nothing, for
 //   setpoint  a value outside setpoint_min..setpoint_max
-//   manual    manual_steps of 0, or a firmware without FIXPID_PID_HAS_MANUAL,
-//             as are auto and seed
+//   manual    manual_steps of 0, or firmware without FIXPID_PID_HAS_MANUAL; the
+//             same holds for auto and seed
 //   write     bytes that are no record; other options or another setpoint
 //             weight than config's, which need an init; output limits beyond
-//             the board's or of which the lower is not below the upper; limits
-//             other than config's without permission (not allowed); gains or
-//             limits of the integral that fixpid_pid's setters refuse
+//             the board's, or with the lower not below the upper; limits other
+//             than config's without permission (not allowed); gains or limits
+//             of the integral that fixpid_pid's setters refuse
 uint8_t fixpid_link_answer(FIXPID_DATA struct fixpid_link *self,
                            const struct fixpid_link_board *board,
                            FIXPID_DATA struct fixpid_pid *pid_self,
                            struct fixpid_pid_config *config);
 
 // The same for firmware that only streams: hello, record and stream are carried
-// out, and all others are not allowed. Call either of the two; without the
-// other, fixpid_link_commands.c is not needed.
+// out, and all other commands are not allowed. Call one of the two functions;
+// firmware that calls this one does not need fixpid_link_commands.c.
 uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
                                   const struct fixpid_link_board *board,
                                   const struct fixpid_pid_config *config);
@@ -188,11 +192,11 @@ uint8_t fixpid_link_answer_stream(FIXPID_DATA struct fixpid_link *self,
 // another one, such as a ramp's or its own.
 int16_t fixpid_link_setpoint(FIXPID_DATA const struct fixpid_link *self);
 
-// To be called after each step, with what it got and gave. Returns how many
-// bytes of `frame` are to be sent; 0 without a stream, in steps between those
-// that have a frame, and while a command waits. Then, manual_steps steps after
-// the other end's last output by hand, the controller is automatic again,
-// unless fixpid_link_taken was called since.
+// Call it after each step, with the step's inputs and output. Returns how many
+// bytes of `frame` to send; 0 without a stream, in steps between those that
+// have a frame, and while a command waits. It also returns the controller to
+// automatic manual_steps steps after the other end's last manual output, unless
+// fixpid_link_taken was called since.
 uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
                          FIXPID_DATA struct fixpid_pid *pid_self,
                          int16_t setpoint, int16_t measurement, int16_t output);
@@ -200,8 +204,8 @@ uint8_t fixpid_link_step(FIXPID_DATA struct fixpid_link *self,
 // The same after fixpid_pid_track(pid, applied, shift), for a program that
 // tracks after each step: with a slew rate behind the controller, or a cascade.
 // `output` is what the step returned. A frame is three bytes longer. The other
-// end tracks likewise, so that no key frame is due; a key frame has the state
-// after the tracking.
+// end tracks in the same way, so that no key frame is needed; a key frame has
+// the state after the tracking.
 uint8_t fixpid_link_step_tracked(FIXPID_DATA struct fixpid_link *self,
                                  FIXPID_DATA struct fixpid_pid *pid_self,
                                  int16_t setpoint, int16_t measurement,

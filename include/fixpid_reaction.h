@@ -2,24 +2,25 @@
 #include "fixpid.h"
 // fixpid_reaction: gains for fixpid_pid from the first minutes of a heat-up.
 //
-// For what is heated, cooled or filled and may begin at rest: an oven, a
-// boiler, a hot end, a hot plate, a tank. Not for plants that run away by
-// themselves, nor where the dead time is longer than half the lag, nor where
-// half the output has not half the effect and less than full output is tried
-// (a dimmer, an equal-percentage valve): take fixpid_autotune there.
+// It is for plants that are heated, cooled or filled and may begin at rest: an
+// oven, a boiler, a hot end, a hot plate, a tank. Use fixpid_autotune for
+// plants that run away by themselves, if the dead time is longer than half the
+// lag, or if half the output does not have half the effect and less than full
+// output is tried (a dimmer, an equal-percentage valve).
 //
-// The output goes from one value to another, and the reading's first answer
-// tells the gains: the process reaction curve of Ziegler and Nichols (1942).
-// The module listens to the noise for 32 steps at output_rest and then puts out
-// output_drive, until the reading no longer rises more steeply. The steepest
-// slope, carried back to the moment of the change, misses the reading's start
-// by some counts: with the slope, these tell the delay. The static gain and
-// the lag are not needed, so it ends long before the reading is still. On
-// heaters that takes about a minute, and at most 32800 steps.
+// The output changes from one value to another, and the first response of the
+// reading gives the gains: the process reaction curve of Ziegler and Nichols
+// (1942). The module measures the noise for 32 steps at output_rest. Then it
+// returns output_drive until the reading no longer rises more steeply. The line
+// of the steepest slope, extended back to the moment of the change, misses the
+// reading's start by some counts: these and the slope give the delay. The
+// static gain and the lag are not needed, so the experiment ends long before
+// the reading settles: on heaters after about a minute, and after at most 32800
+// steps.
 //
 // Call fixpid_reaction_step where the controller's step would be called, at the
-// same rate, until the status is no longer FIXPID_REACTION_RUNNING; then the
-// controller goes on in the same step:
+// same rate, until the status is no longer FIXPID_REACTION_RUNNING. Then the
+// controller takes over in the same step:
 //
 //   if (fixpid_reaction_status(&reaction) != FIXPID_REACTION_RUNNING) {
 //       if (fixpid_reaction_result(&reaction, FIXPID_REACTION_PID,
@@ -32,29 +33,32 @@
 //       }
 //   }
 //
-// No fixpid_pid_seed: far below the setpoint the proportional term holds the
-// output at its end, so that nothing jumps. A setpoint weight of 1/2 takes most
-// of the overshoot away. To hold the reading where it is instead, seed the
-// controller with output_rest.
+// fixpid_pid_seed is not needed: far below the setpoint the proportional term
+// holds the output at its end, so nothing jumps. A setpoint weight of 1/2
+// avoids most of the overshoot. To hold the reading where it is instead, seed
+// the controller with output_rest.
 //
-// Begin at rest. What still coasts up from before ends as MOVING in most cases,
-// but not in all; a reading that falls back does no harm.
+// Begin at rest. A reading that still coasts up from earlier heat ends as
+// MOVING in most cases, but not in all; a reading that falls back does no harm.
 //
-// An output that is off cannot take back heat that is stored: the reading
-// coasts on. Simulated with dead time and lag in all shares, measurement_stop
-// is never reached where it is at least four times as far from the start as the
-// reading coasts. Nearer, the experiment ends as LIMIT and the reading may pass
-// the stop, by as much as it coasts where the stop is nearer than one and a
-// half times that. So begin cold, or with a smaller output: it coasts less far.
+// Switching the output off does not remove stored heat: the reading coasts on.
+// In simulations with all ratios of dead time to lag, the reading never reached
+// a measurement_stop at least four times as far from the start as it coasts.
+// With a nearer stop the experiment ends as LIMIT and the reading may pass the
+// stop; with one nearer than one and a half times that, it may pass by as much
+// as it coasts. So begin cold, or with a smaller output: the reading then
+// coasts less far.
 //
-// The reading is kept as means of up to eight blocks; when there are eight,
-// each pair becomes one of twice the length. So no time is configured, and
-// nothing depends on the rate. The gains belong to it: a step is their unit of
-// time. Integers only; a step does not divide. Every measurement is legal, an
-// output is output_rest, output_drive or 0, and each experiment ends.
+// The module keeps the reading as the means of up to eight blocks; when there
+// are eight, each pair becomes one block of twice the length. So no time is
+// configured, and nothing depends on the rate. The gains belong to the rate of
+// the experiment: a step is their unit of time. The arithmetic is in integers,
+// and a step does not divide. Every measurement is legal, an output is
+// output_rest, output_drive or 0, and each experiment ends.
 //
 // Any number of experiments work side by side. Functions of one experiment must
-// not interrupt each other; fixpid.h says on which chips those of two must not.
+// not interrupt each other; fixpid.h lists the chips on which those of two must
+// not either.
 #ifndef FIXPID_REACTION_H
 #define FIXPID_REACTION_H
 #include <stdbool.h>
@@ -77,57 +81,58 @@ enum fixpid_reaction_state {
     FIXPID_REACTION_DONE,
 
     // The reading was not at rest before the output changed: it moved by more
-    // than 511 counts, or rose the way of the heat-up. Wait.
+    // than 511 counts, or rose in the direction of the heat-up. Wait.
     FIXPID_REACTION_MOVING,
 
-    // No clear movement within timeout_steps. Is the heater on, and the sensor
-    // in its place? If both are, a longer timeout_steps.
+    // No clear movement within timeout_steps. Check that the heater is on and
+    // the sensor in its place. If both are, use a longer timeout_steps.
     FIXPID_REACTION_NO_MOVEMENT,
 
     // The reading went the other way: set `reverse`, or clear it.
     FIXPID_REACTION_WRONG_WAY,
 
-    // The reading is at measurement_stop, or would have got there: begin
-    // colder, let it go further, or use half of output_drive, where half the
-    // output has half the effect (a relay, an SSR, a PWM, fixpid_tpo).
+    // The reading has reached measurement_stop, or would have: begin colder,
+    // let it go further, or use half of output_drive if half the output has
+    // half the effect (a relay, an SSR, a PWM, fixpid_tpo).
     FIXPID_REACTION_LIMIT,
 
-    // The reading came to rest before the slope was clear: take
-    // fixpid_autotune, or a faster rate.
+    // The reading came to rest before the slope was clear: use fixpid_autotune,
+    // or a faster rate.
     FIXPID_REACTION_LEVELS_OFF,
 
     // 32768 steps of the heat-up: sample more slowly.
     FIXPID_REACTION_TOO_SLOW
 };
 
-// Tuning rules. PID with SAFE is the one to use first: it is as calm as PI and
-// answers a load more quickly. PI where the derivative would work on noise.
+// Tuning rules. Use PID with SAFE first: it is as calm as PI and responds to a
+// load more quickly. Use PI if the derivative would work on noise.
 enum fixpid_reaction_rule { FIXPID_REACTION_PI, FIXPID_REACTION_PID };
 
-// robustness_q4, of which 8..64 is legal: a larger one makes a calmer loop, as
-// in fixpid_autotune. QUICK has a third more gain than SAFE: not where the load
-// may change during the experiment. CALM has two thirds of it, for a process
-// that changes much.
+// robustness_q4, 8..64: a larger one makes a calmer loop, as in
+// fixpid_autotune. QUICK has a third more gain than SAFE: do not use it if the
+// load may change during the experiment. CALM has two thirds of the gain of
+// SAFE, for a process that changes much.
 #define FIXPID_REACTION_QUICK 8u
 #define FIXPID_REACTION_SAFE 16u
 #define FIXPID_REACTION_CALM 32u
 
 struct fixpid_reaction_config {
-    // The output before and after: off, or what keeps the reading at rest.
+    // The output before and after: off, or the output that keeps the reading at
+    // rest.
     int16_t output_rest;
 
-    // The output of the heat-up, not output_rest: full, or less where full goes
+    // The output of the heat-up, not output_rest: full, or less if full goes
     // too far.
     int16_t output_drive;
 
-    // The reading that must not be reached, on the side to which the heat-up
-    // leads; more than 16384 counts from the start count as 16384. On the other
-    // side, as where it was forgotten, the experiment ends as LIMIT before any
-    // output.
+    // The reading that must not be reached, in the direction of the heat-up;
+    // more than 16384 counts from the start count as 16384. If it lies in the
+    // other direction, as when it was forgotten, the experiment ends as LIMIT
+    // before any output.
     int16_t measurement_stop;
 
     // Longest wait for a clear movement in steps, 1..32767; it may last a
-    // quarter longer. 0 is 1000.
+    // quarter longer. 0 means 1000.
     uint16_t timeout_steps;
 
     // The reading falls when the output rises (cooling), like `reverse` of
@@ -136,7 +141,7 @@ struct fixpid_reaction_config {
 };
 
 // The process that the experiment found, for fixpid_guard and for rules of your
-// own: for short, it integrates. Times are steps.
+// own: for a short time it is an integrator. Times are in steps.
 struct fixpid_reaction_process {
     uint32_t slope_q24; // counts per step for one count of the output, x 2^24
     uint32_t dead_q4;   // the delay x 16, with a margin for noise and the hold
@@ -150,7 +155,7 @@ struct fixpid_reaction {
     int16_t output_drive;
     int16_t stop; // mirrored, like every reading, where the heat-up leads down
     uint16_t timeout_steps;
-    uint8_t state;   // a status, or that it heats
+    uint8_t state;   // a status, or private while it heats
     uint8_t blocks;  // in the record
     uint8_t doubled; // how often: a block is of 2^doubled steps
     uint8_t scale;   // the record is in 2^-scale counts; and the mirror's bit
@@ -162,7 +167,7 @@ struct fixpid_reaction {
     uint16_t record[8];
 };
 
-// Starts the experiment. An output_drive that is output_rest and a
+// Starts the experiment. An output_drive equal to output_rest and a
 // timeout_steps above 32767 are refused: the result is false, the status
 // FIXPID_REACTION_REFUSED and the output 0, until a good init. An all-zero
 // object is such an experiment.
@@ -180,19 +185,19 @@ int16_t fixpid_reaction_step(FIXPID_DATA struct fixpid_reaction *self,
 // One of enum fixpid_reaction_state.
 uint8_t fixpid_reaction_status(FIXPID_DATA const struct fixpid_reaction *self);
 
-// How far it is, 0..100: to 8 while it listens, to 98 at a clear movement, 100
-// when it is over.
+// How far it is, 0..100: up to 8 while it measures the noise, 98 at a clear
+// movement, 100 when it is over.
 uint8_t fixpid_reaction_progress(
     FIXPID_DATA const struct fixpid_reaction *self);
 
-// What the experiment found out. False, and nothing written, unless the status
-// is FIXPID_REACTION_DONE. Slow: it divides.
+// What the experiment found. False, and nothing written, unless the status is
+// FIXPID_REACTION_DONE. Slow: it divides.
 bool fixpid_reaction_model(FIXPID_DATA const struct fixpid_reaction *self,
                            struct fixpid_reaction_process *process);
 
-// Gains by a rule of enum fixpid_reaction_rule, as often and by as many rules
-// as wanted. With the slope u of output_drive in counts per step, its height h
-// in counts, the output's change d, and the robustness r,
+// Gains by a rule of enum fixpid_reaction_rule. Call it as often and with as
+// many rules as you like. With the slope u of output_drive in counts per step,
+// its height h in counts, the output's change d, and the robustness r,
 //   PI   kp = d / H, ki = kp / (3 C) per step, where
 //   PID  kp = 5/4 d / H, ki = kp / (2 C), kd = kp C / 8, and
 //        H = 19/256 (r + 18) h, C = H / u, which are 2.5 h and 2.5 delays at

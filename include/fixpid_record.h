@@ -12,11 +12,13 @@
 //       18..20   setpoint_weight_q8 2, options 1: the bits below
 //       21..22   check: CRC-16 of all before it, polynomial 0x1021, from 0xFFFF
 //
-// Any 1, 2 or 3 wrong bits are noticed, and of more, all but about one in
-// 65536. Erased memory, all 0xFF, is no record, nor is memory that is all 0.
+// Any 1, 2 or 3 wrong bits are noticed. Larger errors pass with a probability
+// of 1/65536. Erased memory, all 0xFF, is not a record, and neither is memory
+// that is all 0.
 //
-// At power-on: read the bytes, and start with them only if fixpid_record_unpack
-// and then fixpid_pid_init accept them, else with the program's own.
+// At power-on, read the bytes, and start with them only if fixpid_record_unpack
+// and then fixpid_pid_init accept them; otherwise start with the program's own
+// configuration.
 #ifndef FIXPID_RECORD_H
 #define FIXPID_RECORD_H
 #include <stdbool.h>
@@ -26,8 +28,8 @@
 
 FIXPID_C_BEGIN
 
-// Another layout of the bytes will have another version, and records of this
-// one are then refused.
+// Another layout of the bytes will have another version, which refuses records
+// of this one.
 #define FIXPID_RECORD_VERSION 1u
 
 #define FIXPID_RECORD_SIZE 23u // bytes
@@ -45,9 +47,9 @@ struct fixpid_record {
 void fixpid_record_pack(struct fixpid_record *record,
                         const struct fixpid_pid_config *config);
 
-// The configuration as it was packed; fixpid_pid_init judges it. False, and
-// *config untouched, for another version, a wrong check or another bit in the
-// options.
+// The configuration as it was packed; fixpid_pid_init checks its values. False,
+// and *config untouched, for another version, a wrong check or an unknown bit
+// in the options.
 bool fixpid_record_unpack(const struct fixpid_record *record,
                           struct fixpid_pid_config *config);
 

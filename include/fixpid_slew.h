@@ -8,7 +8,7 @@
 // Call fixpid_slew_step once per sample period: the module has no clock, so its
 // rates are counts per step. Target and result are counts, any int16_t each;
 // the value between them has 16 fractional bits, so that a rate may be as slow
-// as a count in 65536 steps. Nothing is rounded but the result, to the nearest
+// as one count in 65536 steps. Only the result is rounded, to the nearest
 // count, half up. Hence
 //   - the target is reached exactly and never passed;
 //   - a value on its way moves by exactly n times the rate in n steps;
@@ -17,14 +17,15 @@
 //   - a new target, direction or rate counts from the next step on, from the
 //     fraction that the value has.
 //
-// As a ramp, it stands before the controller,
+// As a ramp, it comes before the controller,
 //   output = fixpid_pid_step(&pid, fixpid_slew_step(&ramp, setpoint), y);
 // and is seeded with the measurement before the first step and when the loop
-// comes back from manual. As an actuator's limit, it stands behind it:
+// comes back from manual. As an actuator's limit, it comes after the
+// controller:
 //   valve = fixpid_slew_step(&slew, fixpid_pid_step(&pid, setpoint, y));
 //
 // Any number of them work side by side. Functions of one must not interrupt
-// each other; fixpid.h says on which chips those of two must not.
+// each other; fixpid.h lists the chips on which those of two must not either.
 #ifndef FIXPID_SLEW_H
 #define FIXPID_SLEW_H
 #include <stdint.h>
@@ -35,18 +36,17 @@ FIXPID_C_BEGIN
 // counts per step (0xFFFF0000) or more has the same effect.
 #define FIXPID_SLEW_NO_LIMIT 0xFFFFFFFFu
 
-// A rate from counts per second and steps per second, folded at compile time
-// and rounded half up; also in a static initialiser. It takes constants only;
-// anything else does not compile (C++98 and tcc cannot tell), nor does a rate
-// below 0, one that would round to 0 without being 0, or one that 32 bits do
-// not hold: 65536 counts per step. No floating-point code is generated.
+// A rate from counts per second and steps per second, computed at compile time
+// and rounded half up; also in a static initialiser. It takes constants only:
+// anything else does not compile (C++98 and tcc cannot tell). Neither does a
+// rate below 0, one that would round to 0 without being 0, or one that 32 bits
+// do not hold: 65536 counts per step. No floating-point code is generated.
 //
-// A compiler whose double has 32 bits, such as avr-gcc and XC8, reads a
-// constant as 24 bits and folds the rate to as many: of 1000 random rates 149
-// were another number than elsewhere, by at most 1 + rate_q16 / 2^22. A ramp
-// then ends that much earlier or later; its target is still reached exactly.
-// Where all chips must have the same bits, write the integer: 65536 times the
-// counts per step.
+// A compiler whose double has 32 bits, such as avr-gcc and XC8, computes the
+// rate with 24 bits: of 1000 random rates 149 differed, by at most 1 + rate_q16
+// / 2^22. A ramp then ends that much earlier or later; its target is still
+// reached exactly. If all chips must have the same bits, write the integer:
+// 65536 times the counts per step.
 #define FIXPID_SLEW_RATE(counts_per_second, steps_per_second)                  \
     (FIXPID_FOLDED(FIXPID_SLEW_Q16(counts_per_second, steps_per_second)) +     \
      FIXPID_CHECKED(                                                           \
@@ -82,8 +82,8 @@ void fixpid_slew_reset(FIXPID_DATA struct fixpid_slew *self);
 void fixpid_slew_set_rates(FIXPID_DATA struct fixpid_slew *self,
                            uint32_t rise_q16, uint32_t fall_q16);
 
-// Puts the value somewhere at once, in counts: where the process is, or where
-// the actuator was found.
+// Sets the value at once, in counts: to where the process is, or to where the
+// actuator was found.
 void fixpid_slew_seed(FIXPID_DATA struct fixpid_slew *self, int16_t value);
 
 // One step toward the target; returns the value to the nearest count.

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 #include "fixpid.h"
-// fixpid_tpo: time-proportioned output, for what can only be on or off: a
-// relay, a solid-state relay, a solenoid valve.
+// fixpid_tpo: time-proportional output, for an actuator that can only be on or
+// off: a relay, a solid-state relay, a solenoid valve.
 //
-// Time is cut into windows of some steps, and each window begins with one pulse
-// that lasts as much of it as the duty asks for. Pulses are whole steps; what
-// one window cannot give, because it is less than a step or less than the
-// shortest pulse, is carried into the next. So the mean is exact: over any
-// number of windows the on-steps differ from what the duties asked for by less
+// Time is divided into windows of some steps. Each window begins with one
+// pulse, whose share of the window is the duty. Pulses are whole steps; a
+// remainder that one window cannot give, because it is less than a step or less
+// than the shortest pulse, is carried into the next. So the mean is exact: over
+// any number of windows the on-steps differ from the sum of the duties by less
 // than the shortest pulse or gap, one step at least.
 //
-// Call fixpid_tpo_step once per step, a period that is the application's, as a
-// rule the controller's:
+// Call fixpid_tpo_step once per step. The application chooses the period of a
+// step, usually the controller's:
 //   relay = fixpid_tpo_step(&tpo, fixpid_pid_step(&pid, setpoint, y));
 // The module has no clock. Integers only, no division.
 //
-// Behind a tuner: with fixpid_autotune in the controller's place, call
+// With a tuner: with fixpid_autotune in the controller's place, call
 // fixpid_tpo_step ten times for each step of the tuner, and later of the
 // controller, with a window of ten, which is one step of theirs. Then the gains
 // are as good as with an output that takes every value. Do not call it at the
@@ -25,19 +25,19 @@
 // change waits for the next window. To switch off at once, call
 // fixpid_tpo_reset.
 //
-// There is at most one pulse in a window. Each on-time has minimum_on steps or
-// more, each off-time minimum_off, also across windows. A window of duty 0 has
-// no pulse, one of full duty no gap.
+// There is at most one pulse in a window. Each on-time lasts minimum_on steps
+// or more, each off-time minimum_off or more, also across windows. A window of
+// duty 0 has no pulse, and one of full duty no gap.
 //
-// Choose a window of at most a tenth of the plant's lag, because waiting for it
-// acts like a dead time, and minimum times that the actuator endures: 3600 /
-// (window in seconds) is the most on-off cycles in an hour. With a window of 1
-// and no minimum it is a sigma-delta modulator, which has the least ripple and
-// switches most. An actuator that needs a rest after power-up gets steps of
-// duty 0 first.
+// Choose a window of at most a tenth of the plant's lag, because waiting for
+// the window acts like a dead time, and minimum times that the actuator
+// tolerates: it makes at most 3600 / (window in seconds) on-off cycles an hour.
+// With a window of 1 and no minimum it is a sigma-delta modulator, which has
+// the least ripple and switches most. If the actuator needs a rest after
+// power-up, make steps of duty 0 first.
 //
 // Any number of them work side by side. Functions of one must not interrupt
-// each other; fixpid.h says on which chips those of two must not.
+// each other; fixpid.h lists the chips on which those of two must not either.
 #ifndef FIXPID_TPO_H
 #define FIXPID_TPO_H
 #include <stdbool.h>
@@ -46,7 +46,7 @@
 FIXPID_C_BEGIN
 
 struct fixpid_tpo_config {
-    // The duty that is on without a gap, 1..32767: as a rule the controller's
+    // The duty that is on without a gap, 1..32767: usually the controller's
     // output_max.
     int16_t full;
 
@@ -80,15 +80,15 @@ struct fixpid_tpo {
     uint8_t whole; // this window has no gap
 };
 
-// Nothing is owed, and the next step begins a window. A value outside its range
-// above is refused: the result is false and every step is off until a good
-// init. An all-zero object is off, too.
+// Starts off: nothing is owed, and the next step begins a window. A value
+// outside its range above is refused: the result is false, and every step is
+// off until a good init. An all-zero object is off, too.
 bool fixpid_tpo_init(FIXPID_DATA struct fixpid_tpo *self,
                      const struct fixpid_tpo_config *config);
 
-// Why init would refuse a configuration: the first field, in the order of the
-// structure, that is illegal. With FIXPID_TPO_OK init accepts it. A linker
-// leaves this function out of firmware that does not call it.
+// Tells why init would refuse a configuration: the first member, in the order
+// of the structure, that is illegal. FIXPID_TPO_OK means that init accepts it.
+// A linker leaves this function out of firmware that does not call it.
 enum fixpid_tpo_problem fixpid_tpo_check(
     const struct fixpid_tpo_config *config);
 
