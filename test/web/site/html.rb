@@ -15,7 +15,7 @@ SOURCES = %r{\A(?:examples|port|sim|src|test|tools|include)/.*(?<!\.h)\.html\z}.
 # Macros that are private, and what their comments say.
 PRIVATE = %w[FIXPID_CAST FIXPID_REAL FIXPID_FOLDED FIXPID_CHECKED FIXPID_PID_KP_Q8 FIXPID_SLEW_Q16 FIXPID_TABLE_COUNT
              FIXPID_SUFFIXED fixpid_tpo_suffixed].freeze
-INNER = ['A real constant, rounded half up', 'to become an integer.', 'Gives value as', 'false or not a constant condition', 'there, nothing is checked',
+INNER = ['A real constant, rounded half up', 'casting a sum of reals to an integer.', 'Gives value as', 'false or not a constant condition', 'condition and check nothing.',
          'Deviation 20.'].freeze
 
 @failed = false
