@@ -20,6 +20,7 @@ static const struct fixpid_table kp_of = FIXPID_TABLE(kp_points);
 static const struct fixpid_table ki_of = FIXPID_TABLE(ki_points);
 static struct fixpid_pid pid;
 
+// shown
 static int16_t control(int16_t setpoint, int16_t level)
 {
     struct fixpid_pid_gains gains = {0, 0, 0, 0};
@@ -29,6 +30,7 @@ static int16_t control(int16_t setpoint, int16_t level)
     (void)fixpid_pid_set_gains(&pid, &gains); // the integral stays
     return fixpid_pid_step(&pid, setpoint, level);
 }
+// end of shown
 // end of recipe
 
 // With gains that stay.

@@ -17,6 +17,7 @@
 static struct fixpid_pid pid;
 static int16_t last[2]; // at the start both are the first reading
 
+// shown
 static int16_t median(int16_t reading)
 {
     const int16_t low = (last[0] < last[1]) ? last[0] : last[1];
@@ -27,6 +28,7 @@ static int16_t median(int16_t reading)
     last[0] = reading;
     return (least > low) ? least : low;
 }
+// end of shown
 
 static int16_t control(int16_t setpoint, int16_t reading)
 {
