@@ -79,11 +79,11 @@ export function int16Bytes(value) {
 // Why a board did not do it, in words; '' where it did.
 export function commandRefusal({ command, result }) {
     const needs = { [ASK.SETPOINT]: 'SETPOINT', [ASK.WRITE]: 'GAINS' }[command] ?? 'MANUAL';
-    const reasons = { [ASK.SETPOINT]: 'the setpoint is outside the range that its program gives', [ASK.MANUAL]: 'its program has no time for an output by hand',
+    const reasons = { [ASK.SETPOINT]: 'the setpoint is outside the range that its program gives', [ASK.MANUAL]: 'its program allows no time for an output by hand',
         [ASK.WRITE]: 'other options or weight than it was initialised with, limits beyond its own, or gains that fixpid_pid does not take' };
     switch (result) {
     case 0: return '';
-    case 1: return `Not allowed: the board’s program has not allowed it, by fixpid_link_allow with FIXPID_LINK_${needs}.`;
+    case 1: return `Not allowed: the board’s program does not call fixpid_link_allow with FIXPID_LINK_${needs}.`;
     default: return `Refused by the board: ${reasons[command] ?? 'its firmware cannot do it'}.`;
     }
 }

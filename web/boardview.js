@@ -17,7 +17,7 @@ export function boardText({ name, library, seconds, allowed, manualSteps, versio
     const may = (bit, word) => ((allowed & bit) !== 0 ? `${word}: yes` : `${word}: no`);
     const hand = (allowed & ALLOWED.MANUAL) !== 0 && manualSteps > 0 ? `output by hand: for ${time(manualSteps * seconds)} at a time` : 'output by hand: no';
     const other = library === VERSION ? '' : ` This page is ${VERSION}: where the arithmetic of the two differs, so do their steps.`;
-    const form = version === LINK_VERSION ? '' : ` Its link is version ${version}, and this page knows version ${LINK_VERSION}: it is sent no command, and what is shown may be wrong.`;
+    const form = version === LINK_VERSION ? '' : ` Its link is version ${version}, and this page knows version ${LINK_VERSION}: it gets no command, and what is shown may be wrong.`;
     return `“${name}”, fixpid ${library}, ${digits(1 / seconds)} steps per second. Allowed: ${may(ALLOWED.SETPOINT, 'setpoint')}, ${may(ALLOWED.GAINS, 'gains')}, ` +
         `${may(ALLOWED.LIMITS, 'limits')}, ${hand}.${other}${form}`;
 }
@@ -30,13 +30,13 @@ export function verdictOf(counts, version) {
     const equal = `${whole(counts.EQUAL)} step${counts.EQUAL === 1 ? '' : 's'} equal, bit for bit`;
     if (counts.DIFFERENT > 0) {
         const number = whole(counts.FIRST_NUMBER >>> 0);
-        const what = counts.FIRST_STATE === 1 ? `in step ${number} output and flags are equal, and the integral, the derivative or the feed-forward inside is not`
+        const what = counts.FIRST_STATE === 1 ? `in step ${number} output and flags are equal, but the integral, the derivative or the feed-forward inside differs`
             : `in step ${number} the board’s output is ${counts.FIRST_OUTPUT} with flags ${counts.FIRST_FLAGS}, this page’s ${counts.FIRST_OWN_OUTPUT} with flags ${counts.FIRST_OWN_FLAGS}`;
         const times = counts.DIFFERENT === 1 ? '' : `, the first of ${whole(counts.DIFFERENT)} differences`;
-        return { good: false, text: `Different: ${what}${times}. Either the board does not run this fixpid, or its program changed the controller and did not say so by fixpid_link_changed. ${equal}.` };
+        return { good: false, text: `Different: ${what}${times}. Either the board does not run this fixpid, or its program changed the controller without calling fixpid_link_changed. ${equal}.` };
     }
     if (counts.EQUAL === 0) {
-        return { good: null, text: counts.LEFT_THINNED > 0 ? 'Not compared: only each so many steps are sent, so there is a plot and no twin.' : 'No step is compared yet: that begins with the board’s record and a key frame.' };
+        return { good: null, text: counts.LEFT_THINNED > 0 ? 'Not compared: only every so many steps are sent, so there is a plot but no twin.' : 'No step is compared yet: that begins with the board’s record and a key frame.' };
     }
     return { good: true, text: `${equal}.` };
 }
@@ -45,7 +45,7 @@ export function verdictOf(counts, version) {
 function leftOf(counts, missing) {
     const reasons = [
         [counts.LEFT_BEGINNING, 'before the record and the first key frame'],
-        [counts.LEFT_GAP, `behind ${whole(counts.GAPS)} gap${counts.GAPS === 1 ? '' : 's'}, up to the next key frame`],
+        [counts.LEFT_GAP, `after ${whole(counts.GAPS)} gap${counts.GAPS === 1 ? '' : 's'}, up to the next key frame`],
         [counts.LEFT_THINNED, 'in a stream that is thinned out'],
         [counts.LEFT_DIFFERENCE, 'after a difference, up to the next key frame'],
         [counts.LEFT_CHANGED, 'where the program itself changed the controller'],
@@ -75,7 +75,7 @@ function comparisonOf(told, seconds) {
         settled === null ? 'not yet' : time(settled * seconds), digits(iae * seconds)];
     const [before, behind] = [predicted, came].map((y) => cells(stepFigures(y, told)));
     const rows = ['Overshoot, counts', `Settled (±${digits(band, 2)})`, 'IAE, counts × s'].map((name, i) => ({ cells: [name, before[i], behind[i]] }));
-    const words = [...(rested ? [] : ['The board was not at rest before this step, and the prediction is of one that is.']),
+    const words = [...(rested ? [] : ['The board was not at rest before this step; the prediction assumes that it was.']),
         ...(missing > 0 ? [`${whole(missing)} steps did not come, and are as the one before.`] : [])].join(' ');
     return { figures: table(`The setpoint from ${from} to ${to}, ${over ? '' : 'so far '}${time(came.length * seconds)}`, ['Figure', 'Predicted', 'Came'], rows), words };
 }

@@ -10,7 +10,7 @@ const SILENT = 5000; // milliseconds and three steps without a frame, and the bo
 const TEXT_OFFERED = 1 << 16; // characters of a port's text that may be a recording
 
 function noBoardText(error, printable) {
-    return printable.length > 8 ? `Bytes come, but no board that speaks fixpid_link at this baud rate. They read: ${printable}`
+    return printable.length > 8 ? `Bytes come, but not from a board that speaks fixpid_link at this baud rate. They read: ${printable}`
         : `${error.message} Does its program call fixpid_link, and is this its baud rate?`;
 }
 

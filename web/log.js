@@ -13,7 +13,7 @@ function bytesOfHex(text) {
     const digits = text.replace(/0x|[\s,;:]/gi, '');
     const wrong = digits.match(/[^0-9a-f]/i);
     if (wrong !== null || digits.length % 2 === 1) {
-        return { refused: wrong !== null ? `A log is hexadecimal, and “${wrong[0]}” is no such digit.` : 'A log has two digits for each byte, and here one is left over.' };
+        return { refused: wrong !== null ? `A log is hexadecimal, and “${wrong[0]}” is not a hexadecimal digit.` : 'A log has two digits for each byte; here one digit is left over.' };
     }
     const bytes = new Uint8Array(digits.length / 2);
     for (let at = 0; at < bytes.length; at++) {
@@ -38,9 +38,9 @@ function bytesOfLog(text) {
     if (text.trimStart().startsWith('{')) {
         try {
             const found = JSON.parse(text);
-            return found.format === LOG_FORMAT && Array.isArray(found.bytes) ? bytesOfHex(found.bytes.join('')) : { refused: 'This JSON is no log that this page saved.' };
+            return found.format === LOG_FORMAT && Array.isArray(found.bytes) ? bytesOfHex(found.bytes.join('')) : { refused: 'This JSON is not a log that this page saved.' };
         } catch (error) {
-            return { refused: `This is no JSON: ${error.message}.` };
+            return { refused: `This is not JSON: ${error.message}.` };
         }
     }
     return bytesOfHex(text);

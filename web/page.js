@@ -337,7 +337,7 @@ async function toClipboard(text, done) {
         await navigator.clipboard.writeText(text);
         say(done);
     } catch {
-        say('The browser allows no copying here: mark the text instead.');
+        say('The browser does not allow copying here: select the text instead.');
     }
 }
 
@@ -458,7 +458,7 @@ function nameLoop() {
     const field = find('#loop');
     const good = LOOP_NAME.test(field.value);
     field.setAttribute('aria-invalid', String(!good));
-    setText(find('#loop-why'), good ? '' : `“${field.value}” is no name of C: take letters, digits and _.`);
+    setText(find('#loop-why'), good ? '' : `“${field.value}” is not a C identifier: use letters, digits and _.`);
     if (good) {
         change({ loop: field.value });
     }

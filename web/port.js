@@ -56,7 +56,7 @@ export async function openPort(baudRate, { onBytes, onGone }) {
     const reading = read();
 
     function write(bytes) {
-        writer.write(bytes).catch((error) => gone(`The port takes nothing more: ${error.message.replace(/\.$/, '')}.`));
+        writer.write(bytes).catch((error) => gone(`The port accepts no more bytes: ${error.message.replace(/\.$/, '')}.`));
     }
 
     async function close() {

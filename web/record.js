@@ -11,7 +11,7 @@ export function readRecord(text) {
     }
     const wrong = digits.match(/[^0-9a-f]/i);
     if (wrong !== null) {
-        return { refused: `A record is hexadecimal, and “${wrong[0]}” is no such digit.` };
+        return { refused: `A record is hexadecimal, and “${wrong[0]}” is not a hexadecimal digit.` };
     }
     if (digits.length !== 2 * LIMIT.RECORD_SIZE) {
         return { refused: `A record has ${LIMIT.RECORD_SIZE} bytes, two digits each; this has ${digits.length} digits instead of ${2 * LIMIT.RECORD_SIZE}.` };

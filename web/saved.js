@@ -32,11 +32,11 @@ export function stateOfJson(text) {
     try {
         found = JSON.parse(text);
     } catch (error) {
-        return { why: `This is no JSON: ${error.message}.` };
+        return { why: `This is not JSON: ${error.message}.` };
     }
     const settings = found?.settings;
     if (found?.format !== FORMAT || typeof settings !== 'object' || settings === null) {
-        return { why: 'This JSON is not one of this page: it has no “format” and “settings” of it.' };
+        return { why: 'This JSON was not saved by this page: it lacks its “format” and “settings”.' };
     }
     const parts = [`p=${settings.preset}`];
     for (const name of [...LINKED, 'unit', 'loop', 'rule'].map((one) => one.toLowerCase())) {

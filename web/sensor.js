@@ -67,10 +67,10 @@ export function tableOf(s) {
     }
     const curve = s.kind === 'ntc' ? ntc(s) : thermocouple(s);
     if (curve === null) {
-        return { refused: 'The range of temperature has no two counts of 16 bits.' };
+        return { refused: 'The temperature range covers fewer than two counts of 16 bits.' };
     }
     return fitTable(curve.values.map((celsius) => celsius * s.scale), curve.first, s.points) ??
-        { refused: 'These temperatures do not fit 16 bits: take coarser steps.' };
+        { refused: 'These temperatures do not fit 16 bits: use coarser steps.' };
 }
 
 export function tableText({ points, error }, name, scale) {

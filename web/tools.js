@@ -57,7 +57,7 @@ function showRecord(own, s, useRecord) {
         : found.rules.map((one) => ({ ...one, gains: one.has ? gainsOfRecord(s, one.results) : null }));
     const has = rows.some((row) => row.gains !== null);
     const lasted = `At ${short(s.RATE)} steps per second, as set on this page`;
-    const wrong = bytes ? 'A byte of the record is wrong: its check does not fit.' : refused ?? '';
+    const wrong = bytes ? 'A byte of the record is wrong: its check does not match.' : refused ?? '';
     setText(own('#record-found'), found === null ? wrong : experimentText(s.RATE, lasted, found));
     own('#record-found').classList.toggle('refused', found === null && wrong !== '');
     own('#record-rules').hidden = !has;

@@ -226,7 +226,7 @@ static void step_relay(FIXPID_DATA struct fixpid_autotune *self,
 }
 
 // The status with which this measurement ends the experiment, or RUNNING. A
-// measurement at its limits says more than a relay that does not switch.
+// measurement at its limit comes before a relay that does not switch.
 static uint8_t watch_ends(FIXPID_DATA const struct fixpid_autotune *self,
                           int16_t measurement)
 {

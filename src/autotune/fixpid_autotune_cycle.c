@@ -99,8 +99,8 @@ FIXPID_DATA struct fixpid_autotune_sums *fixpid_autotune_sums_of_phase(
     return &SELF.sums[0];
 }
 
-// True if one half is below an eighth of the cycles. So short a half says
-// little of the process.
+// True if one half is below an eighth of the cycles. So short a half tells
+// little about the process.
 static bool lopsided(FIXPID_DATA const struct fixpid_autotune_sums *sums)
 {
     const uint16_t least = (uint16_t)(sums->steps >> 3);

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: MIT
-// Signed 16-bit values as two's complement patterns in a uint16_t: the sign is
-// one bit to test, comparisons need no sign, and nothing can overflow. And what
-// else several modules ask of numbers: shifts, sums, products.
+// SPDX-License-Identifier: MIT Signed 16-bit values as two's complement
+// patterns in a uint16_t: the sign is one bit to test, comparisons need no
+// sign, and nothing can overflow. Also the shifts, sums and products that
+// several modules need.
 #ifndef FIXPID_BITS_H
 #define FIXPID_BITS_H
 #include <stdint.h>
@@ -35,9 +35,9 @@
 #error "fixpid needs a compiler whose shift to the right rounds down"
 #endif
 
-// True if `condition` is, which it seldom is: the other way has no jump then.
-// (Of a more seldom one gcc saves the code, of a less seldom one it makes
-// copies.)
+// True if `condition` is. It is marked as seldom true, so that the other way
+// has no jump. (For a rarer one gcc would save code, for a less rare one copy
+// it.)
 #if defined(__GNUC__) && (__GNUC__ >= 9)
 #define FIXPID_SELDOM(condition)                                               \
     (__builtin_expect_with_probability((condition), 0, 0.95) != 0)

@@ -5,7 +5,7 @@
 #define FIXPID_CHECK_H
 #include <stdint.h>
 
-#define CHECK_BEGIN 0xFFFFu // else bytes of 0 at the front would change nothing
+#define CHECK_BEGIN 0xFFFFu // otherwise leading bytes of 0 would change nothing
 #define CHECK_POLYNOMIAL 0x1021u
 
 // CRC-16 of the first bytes, the highest bit first. Its polynomial has a

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: MIT
-// The functions of fixpid_signed.h for a RISC-V: a jump is cheaper there than
-// the arithmetic that the C makes of the sign, and without a multiplier a
-// product in turns is cheaper than the library's.
+// SPDX-License-Identifier: MIT The functions of fixpid_signed.h for a RISC-V: a
+// jump is cheaper there than the arithmetic with the sign in the plain C, and
+// without a multiplier a product in turns is cheaper than the library's.
 #ifndef FIXPID_SIGNED_RISCV_H
 #define FIXPID_SIGNED_RISCV_H
 #include <stdint.h>

@@ -51,8 +51,8 @@ static void take_ranges(FIXPID_DATA struct fixpid_guard *self,
     }
 }
 
-// Whether the readings, reach and band that were taken are legal. A reach of
-// more than two bands is no empty one.
+// True if the readings, reach and band that were taken are legal. A reach of
+// more than two bands is not empty.
 static bool reach_legal(FIXPID_DATA const struct fixpid_guard *self)
 {
     if (SELF.reach_min < SELF.measurement_min) {
@@ -160,8 +160,8 @@ static void watch_range(FIXPID_DATA struct fixpid_guard *self, int16_t reading)
     }
 }
 
-// Whether a reading that has been equal for `patience` steps is one more step
-// toward an alarm.
+// True if a reading that has been equal for `patience` steps counts one more
+// step toward an alarm.
 static bool should_have_moved(FIXPID_DATA const struct fixpid_guard *self,
                               int16_t output)
 {
@@ -205,7 +205,7 @@ static bool is_within_reach(FIXPID_DATA const struct fixpid_guard *self,
     return reading <= SELF.reach_max;
 }
 
-// A reading within reach is one that a sound sensor can give, too.
+// A working sensor can also give each reading within reach.
 static void watch_reading(FIXPID_DATA struct fixpid_guard *self,
                           int16_t reading, int16_t output)
 {
@@ -311,7 +311,7 @@ static void raise_alarm(FIXPID_DATA struct fixpid_guard *self, uint8_t end)
 static void watch_outside(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
                           int16_t reading, uint8_t end)
 {
-    // upper - lower is by how much the reading is nearer than the mark.
+    // The reading is nearer than the mark by upper - lower.
     int16_t upper = reading;
     int16_t lower = SELF.mark;
 
@@ -380,8 +380,8 @@ static void watch_zone(FIXPID_DATA struct fixpid_guard *self, uint8_t zone,
     }
 }
 
-// Whether an end of the output is no reason to wait, inside: the setpoint is
-// beyond reach, or the reading is the setpoint.
+// True if the output may stay at an end inside the band: the setpoint is beyond
+// reach, or the reading is the setpoint.
 static bool may_rest(int16_t setpoint, int16_t goal, int16_t reading)
 {
     if (goal != setpoint) {

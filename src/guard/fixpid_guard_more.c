@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// What a guard takes for a plant that a tuner has measured. It has its own file
-// because SDCC links whole object files.
+// SPDX-License-Identifier: MIT A guard's configuration for a plant that a tuner
+// has measured. It has its own file because SDCC links whole object files.
 #include "fixpid_guard.h"
 
 #include "../common/fixpid_difference.h"
@@ -12,7 +11,7 @@
 #define BANDS 20u
 #define NOISY_PATIENCE_MIN 16u
 
-// As fixpid_autotune has it for a plant without a static gain.
+// fixpid_autotune's mark of a plant without a static gain.
 #define INTEGRATING ((uint32_t)0xFFFFFFFFu)
 
 #define TOP_BIT ((uint32_t)0x80000000u)

@@ -242,7 +242,7 @@ static uint8_t hello(FIXPID_DATA struct fixpid_link *self,
 {
     uint8_t at;
 
-    SELF.tag = 0; // whoever says hello counts anew
+    SELF.tag = 0; // after a hello, tags begin anew
     SELF.frame[4] = FIXPID_LINK_VERSION;
     SELF.frame[5] = FIXPID_VERSION_MAJOR;
     SELF.frame[6] = FIXPID_VERSION_MINOR;
@@ -318,9 +318,8 @@ static bool is_due(FIXPID_DATA struct fixpid_link *self)
     return true;
 }
 
-// What is only in the payload of a step from which the other end can begin. The
-// state is as long as a frame is behind it: what of it is not sent, the checks
-// overwrite.
+// The part of a payload that only a key frame has. The state fills the frame to
+// its end; the checks overwrite the part of it that is not sent.
 static void begin_key(FIXPID_DATA struct fixpid_link *self,
                       FIXPID_DATA const struct fixpid_pid *pid_self)
 {
@@ -335,7 +334,7 @@ static void begin_key(FIXPID_DATA struct fixpid_link *self,
 }
 
 #if (FIXPID_PID_FEATURES & FIXPID_PID_HAS_MANUAL) != 0
-// Whoever has said nothing for too long lets go.
+// Back to automatic when the other end has been silent for too long.
 static void watch_hand(FIXPID_DATA struct fixpid_link *self,
                        FIXPID_DATA struct fixpid_pid *pid_self)
 {
@@ -379,7 +378,7 @@ uint8_t fixpid_link_begin(FIXPID_DATA struct fixpid_link *self,
         put(&SELF.frame[SETPOINT_AT], (uint16_t)setpoint);
         SELF.last_sent_setpoint = setpoint;
     }
-    SELF.steps++; // and round
+    SELF.steps++; // wraps
     watch_hand(self, pid_self);
     return bytes;
 }

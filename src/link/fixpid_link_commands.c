@@ -15,7 +15,7 @@
 #define KIND_AT 18u // setpoint weight and options
 #define KIND_BYTES 3u
 
-// Whether some bytes of the record that came are config's.
+// True if some bytes of the received record are those of config's record.
 // pre: config's is at RECORD_AT of `frame`
 static bool same(FIXPID_DATA const struct fixpid_link *self, uint8_t from,
                  uint8_t bytes)
@@ -146,7 +146,7 @@ FIXPID_INLINE uint8_t set_hand(FIXPID_DATA struct fixpid_link *self,
 }
 #endif
 
-// What a command needs.
+// The permission that a command needs.
 static uint8_t permission_for(uint8_t command)
 {
     if (command == WRITE_RECORD) {

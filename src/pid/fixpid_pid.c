@@ -8,15 +8,15 @@
 
 #define SPECIAL (REVERSE | ON_ERROR | WEIGHTED)
 
-// What a configuration must not have without the feature: a bool, or a weight
-// that is neither 0 nor WEIGHT_ONE.
+// The bits that a configuration must not have without the feature: a bool, or
+// those of a weight that is neither 0 nor WEIGHT_ONE.
 #define NO_REVERSE (HAS_REVERSE ? 0u : 1u)
 #define NO_ON_ERROR (HAS_DERIVATIVE_ON_ERROR ? 0u : 1u)
 #define NO_WEIGHT (HAS_WEIGHT ? 0u : 0xFEFFu)
-#define ONE_IF_WEIGHT (HAS_WEIGHT ? 1u : 0u) // NO_WEIGHT says more
+#define ONE_IF_WEIGHT (HAS_WEIGHT ? 1u : 0u) // otherwise NO_WEIGHT refuses it
 
 // The lowest three bits of `options` are the derivative filter. The sign bit is
-// what a PID with small gains asks in each step.
+// the one that a PID with small gains tests in each step.
 #define FILTER (HAS_FILTER ? 0x07u : 0u)
 #define KI_FINE 0x80u // ki has 24 fractional bits; neither bit: 16
 #define KI_COARSE (HAS_COARSE_KI ? 0x10u : 0u) // ki has 8
@@ -53,10 +53,11 @@ FIXPID_DATA struct signals FIXPID_PID_SIGNALS_PLACE fixpid_pid_signals;
 #endif
 
 // The fall of the derivative's input since the last step, saturated, or 0 in
-// the first one, for which ASKED_FIRST is asked before. In a word of 32 bits
-// `previous` itself can say that there is none: the upper half of the fall from
-// NO_PREVIOUS is INT16_MAX, whatever the input. That of a fall which does not
-// fit is 0 or -1, and of a flipped `previous` any 16 bits.
+// the first step. Where an int has 16 bits, the caller tests the flag
+// ASKED_FIRST for that. With 32 bits NO_PREVIOUS as `previous` makes it 0 here:
+// the upper half of the fall is then INT16_MAX, whatever the input is. The
+// upper half of a fall that does not fit is 0 or -1, and that of a flipped
+// `previous` any 16 bits.
 // Deviation 20.9: UINT_MAX is a macro of <limits.h>.
 #if UINT_MAX > 65535u
 #define ASKED_FIRST 0u
@@ -114,10 +115,10 @@ static bool accept_gains(FIXPID_DATA struct fixpid_pid *self,
     return true;
 }
 
-// A bool is 0 or 1: shifting three of them is shorter than asking each. The
+// A bool is 0 or 1: shifting three of them is shorter than testing each. The
 // weight is a machine word, because gcc for an ARM would cut each result to 16
-// bits. What is illegal here is asked at once, because SDCC warns of a
-// condition that is never true where no feature is missing.
+// bits. One condition tests for everything illegal, because SDCC warns of a
+// condition that is never true when no feature is missing.
 static bool accept_config(FIXPID_DATA struct fixpid_pid *self,
                           const struct fixpid_pid_config *config)
 {

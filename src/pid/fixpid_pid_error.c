@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: MIT
-// The step of those who form the error themselves, in a file of its own because
-// SDCC links whole object files. It calls the plain step, which costs nobody a
-// cycle more for it.
+// SPDX-License-Identifier: MIT The step for callers that compute the error
+// themselves, in a file of its own because SDCC links whole object files. It
+// calls the plain step, which does not become slower by it.
 #include "fixpid_pid.h"
 
 #include "fixpid_pid_private.h"
@@ -16,11 +15,12 @@ static int16_t saturated(int32_t x, uint16_t mirror)
     return (int16_t)clamp32(x, INT16_MIN, INT16_MAX);
 }
 
-// Gives the step a measurement of 0 and the error as its setpoint, and lets it
-// believe that the derivative saw the fall before: the difference is the fall
-// itself. What the derivative saw really is the sum of all rises since the
-// first step, modulo 2^16, which is the measurement where the rises are its
-// own. In reverse the object holds its mirror image, which is its complement.
+// Gives the step a measurement of 0 and the error as its setpoint, and sets the
+// last input of the derivative to the fall: then the difference is the fall
+// itself. The true last input, kept in `seen`, is the sum of all rises since
+// the first step, modulo 2^16. It is the measurement if the rises are those of
+// the measurement. In reverse the object holds its mirror image, which is its
+// complement.
 int16_t fixpid_pid_step_error(FIXPID_DATA struct fixpid_pid *self,
                               int32_t error, int32_t rise)
 {
@@ -34,11 +34,11 @@ int16_t fixpid_pid_step_error(FIXPID_DATA struct fixpid_pid *self,
     mirror = ((options & REVERSE) != 0u) ? 0xFFFFu : 0u;
     seen = (uint16_t)SELF.previous ^ mirror;
     if ((SELF.status & FIXPID_PID_FIRST) != 0u) {
-        seen = 0; // and `previous` says that there is none
+        seen = 0; // `previous` holds no input yet
     } else if ((options & ON_ERROR) == 0u) {
         SELF.previous = saturated(rise, (uint16_t)~mirror);
     } else {
-        // the error's own
+        // D follows the error, and the rise is ignored
     }
     SELF.options = (uint8_t)(options & (uint8_t) ~(REVERSE | WEIGHTED));
     output = fixpid_pid_step(self, saturated(error, mirror), 0);

@@ -24,8 +24,8 @@ static void hold(FIXPID_DATA struct fixpid_pid *self, int16_t output)
         shift_left(clamp32(output, SELF.output_min, SELF.output_max), 16);
 }
 
-// What the integral holds beyond the output limits is wind-up, unless the other
-// terms take it away again.
+// The part of the integral beyond the output limits is wind-up, unless the
+// other terms balance it.
 static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
 {
     // within 2^31 - 2^15 - 2^24, so that a limit is within 2^31
@@ -49,8 +49,8 @@ static void drop_windup(FIXPID_DATA struct fixpid_pid *self)
     }
 }
 
-// Before the first step, where P and D are 0, the integral is what the
-// feed-forward lacks to the output's range.
+// Before the first step, where P and D are 0, the integral is the distance from
+// the feed-forward to the output's range.
 static void rest_or_drop_windup(FIXPID_DATA struct fixpid_pid *self)
 {
     if ((SELF.status & FIXPID_PID_FIRST) != 0u) {

@@ -26,7 +26,7 @@
 #define REFUSED (SELF.output_min == SELF.output_max)
 
 // The features, as constant conditions. A mask that needs a missing one is 0,
-// and the compiler drops what asks for its bits.
+// and the compiler drops the code that tests its bits.
 #define FEATURES ((unsigned)FIXPID_PID_FEATURES)
 #define HAS_FILTER ((FEATURES & FIXPID_PID_HAS_FILTER) != 0u)
 #define HAS_WEIGHT ((FEATURES & FIXPID_PID_HAS_WEIGHT) != 0u)
@@ -54,7 +54,7 @@
 
 #define DERIVATIVE_MAX INT32_C(0x3F000000) // 2^30 - 2^24
 
-// `previous` before the first step: with 32 bits it says so itself.
+// `previous` before the first step: with 32 bits the value itself marks it.
 #define NO_PREVIOUS ((int)((UINT_MAX > 65535u) ? INT32_C(0x7FFF7FFF) : 0))
 
 // The largest number of counts that 16 bits can hold, in 1/256.

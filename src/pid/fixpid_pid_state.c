@@ -48,9 +48,10 @@ void fixpid_pid_state(FIXPID_DATA const struct fixpid_pid *self,
     put(&state[ERROR_AT], (uint16_t)SELF.proportional_error);
 }
 
-// True if the integral is within its limits, or the output that it holds within
-// the output's. Both begin where `counts` may be followed by no part of a
-// count: at the upper limit, and an output held anywhere.
+// True if the integral is within its limits or, while an output is held, the
+// output within the output's limits. From `whole_from` on, no part of a count
+// may follow `counts`: that is the upper limit of the integral, and any output
+// held.
 static bool integral_fits(FIXPID_DATA const struct fixpid_pid *self,
                           const uint8_t state[])
 {
@@ -78,15 +79,15 @@ static bool integral_fits(FIXPID_DATA const struct fixpid_pid *self,
     return part == 0u;
 }
 
-// True if a step can go on from it.
+// True if a step can continue from the state.
 static bool is_possible(FIXPID_DATA const struct fixpid_pid *self,
                         const uint8_t state[])
 {
     const int32_t derivative = (int32_t)get32(&state[DERIVATIVE_AT]);
     uint16_t lacking = get(&state[FEEDFORWARD_AT]);
 
-    // Both at once, because SDCC warns of a condition that is never true where
-    // no feature is missing.
+    // One condition for both, because SDCC warns of a condition that is never
+    // true when no feature is missing.
     lacking &= NO_FEEDFORWARD;
     lacking |= state[FLAGS_AT] & UNKNOWN_FLAGS;
     if (lacking != 0u) {

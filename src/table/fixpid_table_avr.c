@@ -2,7 +2,8 @@
 #include "fixpid_table.h"
 
 // This file is empty for other chips. The points are read as words of the lower
-// 64 KiB of flash: `__flash`, which reads them too, is no word of C++ and C99.
+// 64 KiB of flash: `__flash`, which also reads them, is not a keyword of C++
+// and C99.
 #if defined(__AVR__)
 #include <avr/pgmspace.h>
 

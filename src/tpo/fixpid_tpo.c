@@ -72,7 +72,8 @@ static int16_t limited(int16_t duty, int16_t full)
     return duty;
 }
 
-// What this window gives: the credit in whole steps, or nothing, or all of it.
+// The pulse of this window: the credit in whole steps, or nothing, or all of
+// it.
 static void open_window(FIXPID_DATA struct fixpid_tpo *self, int16_t duty)
 {
     // Less than pulse_least is carried over, so that with the window's

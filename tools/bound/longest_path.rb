@@ -116,7 +116,7 @@ class LongestPath
     stated = @turns[@code.name(head)] || @turns.find { |name, _| @code.name(head).start_with?("#{name}_") }&.last
     stated = stated[around_a_loop?(flow, component, head) ? 0 : 1] if stated.is_a?(Array)
     stated or
-      raise Failure, format('a loop of %<name>s, at %<at>05x, counts no constant down%<why>s',
+      raise Failure, format('a loop of %<name>s, at %<at>05x, does not count down from a constant%<why>s',
                             name: @code.name(head), at: head, why: e.message.empty? ? '' : ": #{e.message}")
   end
 

@@ -6,7 +6,7 @@ require_relative 'longest_path'
 
 # How deep a function's stack may be, from all paths through its code: return
 # addresses, and bytes, of an AVR those of the return addresses among them. What
-# an instruction finds there must be the same on all ways to it. A jump into another
+# an instruction finds there must be the same on all paths to it. A jump into another
 # function, a tail call, is followed as any other.
 class Stack
   # Besides its own return address; `left` bytes are there when it has returned,
@@ -98,7 +98,7 @@ class Stack
   # frame pointer is another one.
   def reach(places, at, height, frame)
     before, framed = places.fetch(at, [height, frame])
-    refuse('the stack is not the same on all ways', at) if before != height
+    refuse('the stack is not the same on all paths', at) if before != height
     return if places.key?(at) && (framed.nil? || framed == frame)
 
     places[at] = [height, places.key?(at) ? nil : frame]
@@ -141,7 +141,7 @@ class Stack
 
   def constant(flow, at, register)
     found = flow.constants(flow.before(at), at, register).uniq
-    found.size == 1 ? found.first : raise(Flow::Unknown, 'it is not the same on all ways')
+    found.size == 1 ? found.first : raise(Flow::Unknown, 'it is not the same on all paths')
   rescue Flow::Unknown => e
     refuse("the stack pointer changes by what is not known: #{e.message},", at)
   end

@@ -122,7 +122,7 @@ print(sysconfig.get_path("include"))' 2>/dev/null)" ;;
     python3-setuptools) has_module setuptools ;;
     python3-venv) has_module venv && has_module ensurepip ;;
     python3-wheel) has_module wheel ;;
-    *) die "setup.sh does not know how to tell whether $1 is there" ;;
+    *) die "setup.sh cannot check whether $1 is installed" ;;
     esac
 }
 
@@ -196,7 +196,7 @@ need() {
     fi
     rm -f "$install_log"
     missing_of "$@"
-    [ -z "$missing" ] || die "installed, and still not usable:$missing"
+    [ -z "$missing" ] || die "installed, but not usable:$missing"
 }
 
 # expect_digest FILE SHA256: or dies, and FILE is not to be used.

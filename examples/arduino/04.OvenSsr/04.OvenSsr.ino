@@ -142,16 +142,16 @@ static void print_end(uint8_t status)
         Serial.println(F(": it was not at rest. Let it cool, then send t"));
         break;
     case FIXPID_REACTION_NO_MOVEMENT:
-        Serial.println(F(": it got no warmer. Look at heater and sensor"));
+        Serial.println(F(": it got no warmer. Check heater and sensor"));
         break;
     case FIXPID_REACTION_WRONG_WAY:
-        Serial.println(F(": it got colder. Look at sensor and wiring"));
+        Serial.println(F(": it got colder. Check sensor and wiring"));
         break;
     case FIXPID_REACTION_LIMIT:
         Serial.println(F(": too near the setpoint. Let it cool, then send h"));
         break;
     case FIXPID_REACTION_LEVELS_OFF:
-        Serial.println(F(": it answers late. Try fixpid_autotune"));
+        Serial.println(F(": it responds late. Try fixpid_autotune"));
         break;
     default:
         Serial.println(F(": it is too slow. Make RELAY_STEPS larger"));
@@ -196,7 +196,7 @@ static int16_t step(int16_t reading)
     tuning = false;
     Serial.print(F("ALARM 0x"));
     Serial.print(alarms, HEX);
-    Serial.println(F(": off. Look, then send a"));
+    Serial.println(F(": off. Check, then send a"));
     if ((alarms & FIXPID_GUARD_NOT_FALLING) != 0) {
         Serial.println(F("cut the supply"));
     }

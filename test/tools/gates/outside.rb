@@ -36,7 +36,7 @@ Dir.mktmpdir do |folder|
     Gate.expect('what a PIC wants is asked for at once', try('tools/firmware', paths[:user]).output.match?(/missing: .*ruby.* bison .*gputils/), true)
     waiting = /^site: another program has apt's lock, process 7 \(apt\): waiting for it/
     Gate.write("#{paths[:root]}/sleep", "#!/bin/sh\n")
-    { 'a while' => [3, /installed, and still not usable/], 'ever' => [99, /another program still has apt's lock, process 7 \(apt\)/] }.each do |long, (times, last)|
+    { 'a while' => [3, /installed, but not usable/], 'ever' => [99, /another program still has apt's lock, process 7 \(apt\)/] }.each do |long, (times, last)|
       Gate.write("#{paths[:root]}/apt-get", Outside.locked_apt_get("#{folder}/asked", times))
       said = try('tools/site', paths[:root]).output
       Gate.expect("apt's lock is held for #{long}", [waiting, last, /network/].map { |words| said.match?(words) }, [true, true, false])

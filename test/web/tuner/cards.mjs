@@ -236,7 +236,7 @@ const ends = (here, name) => {
         taken.OPTIONS === 0x80 && taken.OUTPUT_MIN === -50 && taken.OUTPUT_MAX === 900 && taken.rule === 'PID' && taken.ROBUSTNESS === 8, JSON.stringify(taken));
     check('and it is said', (await text(here, '#said')).includes('by PID, quick 8 are in use'), await text(here, '#said'));
     for (const [pasted, sentence] of [[record.replace(/.$/, (digit) => (digit === '0' ? '1' : '0')), 'A byte of the record is wrong'], [`02${record.slice(2)}`, 'version 2, and this page reads version 3'],
-        [record.slice(0, -3), 'this has 122 digits instead of 124'], [record.replace(/f/, 'g'), '“g” is no such digit'], [' \n', '']]) {
+        [record.slice(0, -3), 'this has 122 digits instead of 124'], [record.replace(/f/, 'g'), '“g” is not a hexadecimal digit'], [' \n', '']]) {
         await here.fill('#record', pasted);
         check(`a record is refused: ${sentence || 'nothing says nothing'}`, (await said()).includes(sentence) && ((await said()) === '') === (sentence === '') && !(await shown()), await said());
     }

@@ -53,7 +53,7 @@ await startEngine();
     const board = { version: 1, allowed: ALL, name: 'b', library: '1.0.0', seconds: 0.1, manualSteps: 9 };
     const may = (version) => createCommands({}, { board: { ...board, version } }, { isOpen: true }, {}).may(1);
     const counts = { DIFFERENT: 0, EQUAL: 5, LEFT_THINNED: 0 };
-    check('a board of another version is sent nothing', may(1) && !may(2) && boardText({ ...board, version: 2 }).includes('it is sent no command'));
+    check('a board of another version is sent nothing', may(1) && !may(2) && boardText({ ...board, version: 2 }).includes('it gets no command'));
     check('nor is it said to be equal', verdictOf(counts, 1).good === true && verdictOf(counts, 2).good === null && verdictOf(counts, 2).text === 'Not compared: the board’s link is version 2.');
 }
 // What a board sends that is asked for its name, its record and its stream.
@@ -316,7 +316,7 @@ async function streamed(steps) {
     await said(here, /^raw\.bin: /);
     check('a file of bytes is, too', equalOf(await verdict(here)) > 1500);
     await here.fill('#live-log', 'hello');
-    await pressed(here, 'read', /“h” is no such digit/);
+    await pressed(here, 'read', /“h” is not a hexadecimal digit/);
     await here.fill('#live-log', '01 02 03 04');
     await pressed(here, 'read', /no frame of fixpid_link is in these 4 bytes/);
     check('bytes are no lines of numbers', !(await here.isVisible('#live-other')));

@@ -133,7 +133,7 @@ async function sendKp({ here, run }, kp) {
     const noisy = await verdict(here);
     check(`an Uno, a bad wire: nothing is said to be different: ${noisy}`, EQUAL.test(noisy), noisy);
     const lost = await left(here);
-    check('an Uno, a bad wire: what was not compared is counted', /behind [\d\u202F]+ gaps, up to the next key frame/.test(lost) && /[\d\u202F]+ steps did not come/.test(lost) && /pieces between two frames are no frame/.test(lost), lost);
+    check('an Uno, a bad wire: what was not compared is counted', /after [\d\u202F]+ gaps, up to the next key frame/.test(lost) && /[\d\u202F]+ steps did not come/.test(lost) && /pieces between two frames are no frame/.test(lost), lost);
     spoil = (bytes) => bytes;
     for (let i = 0, equal = 0; i < 40 && equal < KEYS_APART - FLIGHT; i++) {
         equal = -equalOf(await verdict(here));

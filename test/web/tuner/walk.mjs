@@ -39,7 +39,7 @@ await press(here, 'ArrowRight');
 check('moves them all', Number(await here.inputValue('#c-kp')) < 1.5);
 check('the loop’s name', await tabTo('#loop'));
 await press(here, 'b', 'e', 'd', '-');
-check('is in the header, as far as C has such a name', await headerHas('#define LOOP_BED_GAINS_H 0x') && (await text(here, '#loop-why')) === '“bed-” is no name of C: take letters, digits and _.' && (await text(here, '#file')).startsWith('loop_bed_gains.h'));
+check('is in the header, as far as C has such a name', await headerHas('#define LOOP_BED_GAINS_H 0x') && (await text(here, '#loop-why')) === '“bed-” is not a C identifier: use letters, digits and _.' && (await text(here, '#file')).startsWith('loop_bed_gains.h'));
 await press(here, 'Tab');
 checkNone('nothing is stale', await stale(here));
 

@@ -215,7 +215,7 @@ through_indf_turn:
         goto through_indf_turn
         return
 
-indf:                           ; refused: counts no constant
+indf:                           ; refused: does not count down from a constant
         movlw 3
         movwf INDF
 indf_turn:
@@ -223,7 +223,7 @@ indf_turn:
         goto indf_turn
         return
 
-timer:                          ; refused: counts no constant
+timer:                          ; refused: does not count down from a constant
         movlw 3
         movwf TMR0
 timer_turn:

@@ -137,7 +137,7 @@ through_postdec_turn:
         bra through_postdec_turn
         return
 
-indf:                           ; refused: counts no constant
+indf:                           ; refused: does not count down from a constant
         movlw 3
         movwf INDF0, 0
 indf_turn:
@@ -145,7 +145,7 @@ indf_turn:
         bra indf_turn
         return
 
-timer:                          ; refused: counts no constant
+timer:                          ; refused: does not count down from a constant
         movlw 3
         movwf TMR0L, 0
 timer_turn:

@@ -105,7 +105,7 @@ from_register:                  @ refused: the stack pointer changes by what is 
         mov sp, r1
         bx lr
 
-not_alike:                      @ refused: not the same on all ways
+not_alike:                      @ refused: not the same on all paths
         cmp r0, r0
         beq not_alike_end
         push {r1}

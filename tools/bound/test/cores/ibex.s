@@ -117,7 +117,7 @@ from_register:                  # refused: the stack pointer changes by what is 
         mv sp, t0
         ret
 
-not_alike:                      # refused: not the same on all ways
+not_alike:                      # refused: not the same on all paths
         beqz t0, not_alike_end
         addi sp, sp, -16
 not_alike_end:

@@ -82,12 +82,12 @@ sleeps:                         ; 4 bytes
         sleep
         call first
         ret
-pushes_in_loop:                 ; refused: not the same on all ways
+pushes_in_loop:                 ; refused: not the same on all paths
         push r20
         dec r20
         brne pushes_in_loop
         ret
-pushes_sometimes:               ; refused: not the same on all ways
+pushes_sometimes:               ; refused: not the same on all paths
         sbrc r20, 0
         push r20
         ret

@@ -135,12 +135,12 @@ switch_table:
 switch_end:
         rcall first
         return
-pushes_in_loop:                 ; refused: not the same on all ways
+pushes_in_loop:                 ; refused: not the same on all paths
         clrf POSTDEC1, 0
         decfsz value, f, 0
         bra pushes_in_loop
         return
-pushes_sometimes:               ; refused: not the same on all ways
+pushes_sometimes:               ; refused: not the same on all paths
         btfsc value, 0, 0
         clrf POSTDEC1, 0
         return

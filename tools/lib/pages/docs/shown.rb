@@ -32,7 +32,7 @@ module Shown
 
     # What tools/release says that it makes.
     def released
-      rows = File.read('tools/release')[/^Makes, in .*?\n\n(.*?)\n\n/m, 1].scan(RELEASED)
+      rows = File.read('tools/release')[/^Makes these files in .*?\n\n(.*?)\n\n/m, 1].scan(RELEASED)
       "| file | what it is |\n|---|---|\n#{rows.map { |name, what| "| `#{name}` | #{what.split.join(' ')} |\n" }.join}"
     end
 
