@@ -44,10 +44,10 @@
 // Switching the output off does not remove stored heat: the reading coasts on.
 // In simulations with all ratios of dead time to lag, the reading never reached
 // a measurement_stop at least four times as far from the start as it coasts.
-// With a nearer stop the experiment ends as LIMIT and the reading may pass the
-// stop; with one nearer than one and a half times that, it may pass by as much
-// as it coasts. So begin cold, or with a smaller output: the reading then
-// coasts less far.
+// With a nearer stop the experiment ends as LIMIT, and the reading may pass the
+// stop: by as much as it coasts if the stop is nearer than one and a half times
+// that. So begin cold, or with a smaller output: the reading then coasts less
+// far.
 //
 // The module keeps the reading as the means of up to eight blocks; when there
 // are eight, each pair becomes one block of twice the length. So no time is
