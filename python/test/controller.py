@@ -239,7 +239,7 @@ def stubs_are_what_there_is():
 def help_is_the_headers():
     assert fixpid.Pid.step.__doc__.startswith("One step, once per sample period; returns output_min..output_max.")
     assert "D = clamp(D - floor(D / 2^n) + kd_q8 * d, -DMAX, DMAX)\n" in fixpid.Pid.step.__doc__
-    assert "FIXPID_" not in fixpid.Guard.__doc__ and fixpid.Guard.__doc__.startswith("fixpid_guard: says when")
+    assert "FIXPID_" not in fixpid.Guard.__doc__ and fixpid.Guard.__doc__.startswith("fixpid_guard: reports when")
     same(str(inspect.signature(fixpid.Pid.track)), "(self, applied, shift, /)")
     silent = [f"{noun.__name__}.{verb}" for noun in fixpid.Noun.__subclasses__() for verb, method in vars(noun).items()
               if callable(method) and not verb.startswith("_") and verb != "check" and not method.__doc__]
