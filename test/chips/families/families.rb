@@ -38,7 +38,7 @@ FAMILIES = [
             limits: { 'an937' => 755, 'an964' => 590, 'an964_8bit' => 415 }, **S51),
   Ucsim.new(name: '8051-stack-auto', title: '8051, small, `--stack-auto`', controllers: ALL,
             refused: {}, compiler: %w[-mmcs51 --model-small --stack-auto], linker: %w[--iram-size 256],
-            limits: { 'pid' => 1960 }, **S51),
+            limits: { 'pid' => 2600 }, **S51),
   Ucsim.new(name: '8051-large', title: '8051, large', controllers: ALL, refused: {}, compiler: %w[-mmcs51 --model-large],
             linker: %w[--iram-size 256 --xram-size 0xff00], limits: {}, **S51),
   Msp430.new(name: 'msp430', title: 'MSP430', controllers: ALL, refused: {}, options: %w[-Os],
