@@ -4,9 +4,9 @@
 // actuator to rest. Four rules in ten scenarios.
 //
 // On an ATmega328P at -O2, with no other feature than tracking, a step with the
-// recipe took 358 cycles, and 528 at most where the output was limited; the step
-// alone, without tracking, took 222 to 244. Flash grew by 506 bytes. (Measured
-// once, in simavr by the meter of tools/cost.)
+// recipe took 358 cycles, and 528 at most where the output was limited; the
+// step alone, without tracking, took 222 to 244. Flash grew by 506 bytes.
+// (Measured once, in simavr by the meter of tools/cost.)
 #include <math.h>
 #include <stdio.h>
 

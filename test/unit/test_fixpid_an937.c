@@ -188,7 +188,8 @@ void test_set_gains_motor_goes_to_144_and_the_output_jumps_by_the_law(void)
     TEST_ASSERT_EQUAL_INT32(before + INT32_C(64) * 1500 / 16, step(0));
 }
 
-// docs/migrating.md: the firmware gives a shrinking error the sign of the error.
+// docs/migrating.md: the firmware gives a shrinking error the sign of the
+// error.
 void test_step_error_shrinks_derivative_pushes_against_proportional(void)
 {
     tick_and_step(1000);

@@ -44,7 +44,7 @@ await startEngine();
     check('hexadecimal is read', bytesOfText('0x0b, 09 01;FF').bytes.join() === '11,9,1,255');
     check('what is no digit is named', bytesOfText('0b 0g').refused.includes('“g”'), bytesOfText('0b 0g').refused);
     check('half a byte is refused', bytesOfText('0b0').refused.includes('left over'));
-    check('another JSON is refused', bytesOfText('{"a":1}').refused.includes('no log'));
+    check('another JSON is refused', bytesOfText('{"a":1}').refused.includes('not a log'));
     check('a file with a 0 in it is bytes', bytesOfFile(Uint8Array.of(49, 0, 50)).bytes.length === 3 && bytesOfFile(Uint8Array.of(49, 50)).bytes.join() === '18');
 }
 {
@@ -301,7 +301,7 @@ async function streamed(steps) {
     const here = await open('', { viewport: { width: 390, height: 844 }, colorScheme: 'dark' }, undefined, (page) => page.addInitScript(() => { delete Navigator.prototype.serial; }));
     check('a board’s part waits for a button', !(await here.isVisible('#live')));
     await here.click('#open-live');
-    check('without Web Serial it is said what to do', await here.isDisabled('#live-connect') && (await text(here, '#live-none')).includes('A log of the board’s bytes') && await here.isVisible('#live-none'));
+    check('without Web Serial it is said what to do', await here.isDisabled('#live-connect') && (await text(here, '#live-none')).includes('log of the board’s bytes') && await here.isVisible('#live-none'));
     await here.click('#live summary');
     await here.fill('#live-log', [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join(' '));
     await pressed(here, 'read', /^The log: 3\u202F001 steps in [\d\u202F]+ bytes\.$/);
