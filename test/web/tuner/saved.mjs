@@ -83,7 +83,7 @@ await here.waitForFunction((wanted) => window.tuner.fragmentOf(window.tuner.curr
 check('a JSON comes back in', json.name === 'loop.json' && (await text(here, '#said')) === 'loop.json is open.', await text(here, '#said'));
 checkNone('nothing is stale', await stale(here));
 await here.setInputFiles('#open-json', { name: 'other.json', mimeType: 'application/json', buffer: Buffer.from('{"a": 1}') });
-await here.waitForFunction(() => document.querySelector('#said').textContent.startsWith('This JSON is not'));
+await here.waitForFunction(() => document.querySelector('#said').textContent.startsWith('This JSON was not'));
 check('another JSON changes nothing', (await fragment(here)) === before);
 const gains = await taken('#save');
 check('the header is a file', gains.name === 'loop_gains.h' && gains.bytes.toString() === (await text(here, '#header')));
