@@ -38,29 +38,38 @@ void identify_simc(const struct identify_plant *plant, double step, double calm,
     gains[2] = ringing ? (kp * squared(plant->lag) / lag) : 0.0;
 }
 
+void identify_denominator(const struct identify_plant *plant, double a[3])
+{
+    a[0] = 1.0;
+    a[1] = plant->lag + plant->lag2;
+    a[2] = plant->lag * plant->lag2;
+    if (plant->kind == IDENTIFY_RINGING) {
+        a[1] = 2.0 * plant->damping * plant->lag;
+        a[2] = squared(plant->lag);
+    } else if (plant->kind == IDENTIFY_INTEGRATING) {
+        a[0] = 0.0;
+        a[1] = 1.0;
+        a[2] = plant->lag2;
+    }
+}
+
 // 1 + the controller's answer times the plant's at a frequency, with a filter
 // of a tenth of the derivative's time.
-static struct number difference_at(const struct identify_plant *p, double dead,
+static struct number difference_at(double gain, const double a[3], double dead,
                                    const double gains[3], double w)
 {
-    const bool integrating = p->kind == IDENTIFY_INTEGRATING;
-    const bool ringing = p->kind == IDENTIFY_RINGING;
     const double td = gains[2] / gains[0] * w;
     const double filter = 1.0 + squared(td / 10.0);
     const struct number c = {1.0 + (squared(td) / 10.0 / filter),
                              (td / filter) - (gains[1] / gains[0] / w)};
-    const double a2 = integrating ? p->lag2
-                      : ringing   ? squared(p->lag)
-                                  : (p->lag * p->lag2);
-    const double a1 = integrating ? 1.0
-                      : ringing   ? (2.0 * p->damping * p->lag)
-                                  : (p->lag + p->lag2);
-    const struct number d = {(integrating ? 0.0 : 1.0) - (a2 * w * w), a1 * w};
-    const double size = gains[0] * p->gain / (squared(d.re) + squared(d.im));
+    const struct number d = {a[0] - (a[2] * w * w), a[1] * w};
+    const double size = gains[0] * gain / (squared(d.re) + squared(d.im));
     const double re = size * ((c.re * d.re) + (c.im * d.im));
     const double im = size * ((c.im * d.re) - (c.re * d.im));
-    return (struct number){1.0 + (re * cos(w * dead)) + (im * sin(w * dead)),
-                           (im * cos(w * dead)) - (re * sin(w * dead))};
+    const double cosine = cos(w * dead);
+    const double sine = sin(w * dead);
+    return (struct number){1.0 + (re * cosine) + (im * sine),
+                           (im * cosine) - (re * sine)};
 }
 
 // By Nyquist 1 + the loop turns by a quarter for each integrator and no more.
@@ -72,13 +81,15 @@ double identify_ms(const struct identify_plant *plant, double step,
     const double low = 0.01 / (plant->lag + plant->lag2 + plant->dead + step +
                                fabs(gains[0] / gains[1]));
     const double factor = exp(log(3.1 / step / low) / (POINTS - 1));
-    struct number last = difference_at(plant, dead, gains, low);
+    double a[3];
+    identify_denominator(plant, a);
+    struct number last = difference_at(plant->gain, a, dead, gains, low);
     double nearest = squared(last.re) + squared(last.im);
     double turned = integrating ? (-2.0 * QUARTER) : -QUARTER;
     double w = low;
     for (int i = 1; i < POINTS; i++) {
         w *= factor;
-        const struct number at = difference_at(plant, dead, gains, w);
+        const struct number at = difference_at(plant->gain, a, dead, gains, w);
         nearest = fmin(nearest, squared(at.re) + squared(at.im));
         turned += atan2((last.re * at.im) - (last.im * at.re),
                         (last.re * at.re) + (last.im * at.im));

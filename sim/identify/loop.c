@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "identify.h"
+#include "parts.h"
 
 #define PI 3.14159265358979323846
 #define NONE (-1.0)
@@ -34,16 +34,6 @@ struct sampled {
     const double *c;
     const struct loop_controller *controller;
 };
-
-static double larger(double a, double b)
-{
-    return (a > b) ? a : b;
-}
-
-static double smaller(double a, double b)
-{
-    return (a < b) ? a : b;
-}
 
 static struct number product(struct number a, struct number b)
 {
@@ -98,18 +88,14 @@ void loop_plant_second_order(struct loop_plant *to, const double a[3],
 void loop_plant_of(struct loop_plant *to, const struct identify_plant *from,
                    double unit_per_count, double drive_per_count)
 {
-    const double lags = from->lag + from->lag2;
-    double a[3] = {1.0, lags, from->lag * from->lag2};
+    double a[3];
 
-    *to = (struct loop_plant){.dead = from->dead, .scale = lags + from->dead};
+    identify_denominator(from, a);
+    *to = (struct loop_plant){.dead = from->dead,
+                              .scale = from->lag + from->lag2 + from->dead};
     if (from->kind == IDENTIFY_RINGING) {
-        a[1] = 2.0 * from->damping * from->lag;
-        a[2] = from->lag * from->lag;
-        to->scale = (from->lag / larger(from->damping, 0.05)) + from->dead;
+        to->scale = (from->lag / fmax(from->damping, 0.05)) + from->dead;
     } else if (from->kind == IDENTIFY_INTEGRATING) {
-        a[0] = 0.0;
-        a[1] = 1.0;
-        a[2] = from->lag2;
         to->scale = 2.0 * (from->dead + from->lag2);
     }
     loop_plant_second_order(to, a,
@@ -151,7 +137,7 @@ static struct matrix moved(const struct loop_plant *plant, double seconds)
             row += fabs(plant->a[i][j]);
         }
         rates.of[i][INPUT] = plant->b[i];
-        largest = larger(largest, row);
+        largest = fmax(largest, row);
     }
     while ((largest * part > 0.125) && (doublings < 60)) {
         part /= 2.0;
@@ -207,7 +193,7 @@ static void sample(struct sampled *s, const struct loop_plant *plant,
     s->states = plant->states;
     s->c = plant->c;
     s->steps = (int)floor((plant->dead / step_s) + 1e-9);
-    const double late = larger(plant->dead - (s->steps * step_s), 0.0);
+    const double late = fmax(plant->dead - (s->steps * step_s), 0.0);
     const struct matrix after = moved(plant, step_s - late);
     const struct matrix during = moved(plant, late);
     s->change = moved(plant, step_s);
@@ -318,7 +304,7 @@ static bool is_stable(const struct sampled *s, double lowest)
     struct number last = characteristic(s, angle);
 
     while ((angle < PI) && (fabs(turned) < 4.0 * PI)) {
-        const double next = smaller(angle * ratio, PI);
+        const double next = fmin(angle * ratio, PI);
         const struct number now = characteristic(s, next);
         const struct number by = quotient(now, last);
         const double turn = atan2(by.im, by.re);
@@ -329,7 +315,7 @@ static bool is_stable(const struct sampled *s, double lowest)
         turned += turn;
         angle = next;
         last = now;
-        ratio = smaller(ratio * ratio, WIDEST);
+        ratio = fmin(ratio * ratio, WIDEST);
     }
     return fabs(turned) < ((s->controller->ki != 0.0) ? 0.75 * PI : 0.25 * PI);
 }
@@ -366,7 +352,7 @@ static double nearness(struct number at, double off)
 {
     const double square = (at.re * at.re) + (at.im * at.im);
     const double worst = (square > 0.0) ? (-at.re / square) : 1.0;
-    const double factor = larger(smaller(worst, 1.0 + off), 1.0 - off);
+    const double factor = fmax(fmin(worst, 1.0 + off), 1.0 - off);
     const struct number from = {1.0 + (factor * at.re), factor * at.im};
     return 1.0 / size_of(from);
 }
@@ -398,7 +384,7 @@ static double highest(const struct sampled *s, const struct loop_margins *m,
             high = b;
         }
     }
-    return larger(most, nearness(loop_at(s, sqrt(low * high)), off));
+    return fmax(most, nearness(loop_at(s, sqrt(low * high)), off));
 }
 
 // The loop is real here: a gain margin, where it is left of 0.
@@ -410,7 +396,7 @@ static void limit(struct loop_margins *m, struct number at, double angle)
         return;
     }
     if (margin < 1.0) {
-        m->lower_gain = larger(m->lower_gain, margin);
+        m->lower_gain = fmax(m->lower_gain, margin);
     } else if ((m->gain < 0.0) || (margin < m->gain)) {
         m->gain = margin;
         m->turnover = angle;
@@ -486,7 +472,7 @@ void loop_margins(const struct loop_plant *plant,
 {
     struct sampled s = {.controller = controller};
     const double scale_steps = (plant->scale / step_s) + 1e-9;
-    const double lowest = smaller(0.01, 0.02 / scale_steps);
+    const double lowest = fmin(0.01, 0.02 / scale_steps);
 
     sample(&s, plant, step_s);
     divide(&s);

@@ -116,6 +116,11 @@ struct numbers search_near(const struct task *task, struct numbers from,
 void search_unweigh(struct lines *lines);
 void search_weigh(const struct task *task, const struct identify_plant *plant);
 
+// ---- gains.c ----
+
+// The plant is its gain over a[0] + a[1] s + a[2] s^2, and its dead time.
+void identify_denominator(const struct identify_plant *plant, double a[3]);
+
 // ---- doubt.c ----
 
 // Prepares a kind's share of the plants that the recording allows, and fills
