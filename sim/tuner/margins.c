@@ -6,17 +6,6 @@
 #include "params.h"
 #include "scene.h"
 
-static double highest_output(void)
-{
-    return fmax(param(PARAM_OUTPUT_MAX), -param(PARAM_OUTPUT_MIN));
-}
-
-static double unit_per_count(void)
-{
-    return param(PARAM_SENSOR_RANGE) /
-           (double)((1 << (int)param(PARAM_SENSOR_BITS)) - 1);
-}
-
 static const struct scene *at_rest(void)
 {
     static struct scene scene;

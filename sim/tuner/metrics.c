@@ -17,11 +17,6 @@ double *tuner_metrics(void)
     return metrics;
 }
 
-static double sensor_top(void)
-{
-    return (double)((1 << (int)param(PARAM_SENSOR_BITS)) - 1);
-}
-
 // The setpoint as the loop had it, in units.
 static double setpoint(int i)
 {
@@ -60,7 +55,7 @@ static void step_response(int n)
     const double goal = setpoint(0);
     const double way = (goal < y[0]) ? -1.0 : 1.0;
     const double span = (goal < y[0] || goal > y[0]) ? fabs(goal - y[0]) : 1.0;
-    const double count = param(PARAM_SENSOR_RANGE) / sensor_top();
+    const double count = unit_per_count();
     const double band =
         fmax(SETTLED_PART * span, (1.0 + param(PARAM_NOISE)) * count);
     int risen = n;
@@ -125,7 +120,7 @@ static void sums(int n)
 
 static void differences(int n)
 {
-    const double count = param(PARAM_SENSOR_RANGE) / sensor_top();
+    const double count = unit_per_count();
     double squares = 0.0;
 
     metrics[METRIC_TWIN_MOST] = 0.0;

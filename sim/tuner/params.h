@@ -7,4 +7,11 @@
 // `which` is of enum tuner_param.
 double param(int which);
 
+// The converter's largest count, and units for one.
+double sensor_top(void);
+double unit_per_count(void);
+
+// Of either sign.
+double highest_output(void);
+
 #endif

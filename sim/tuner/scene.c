@@ -110,11 +110,6 @@ double scene_value(const struct scene *self)
     }
 }
 
-static double sensor_top(void)
-{
-    return (double)((1 << (int)param(PARAM_SENSOR_BITS)) - 1);
-}
-
 static int16_t converted(double units, double noise)
 {
     const double top = sensor_top();
@@ -177,7 +172,7 @@ static void move_pendulum(struct scene *self, double drive)
 
 void scene_move(struct scene *self, double output)
 {
-    const double most = fmax(param(PARAM_OUTPUT_MAX), -param(PARAM_OUTPUT_MIN));
+    const double most = highest_output();
     const double drive = output / most;
 
     switch (self->kind) {

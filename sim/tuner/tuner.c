@@ -453,7 +453,7 @@ static bool begin_relay(void)
         .output_min = (int16_t)param(PARAM_OUTPUT_MIN),
         .output_max = (int16_t)param(PARAM_OUTPUT_MAX),
         .measurement_min = -1, // the plant may rest at the converter's end
-        .measurement_max = (int16_t)((1 << (int)param(PARAM_SENSOR_BITS)) - 1),
+        .measurement_max = (int16_t)sensor_top(),
         .swing = (uint16_t)param(PARAM_SWING),
         .timeout_steps = TIMEOUT_STEPS,
         .cycles = (uint8_t)param(PARAM_CYCLES),
