@@ -16,10 +16,14 @@ module DataTables
       CSV.read(path(name, root))
     end
 
+    def text(rows)
+      rows.map(&:to_csv).join
+    end
+
     # Whole or not at all.
     def write(name, rows, root = '.')
       path = path(name, root)
-      File.write("#{path}.new", rows.map(&:to_csv).join)
+      File.write("#{path}.new", text(rows))
       File.rename("#{path}.new", path)
     end
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require 'csv'
+require_relative '../../../tools/lib/data_tables'
 
 require_relative 'harness'
 require_relative '../../../tools/lib/measure/meters'
@@ -200,7 +200,7 @@ module Alone
 
   # The tests, and what they have found.
   class Tests
-    DOCUMENT = 'docs/data/tuner_alone.csv'
+    TABLE = 'tuner_alone'
     # Of the flash; an application wants the rest.
     WHOLE_MOST = 0.6
     HEAD = ['chip', 'flash', 'experiment alone adds', 'its RAM, and stack', 'the whole tuner adds', 'take', 'the whole tuner from'].freeze
@@ -260,7 +260,7 @@ module Alone
     end
 
     def table
-      [HEAD, *CHIPS.map { |chip| row(chip, @found.fetch(chip.name)) }].map(&:to_csv).join
+      [HEAD, *CHIPS.map { |chip| row(chip, @found.fetch(chip.name)) }]
     end
 
     def row(chip, found)
@@ -280,14 +280,14 @@ module Alone
     end
 
     def rewrite
-      File.write(DOCUMENT, table)
-      "#{DOCUMENT} is rewritten"
+      DataTables.write(TABLE, table)
+      "#{DataTables.path(TABLE)} is rewritten"
     end
 
     def check
-      return DOCUMENT if table == File.read(DOCUMENT)
+      return DataTables.path(TABLE) unless DataTables.difference(TABLE, table)
 
-      raise Host::Failure, "#{DOCUMENT} is stale; test/chips/families/run --update alone renews it"
+      raise Host::Failure, "#{DataTables.path(TABLE)} is stale; test/chips/families/run --update alone renews it"
     end
   end
 end

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The tables of docs/assurance.md: what is claimed, how it is known, of how much, and the command
 # that shows it; the theorems; and what the proofs assume. What can be counted is counted here.
-require 'csv'
+require_relative '../../data_tables'
 require_relative '../../prove/assembly'
 require_relative '../../prove/domains'
 require_relative '../../prove/seeded'
@@ -33,12 +33,8 @@ module Assurance
 
   # Each file's text.
   def files
-    { 'docs/data/claims.csv' => csv(%w[known claim amount command], table), 'docs/data/theorems.csv' => csv(%w[module theorem assumed command], theorems),
-      'docs/data/domains.csv' => csv(%w[module domain holds], domains) }
-  end
-
-  def csv(head, rows)
-    CSV.generate { |lines| [head, *rows].each { |cells| lines << cells } }
+    { 'claims' => [%w[known claim amount command], *table], 'theorems' => [%w[module theorem assumed command], *theorems],
+      'domains' => [%w[module domain holds], *domains] }.to_h { |name, rows| ["#{DataTables::FOLDER}/#{name}.csv", DataTables.text(rows)] }
   end
 
   def table

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Which form of its arithmetic each controller takes on which chip, as the
 # preprocessor chooses it from the macros of the chip's compiler.
-require 'csv'
 require 'fileutils'
 require 'open3'
+require_relative '../../data_tables'
 
 module Forms
   FILE = 'docs/data/forms.csv'.freeze
@@ -31,7 +31,7 @@ module Forms
     def csv
       standard_headers
       rows = CHIPS.map { |chip, macros| [chip, *CONTROLLERS.map { |controller| form(controller, macros) }] }
-      CSV.generate { |lines| [['chip', *CONTROLLERS], *rows].each { |cells| lines << cells } }
+      DataTables.text([['chip', *CONTROLLERS], *rows])
     end
 
     private

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require 'csv'
 require 'fileutils'
 require 'open3'
+require_relative '../../data_tables'
 
 # How many return addresses a call takes where nothing is inlined, for a PIC16's stack of
 # eight: from the object files of the library as XC8 preprocesses it for one, which
@@ -21,7 +21,7 @@ class Levels
     def csv
       FileUtils.mkdir_p(FOLDER)
       rows = Dir['include/fixpid_*.h'].sort.map { |header| new(File.basename(header, '.h')).row }
-      CSV.generate { |lines| [['module', 'step', 'deepest call', 'does not fit'], *rows].each { |cells| lines << cells } }
+      DataTables.text([['module', 'step', 'deepest call', 'does not fit'], *rows])
     end
   end
 

@@ -3,7 +3,7 @@
 # where the library deviates from it, with the reason that stands there. UNSEEN has those that
 # cppcheck's addon has no code for, with what looks for them instead, and nothing if nobody
 # does. Called as a program it holds them against the addon that is installed.
-require 'csv'
+require_relative '../../data_tables'
 
 module Misra
   FILE = 'docs/misra.csv'.freeze
@@ -37,7 +37,7 @@ module Misra
   class << self
     def csv
       rows = RULES_OF_2012.map { |rule| [rule, category(rule), UNSEEN.fetch(rule, "cppcheck's addon") || 'nobody', deviations(rule).join('; ').tr('`', '')] }
-      CSV.generate { |lines| [['rule', 'category', 'looked for by', 'deviations'], *rows].each { |cells| lines << cells } }
+      DataTables.text([['rule', 'category', 'looked for by', 'deviations'], *rows])
     end
 
     def category(rule)

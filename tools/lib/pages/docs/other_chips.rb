@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # frozen_string_literal: true
 
-require 'csv'
+require_relative '../../data_tables'
 
 # What to change in a copy of the nearest port for a chip that has none, from gputils'
 # header and linker script of both: which of the port's registers and settings it has
@@ -104,7 +104,7 @@ module OtherChips
 
   def self.csv
     rows = NAMES.map { |name| near(name).row }
-    CSV.generate { |lines| [['chip', 'nearest port', 'registers', 'memory', 'settings'], *rows].each { |cells| lines << cells } }
+    DataTables.text([['chip', 'nearest port', 'registers', 'memory', 'settings'], *rows])
   end
 
   def self.near(name)
