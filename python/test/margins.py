@@ -132,4 +132,25 @@ def margins_of_any_loop_are_those_of_its_eigenvalues():
     assert 15 < sum(seen) < len(seen) - 3, seen
 
 
+def plants_are_the_transfer_functions_of_their_kinds():
+    """The plants of a recording in the sampled loop, and Ms of a loop with each in continuous time."""
+    bottoms = {lib.IDENTIFY_FIRST: lambda s: 7 * s + 1, lib.IDENTIFY_SECOND: lambda s: (7 * s + 1) * (2 * s + 1),
+               lib.IDENTIFY_INTEGRATING: lambda s: s * (2 * s + 1), lib.IDENTIFY_RINGING: lambda s: 49 * s**2 + 2 * 0.3 * 7 * s + 1}
+    numbers = {lib.IDENTIFY_FIRST: {"lag": 7}, lib.IDENTIFY_SECOND: {"lag": 7, "lag2": 2}, lib.IDENTIFY_INTEGRATING: {"lag2": 2},
+               lib.IDENTIFY_RINGING: {"lag": 7, "damping": 0.3}}
+    s = 1j * numpy.geomspace(1e-3, 30, 20000)
+    for kind, bottom in bottoms.items():
+        plant = ffi.new("struct identify_plant *", {"kind": kind, "gain": 3, "dead": 1.5, **numbers[kind]})
+        linear, gains = ffi.new("struct loop_plant *"), ffi.new("double[3]")
+        lib.loop_plant_of(linear, plant, 0.5, 4)
+        n = linear.states
+        a, b, c = numpy.array([list(row)[:n] for row in linear.a])[:n], numpy.array(list(linear.b)[:n]), numpy.array(list(linear.c)[:n])
+        for one in s[::4000]:
+            near(c @ numpy.linalg.solve(one * numpy.eye(n) - a, b), 3 * 4 / 0.5 / bottom(one), 1e-9, f"kind {kind} at {one}")
+        lib.identify_simc(plant, 0.25, 1, gains)
+        kp, ki, kd = gains
+        loop = (kp + ki / s + kd * s / (1 + kd / kp / 10 * s)) * 3 / bottom(s) * numpy.exp(-s * (1.5 + 0.25 / 2))
+        near(lib.identify_ms(plant, 0.25, gains), max(1 / abs(1 + loop)), 0.01, f"kind {kind}: Ms")
+
+
 run(NAMES)
