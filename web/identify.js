@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The C of sim/identify/identify.h: a plant from a recording. What it says of models and
 // plants is as in the header.
+import { LIMIT } from './built.js';
 import { exported } from './engine.js';
 import { doubles, room, read, sizeOf, write } from './structs.js';
-
-const LINES = 1500; // IDENTIFY_LINES
 
 // The columns of a recording: seconds, what drove the plant, what was measured. `before` is
 // the drive with which it stood still until the first line, or null.
@@ -25,6 +24,7 @@ export function identify({ t, u, y, before = null }) {
 
 // What a model of the last recording measures, at seconds after its first line.
 export function identifyCurve(model) {
+    const { LINES } = LIMIT; // at most
     const at = room(16 * LINES + sizeOf('identify_model'));
     write('identify_model', at + 16 * LINES, model);
     const count = exported().identify_curve(at + 16 * LINES, at, at + 8 * LINES);

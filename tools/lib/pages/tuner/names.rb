@@ -29,7 +29,7 @@ module Names
         LIMIT: { **%w[STEPS EVENTS EVENT_SIZE].to_h { |name| [name, number(header, "TUNER_#{name}")] }, **gains(pid),
                  **%w[SUM TERM OUTPUT].to_h { |name| ["AN964_#{name}", number(an964, "FIXPID_AN964_#{name}_LIMIT")] },
                  RECORD_SIZE: number(tuner, 'FIXPID_AUTOTUNE_RECORD_SIZE'),
-                 RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION'), LIVE_BYTES: number(live, 'LIVE_BYTES') } }
+                 RECORD_VERSION: number(tuner, 'FIXPID_AUTOTUNE_RECORD_VERSION'), LINES: number(identify, 'IDENTIFY_LINES'), LIVE_BYTES: number(live, 'LIVE_BYTES') } }
     end
 
     def version
