@@ -310,9 +310,9 @@ int16_t loop_step(struct loop *self, int16_t reading)
 
     for (int i = 0; i < GUARDS; i++) {
         if (self->alarms[i] >= 0) {
-            self->alarms[i] |=
-                fixpid_guard_step(&self->guards[i], setpoint, reading, output) &
-                FIXPID_GUARD_ALARMS;
+            const int flags =
+                fixpid_guard_step(&self->guards[i], setpoint, reading, output);
+            self->alarms[i] |= flags & (int)FIXPID_GUARD_ALARMS;
         }
     }
     self->peer_alarms |= ask_peers(self, reading);

@@ -42,7 +42,7 @@ FAMILIES = [
   Ucsim.new(name: '8051-large', title: '8051, large', controllers: ALL, refused: {}, compiler: %w[-mmcs51 --model-large],
             linker: %w[--iram-size 256 --xram-size 0xff00], limits: {}, **S51),
   Msp430.new(name: 'msp430', title: 'MSP430', controllers: ALL, refused: {}, options: %w[-Os],
-             limits: { 'an937' => 1440, 'an964' => 485, 'an964_8bit' => 395, 'pid' => 3200 }),
+             limits: { 'an937' => 1440, 'an964' => 485, 'an964_8bit' => 395, 'pid' => 4350 }),
   # The forms for multipliers of 16 bits where int has 16, as on a dsPIC.
   Msp430.new(name: 'msp430-wide', title: 'MSP430, wide forms', controllers: ALL, refused: {}, options: %w[-Os -U__MSP430__], limits: {}),
   Ucsim.new(name: 'z80', title: 'Z80', controllers: ALL, refused: {}, compiler: %w[-mz80],

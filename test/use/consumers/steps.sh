@@ -364,8 +364,8 @@ linked_for() {
     arm-*) # no start-up code without a C library
         quiet compile "$1" -nostdlib -Wl,-e,main ./*.rel -lgcc -o app
         ;;
-    sdcc-*) # an HC08's 64 KB do not hold all of them at once
-        [ "$1" != sdcc-hc08 ] || rm fixpid_autotune*.rel fixpid_link*.rel
+    sdcc-*) # an HC08's 64 KB do not hold all modules at once
+        [ "$1" != sdcc-hc08 ] || rm fixpid_autotune*.rel fixpid_reaction*.rel fixpid_guard*.rel fixpid_link*.rel
         quiet compile "$1" empty.rel fixpid_*.rel -o app.ihx
         ;;
     *) quiet compile "$1" ./*.rel -o app ;;
