@@ -66,6 +66,7 @@ static void drive(int16_t output);
 struct order {
     int16_t setpoint;
     struct fixpid_pid_gains gains;
+    uint8_t edition; // of the gains: whoever changes them adds 1
 };
 
 static QueueHandle_t orders; // xQueueCreate(1, sizeof(struct order))
@@ -75,12 +76,15 @@ static struct fixpid_pid pid;
 // Nobody else calls a function of this controller.
 static void control_task(void *unused)
 {
-    struct order order = {0, {0, 0, 0, 0}};
+    struct order order = {0, {0, 0, 0, 0}, 0};
+    uint8_t edition = 0; // which the controller has
     TickType_t woken = xTaskGetTickCount();
 
     (void)unused;
     for (;;) {
-        if (xQueueReceive(orders, &order, 0) == pdTRUE) {
+        (void)xQueueReceive(orders, &order, 0);
+        if (order.edition != edition) {
+            edition = order.edition;
             (void)fixpid_pid_set_gains(&pid, &order.gains);
             fixpid_pid_seed(&pid, fixpid_pid_output(&pid));
         }
@@ -109,17 +113,20 @@ static void drive(int16_t output)
     motion_move(&motion, output);
 }
 
-// Another task runs now; after the last step all end.
+// Another task runs now, which repeats its order each time; after the last step
+// all end.
 static void vTaskDelayUntil(TickType_t *woken, TickType_t ticks)
 {
-    static const struct order faster = {
-        .setpoint = 700, .gains = FIXPID_PID_GAINS(2, 0.05, 0, 1, 0)};
+    static const struct order faster = {.setpoint = 700,
+                                        .gains =
+                                            FIXPID_PID_GAINS(2, 0.05, 0, 1, 0),
+                                        .edition = 2};
     const TickType_t k = *woken / ticks;
 
     (void)printf("%u,%d,%.6g,%d\n", (unsigned)k, (k < STEPS / 2) ? 600 : 700,
                  motion.value, fixpid_pid_output(&pid));
     *woken += ticks;
-    if (k + 1u == STEPS / 2) {
+    if (k + 1u >= STEPS / 2) {
         change(&faster);
     }
     if (k + 1u == STEPS) {
@@ -135,7 +142,7 @@ int main(void)
         .output_max = 255};
     static const struct plant_counts process = {
         .gain = 4.0, .lag_steps = 50.0, .delay_steps = 3, .sensor_max = 1023.0};
-    const struct order first = {600, config.gains};
+    const struct order first = {600, config.gains, 1};
 
     (void)fixpid_pid_init(&pid, &config);
     motion_start(&motion, &process);

@@ -46,10 +46,17 @@ static void on_timer(void)
 
 // In the main loop. A setpoint has two bytes, which an 8-bit chip writes one
 // after the other: that is masked, too.
-static void change(int16_t new_setpoint, const struct fixpid_pid_gains *gains)
+static void change_setpoint(int16_t new_setpoint)
 {
     disable_interrupts();
     setpoint = new_setpoint;
+    enable_interrupts();
+}
+
+// A seed keeps the output where it is: only new gains want that.
+static void change_gains(const struct fixpid_pid_gains *gains)
+{
+    disable_interrupts();
     (void)fixpid_pid_set_gains(&pid, gains);
     fixpid_pid_seed(&pid, fixpid_pid_output(&pid));
     enable_interrupts();
@@ -71,12 +78,10 @@ int main(void)
     motion_start(&motion, &process);
     (void)printf("time_s,setpoint,value,output\n");
     for (int k = 0; k < STEPS; k++) {
-        if (k == 0) {
-            change(600, &config.gains);
-        }
         if (k == STEPS / 2) {
-            change(700, &faster);
+            change_gains(&faster);
         }
+        change_setpoint((k < STEPS / 2) ? 600 : 700);
         if (masked != 0) {
             return EXIT_FAILURE;
         }

@@ -63,6 +63,7 @@ static int k_msgq_get(struct k_msgq *queue, void *item, int wait)
 struct order {
     int16_t setpoint;
     struct fixpid_pid_gains gains;
+    uint8_t edition; // of the gains: whoever changes them adds 1
 };
 
 K_MSGQ_DEFINE(orders, sizeof(struct order), 1, 4);
@@ -73,14 +74,17 @@ static struct fixpid_pid pid;
 // Nobody else calls a function of this controller.
 static void control_thread(void *a, void *b, void *c)
 {
-    struct order order = {0, {0, 0, 0, 0}};
+    struct order order = {0, {0, 0, 0, 0}, 0};
+    uint8_t edition = 0; // which the controller has
 
     (void)a;
     (void)b;
     (void)c;
     k_timer_start(&period, K_MSEC(100), K_MSEC(100));
     for (;;) {
-        if (k_msgq_get(&orders, &order, K_NO_WAIT) == 0) {
+        (void)k_msgq_get(&orders, &order, K_NO_WAIT);
+        if (order.edition != edition) {
+            edition = order.edition;
             (void)fixpid_pid_set_gains(&pid, &order.gains);
             fixpid_pid_seed(&pid, fixpid_pid_output(&pid));
         }
@@ -109,17 +113,20 @@ static void drive(int16_t output)
     motion_move(&motion, output);
 }
 
-// Another thread runs now; after the last step all end.
+// Another thread runs now, which repeats its order each time; after the last
+// step all end.
 static uint32_t k_timer_status_sync(struct k_timer *timer)
 {
-    static const struct order faster = {
-        .setpoint = 700, .gains = FIXPID_PID_GAINS(2, 0.05, 0, 1, 0)};
+    static const struct order faster = {.setpoint = 700,
+                                        .gains =
+                                            FIXPID_PID_GAINS(2, 0.05, 0, 1, 0),
+                                        .edition = 2};
     const unsigned k = timer->expired;
 
     (void)printf("%u,%d,%.6g,%d\n", k, (k < STEPS / 2) ? 600 : 700,
                  motion.value, fixpid_pid_output(&pid));
     timer->expired++;
-    if (k + 1u == STEPS / 2 && !change(&faster)) {
+    if (k + 1u >= STEPS / 2 && !change(&faster)) {
         exit(EXIT_FAILURE);
     }
     if (k + 1u == STEPS) {
@@ -136,7 +143,7 @@ int main(void)
         .output_max = 255};
     static const struct plant_counts process = {
         .gain = 4.0, .lag_steps = 50.0, .delay_steps = 3, .sensor_max = 1023.0};
-    const struct order first = {600, config.gains};
+    const struct order first = {600, config.gains, 1};
 
     (void)fixpid_pid_init(&pid, &config);
     motion_start(&motion, &process);
