@@ -11,7 +11,11 @@
 #include <fixpid_pid.h>
 #include <fixpid_reaction.h>
 #include <fixpid_record.h>
+#include <fixpid_table.h>
 #include <fixpid_tpo.h>
+
+// For a thermistor remove the slashes, and adapt the points below.
+// #define WITH_NTC
 
 const int RATE = 1;         // steps per second: of tuner, controller and guard
 const int RELAY_STEPS = 10; // of each of these: the relay's window
@@ -21,11 +25,37 @@ static_assert(RELAY_MS * RELAY_STEPS * RATE == 1000,
 
 const int SSR = 9;
 const int16_t FULL = 1000;
-// A reading is the sum of ten of A0: 0..10230. The heat-up that tunes ends
-// before it reaches the setpoint.
-const int16_t SETPOINT = 6480;  // 95 C, where 10230 is 150 C
-const int16_t SENSOR_MIN = 100; // an open or a shorted sensor reads beyond
+
+// A reading is the sum of ten of A0, 0..10230, or what a curve makes of it. The
+// heat-up that tunes ends before it reaches the setpoint. An open or a shorted
+// sensor reads beyond SENSOR_MIN or SENSOR_MAX.
+#ifdef WITH_NTC
+// An NTC of 10 kilohms with a B of 3950 from A0 to GND, and 10 kilohms from A0
+// to the supply: sums, and hundredths of a degree.
+static const fixpid_table_point ntc_points[] = {
+    {162, 16000}, {223, 14500}, {315, 13000},  {453, 11500},
+    {585, 10500}, {762, 9500},  {1003, 8500},  {1328, 7500},
+    {1766, 6500}, {2348, 5500}, {3100, 4500},  {4032, 3500},
+    {5690, 2000}, {7885, 0},    {8731, -1000}, {9343, -2000}};
+static const fixpid_table ntc = FIXPID_TABLE(ntc_points);
+const int16_t SETPOINT = 9500;
+const int16_t SENSOR_MIN = -1000;
+const int16_t SENSOR_MAX = 15000;
+
+static int16_t reading_of(int16_t sum)
+{
+    return fixpid_table_at(&ntc, sum);
+}
+#else
+const int16_t SETPOINT = 6480; // 95 C, where 10230 is 150 C
+const int16_t SENSOR_MIN = 100;
 const int16_t SENSOR_MAX = 10100;
+
+static int16_t reading_of(int16_t sum)
+{
+    return sum;
+}
+#endif
 
 // A sensor's noise, or a relay that knows only tenths of the power, may make
 // the reading swing: that is no reason to switch off.
@@ -35,7 +65,7 @@ const uint8_t ALARMS = FIXPID_GUARD_ALARMS & ~FIXPID_GUARD_OSCILLATING;
 struct kept {
     fixpid_record record;
     fixpid_reaction_process plant;
-    uint32_t check; // of the plant
+    uint32_t check; // of the plant, and of the unit by its SENSOR_MAX
 };
 
 static fixpid_reaction tuner;
@@ -49,7 +79,7 @@ static unsigned long last_ms;
 
 static uint32_t check_of(const fixpid_reaction_process &plant)
 {
-    return ~(plant.slope_q24 + plant.dead_q4 + plant.noise_q4);
+    return ~(plant.slope_q24 + plant.dead_q4 + plant.noise_q4 + SENSOR_MAX);
 }
 
 static fixpid_guard_config sensor_alone()
@@ -81,10 +111,23 @@ static bool start_guard(const fixpid_reaction_process &plant)
     return true;
 }
 
+static void print_gains(const fixpid_pid_gains &gains)
+{
+    Serial.print(F("gains: kp_q8 "));
+    Serial.print(gains.kp_q8);
+    Serial.print(F(", ki_q24 "));
+    Serial.print(gains.ki_q24);
+    Serial.print(F(", kd_q8 "));
+    Serial.print(gains.kd_q8);
+    Serial.print(F(", filter "));
+    Serial.println(gains.derivative_filter);
+}
+
 // What was found now, or before the power went.
 static bool take_over(const fixpid_pid_config &config,
                       const fixpid_reaction_process &plant)
 {
+    print_gains(config.gains);
     return start_guard(plant) && fixpid_pid_init(&controller, &config);
 }
 
@@ -104,10 +147,17 @@ static bool take_over_found()
     fixpid_pid_config config = fixpid_pid_config();
     config.output_max = FULL;
     config.setpoint_weight_q8 = 128; // from cold without an overshoot
+    if (!fixpid_reaction_model(&tuner, &found.plant)) {
+        return false; // the status says why
+    }
     if (!fixpid_reaction_result(&tuner, FIXPID_REACTION_PID,
-                                FIXPID_REACTION_SAFE, &config.gains) ||
-        !fixpid_reaction_model(&tuner, &found.plant) ||
-        !take_over(config, found.plant)) {
+                                FIXPID_REACTION_SAFE, &config.gains)) {
+        Serial.println(F("a gain is out of range: measure in tenths or "
+                         "hundredths of a degree"));
+        return false;
+    }
+    if (!take_over(config, found.plant)) {
+        Serial.println(F("no guard: it needs a slower rate"));
         return false;
     }
     fixpid_record_pack(&found.record, &config);
@@ -130,7 +180,18 @@ static void start_tuning(int16_t power)
     Serial.println(F("tuning"));
 }
 
-static void print_end(uint8_t status)
+// Without a step of the heat-up, `duty` is still 0.
+static void print_limit(int16_t reading)
+{
+    if ((reading >= SETPOINT) && (duty == 0)) {
+        Serial.println(F(": it reads above SETPOINT. Let it cool; if it is "
+                         "cold, check SETPOINT, or define WITH_NTC"));
+    } else {
+        Serial.println(F(": too near the setpoint. Let it cool, then send h"));
+    }
+}
+
+static void print_end(uint8_t status, int16_t reading)
 {
     Serial.print(F("status "));
     Serial.print(status);
@@ -145,16 +206,17 @@ static void print_end(uint8_t status)
         Serial.println(F(": it got no warmer. Check heater and sensor"));
         break;
     case FIXPID_REACTION_WRONG_WAY:
-        Serial.println(F(": it got colder. Check sensor and wiring"));
+        Serial.println(F(": its reading fell. Check sensor and wiring; an NTC "
+                         "needs WITH_NTC"));
         break;
     case FIXPID_REACTION_LIMIT:
-        Serial.println(F(": too near the setpoint. Let it cool, then send h"));
+        print_limit(reading);
         break;
     case FIXPID_REACTION_LEVELS_OFF:
         Serial.println(F(": it responds late. Try fixpid_autotune"));
         break;
     default:
-        Serial.println(F(": it is too slow. Make RELAY_STEPS larger"));
+        Serial.println(F(": it is too slow for this rate"));
         break;
     }
 }
@@ -169,11 +231,33 @@ static int16_t tuning_step(int16_t reading)
         return output;
     }
     tuning = false;
-    print_end(status);
+    print_end(status, reading);
     if (!take_over_found()) {
         Serial.println(F("no gains: off"));
     }
     return fixpid_pid_step(&controller, SETPOINT, reading);
+}
+
+static void print_alarms(uint8_t alarms)
+{
+    Serial.print(F("ALARM 0x"));
+    Serial.print(alarms, HEX);
+    if ((alarms & FIXPID_GUARD_NOT_RISING) != 0) {
+        Serial.print(F(", it gets no warmer"));
+    }
+    if ((alarms & FIXPID_GUARD_NOT_FALLING) != 0) {
+        Serial.print(F(", it does not cool: cut the supply"));
+    }
+    if ((alarms & FIXPID_GUARD_FROZEN) != 0) {
+        Serial.print(F(", its reading stands still"));
+    }
+    if ((alarms & FIXPID_GUARD_SENSOR_LOW) != 0) {
+        Serial.print(F(", it reads below SENSOR_MIN"));
+    }
+    if ((alarms & FIXPID_GUARD_SENSOR_HIGH) != 0) {
+        Serial.print(F(", it reads above SENSOR_MAX"));
+    }
+    Serial.println(F(": off. Check, then send a"));
 }
 
 // Once a step: the duty of the next window. While it tunes, the guard judges
@@ -194,12 +278,7 @@ static int16_t step(int16_t reading)
     }
     off = true;
     tuning = false;
-    Serial.print(F("ALARM 0x"));
-    Serial.print(alarms, HEX);
-    Serial.println(F(": off. Check, then send a"));
-    if ((alarms & FIXPID_GUARD_NOT_FALLING) != 0) {
-        Serial.println(F("cut the supply"));
-    }
+    print_alarms(alarms);
     return 0;
 }
 
@@ -246,11 +325,12 @@ void loop()
     }
     sum += analogRead(A0);
     if (++ticks == RELAY_STEPS) {
-        duty = step(sum);
+        const int16_t reading = reading_of(sum);
+        duty = step(reading);
         Serial.print(F("setpoint:"));
         Serial.print(SETPOINT);
         Serial.print(F(",reading:"));
-        Serial.print(sum);
+        Serial.print(reading);
         Serial.print(F(",duty:"));
         Serial.println(duty);
         ticks = 0;

@@ -187,6 +187,13 @@ on_host() {
         ./host "$2" >host.txt
 }
 
+# oven_with_ntc EDIT LINES: what OvenSsr, sound.ino, prints with a thermistor, as on_host.
+oven_with_ntc() {
+    sed "$1" sound.ino >"$ino"
+    world=WITH_NTC
+    on_host 04.OvenSsr "$2"
+}
+
 # judged NAME LINES OVERSHOOT STEPS: what the sketch prints on the simulated Uno is what
 # it prints on this machine; the loop is as good as judge.rb is told; and the judge
 # refuses the faults of test/faults.txt. Those run on this machine alone.

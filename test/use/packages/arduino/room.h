@@ -7,6 +7,10 @@
 
 static long room_steps;
 
+#ifdef WITH_NTC
+#define OVEN
+#endif
+
 #ifndef OVEN
 // Of the sketch Heater: a lag of 16 steps, and a sensor that lags by 4, without
 // which no gain would be too large.
@@ -29,6 +33,7 @@ static inline int room_counts(int drive)
 // the heat is 3 s on its way, with a sensor that lags by 8 s and has half a
 // count of noise, another one for each number in SEED. 61 W hold it at 95 C. A
 // step is one of the relay, 0.1 s.
+#include <math.h>
 #include <stdlib.h>
 
 #define STEP_S 0.1
@@ -38,7 +43,6 @@ static inline int room_counts(int drive)
 #define ON_ITS_WAY 30 // steps
 #define SENSOR_S 8.0
 #define ROOM_C 22.0
-#define COUNTS_C (1023.0 / 150.0)
 #define NOISE_COUNTS 0.5
 #define FALLS_OFF 30000 // the sensor, which then reads the room
 #define IS_BACK 40000
@@ -61,6 +65,21 @@ static double room_noise(void)
     return sum;
 }
 
+#ifdef WITH_NTC
+// 10 kilohms to ground, 10 to the supply.
+static double converted(double degrees)
+{
+    const double ohms =
+        1e4 * exp(3950.0 * (1.0 / (degrees + 273.15) - 1.0 / 298.15));
+    return 1023.0 * ohms / (ohms + 1e4);
+}
+#else
+static double converted(double degrees)
+{
+    return degrees * 1023.0 / 150.0;
+}
+#endif
+
 static inline int room_counts(int drive)
 {
     static double boiler_c = ROOM_C;
@@ -76,9 +95,9 @@ static inline int room_counts(int drive)
     *arrives = drive;
     sensor_c += STEP_S * (boiler_c - sensor_c) / SENSOR_S;
     room_steps++;
-    counts = sensor_c * COUNTS_C + noise + 0.5;
+    counts = converted(sensor_c) + noise + 0.5;
     if ((room_steps > FALLS_OFF) && (room_steps <= IS_BACK)) {
-        counts = ROOM_C * COUNTS_C + noise + 0.5;
+        counts = converted(ROOM_C) + noise + 0.5;
     }
     return (int)((counts < 1023.0) ? counts : 1023.0);
 }
