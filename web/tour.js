@@ -6,9 +6,9 @@ import { find, make } from './dom.js';
 const KEY = 'fixpid-tour';
 // [name, sentence, where it leads to: the first of these that is shown].
 const TOUR = [
-    ['1 Your plant', 'Paste a step that you recorded, or write its numbers.', ['#recording']],
-    ['2 Tune', 'Move one slider from calm to quick.', ['#c-calm', '#c-kp']],
-    ['3 Take', 'Copy the header into your firmware.', ['#copy']],
+    ['2 Your plant', 'Paste a step that you recorded, or write its numbers.', ['#recording']],
+    ['3 Gains', 'Move one slider from calm to quick.', ['#c-calm', '#c-kp']],
+    ['4 Header', 'Copy the header into your firmware.', ['#copy']],
 ];
 
 // A browser may refuse to remember.

@@ -325,7 +325,7 @@ for (const reducedMotion of ['reduce', 'no-preference']) {
 
     const shown = () => here.isVisible('#tour');
     const steps = here.locator('#tour li button');
-    check('three steps at first', await shown() && (await steps.allTextContents()).join() === '1 Your plant,2 Tune,3 Take');
+    check('three steps at first', await shown() && (await steps.allTextContents()).join() === '2 Your plant,3 Gains,4 Header');
     for (const [i, [place, part]] of [['recording', '[data-title="2 Your plant"]'], ['c-calm', '[data-title="3 Gains"]'], ['copy', '#take']].entries()) {
         await here.locator(part).evaluate((one) => { one.open = false; });
         await steps.nth(i).click();
