@@ -52,7 +52,7 @@ def units_are_those_of_sensor_and_actuator():
         same((config["setpoint_weight_q8"], config["proportional_on_measurement"]), (q8, on_measurement))
 
 
-def the_transfer_function_is_that_of_behaviour_md():
+def the_transfer_function_is_that_of_controller_md():
     """Sampled by backward Euler: s is (1 - 1/z) / Ts, as in Matlab's pid(). All gains are exact."""
     kp, ki, kd, b, rate = 2.5, 0.25, 8.0, 0.5, 8
     random = numpy.random.default_rng(937)

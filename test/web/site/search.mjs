@@ -12,10 +12,11 @@ const QUERIES = {
     'docs/start/index.html': ['getting started'], 'docs/start/glossary.html': ['bumpless', 'kd', 'FOPDT'], 'docs/start/stm32.html': ['STM32', 'FreeRTOS', 'CMake', 'thread safe'],
     'docs/start/esp.html': ['ESP32', 'ESP-IDF'], 'docs/start/mplabx.html': ['MPLAB', 'XC8'], 'docs/start/sdcc.html': ['SDCC'], 'docs/start/zephyr.html': ['Zephyr'],
     'docs/start/arduino.html': ['Arduino Uno', 'PlatformIO'], 'docs/installing.html': ['install', 'download', 'find_package'], 'docs/project.html': ['license', 'roadmap'],
-    'docs/choosing.html': ['DCL', 'compare'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt', 'slew', 'NTC'],
-    'docs/scaling.html': ['overflow', 'sample time', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin'],
+    'docs/choosing.html': ['DCL', 'compare'], 'docs/recipes.html': ['deadband', 'cascade', 'EEPROM', 'interrupt'],
+    'docs/scaling.html': ['sample time', 'setpoint weight'], 'docs/tuning.html': ['overshoot', 'Ziegler Nichols', 'autotune'], 'docs/controller.html': ['anti-windup', 'transfer function', 'Laplace', 'backward Euler', 'Tustin', 'bilinear', 'overflow'],
     'docs/migrating.html': ['FastPID', 'PIDMain', 'C18'], 'docs/cost.html': ['flash size'], 'docs/assurance.html': ['MISRA'], 'docs/faults.html': ['watchdog'],
     'python/index.html': ['numpy'], 'docs/chips.html': ['simulator'],
+    'include/fixpid_slew.h.html': ['slew'], 'include/fixpid_table.h.html': ['NTC', 'thermistor'], 'docs/python.html': ['gain margin', 'Bode'],
 };
 
 // What is in one header only: its page is among the first.

@@ -29,6 +29,8 @@ Encoding.default_external = 'UTF-8'
 
 HOME = 'web/site/home.md' # of the site
 
+lacking = %w[cc g++ avr-g++ gpasm].reject { |tool| system("command -v #{tool} >/dev/null") }
+abort "no #{lacking.join(', ')}: tools/test docs installs what this needs" unless lacking.empty?
 @failures = []
 
 # Replaces what stands between two markers.

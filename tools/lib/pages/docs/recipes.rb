@@ -46,12 +46,18 @@ module Recipes
       "```c\n#{shown}```\n\n[The whole program](../#{FOLDER}/#{name}.c)\n"
     end
 
-    # The recipes that a document does not show.
+    # What a document does not show: recipes, and in its table its sections.
     def missing(text)
-      names.reject { |name| text.include?("<!-- recipe #{name}:begin -->") }
+      names.reject { |name| text.include?("<!-- recipe #{name}:begin -->") } + unlinked(text)
     end
 
     private
+
+    # The sections that its first table does not lead to.
+    def unlinked(text)
+      anchors = text.scan(/^## (.*)/).flatten.map { |title| "##{title.downcase.delete('^a-z0-9 -').tr(' ', '-')}" }
+      anchors.reject { |anchor| text[/^\| you want.*?\n\n/m].include?("(#{anchor})") }
+    end
 
     def marked(name)
       path = "#{FOLDER}/#{name}.c"
