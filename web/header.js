@@ -190,7 +190,7 @@ export function wholeHeaderOf(s, results, margins = marginsOf(s, results), said 
     const loop = prefixOf(s);
     return [
         `// Gains of ${s.loop === '' ? 'a loop' : `the loop "${s.loop}"`}, by the tuner page of fixpid ${VERSION}`,
-        `// ${short(s.RATE)} steps per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
+        `// ${short(s.RATE)} step${s.RATE === 1 ? '' : 's'} per second; sensor: ${s.SENSOR_BITS} bits, ${short(s.SENSOR_RANGE)} ${unit}`,
         `// Plant: ${plantText(s, unit)}`,
         `// Margins: ${marginText(margins)}`,
         ...said.map((text) => `// ${plain(text)}`),

@@ -16,7 +16,7 @@ export function rememberPlants(s, allowed) {
 }
 
 // { text, warning: a sentence, or null }, of the loop's own Ms and of that with each plant in their
-// order, infinite where it is unstable. Python's package says the same.
+// order, infinite where it is unstable. Python's package says the same with another digit.
 export function verdictOfEach(own, each) {
     const most = each[Math.floor(0.9 * each.length)];
     const above = each.filter((one) => one > MOST_MS).length;

@@ -30,9 +30,9 @@ def verdict_of(own: float, each: List[float]) -> Tuple[str, Optional[str]]:
     """What is said of a loop with this Ms whose Ms with each plant that the recording allows are
     these, in order, and infinite where it is unstable; and the warning, or None."""
     most, above = each[9 * len(each) // 10], sum(one > MOST_MS for one in each)
-    said = (f"{digits(each[0], 2)} to {digits(most, 2)} for nine of ten plants" if math.isfinite(most)
+    said = (f"{digits(each[0])} to {digits(most)} for nine of ten plants" if math.isfinite(most)
             else "unstable for more than one of ten plants")
-    text = f"{f'Ms {digits(own, 2)}' if math.isfinite(own) else 'unstable'}; {said} that the recording allows"
+    text = f"{f'Ms {digits(own)}' if math.isfinite(own) else 'unstable'}; {said} that the recording allows"
     return text, None if most <= MOST_MS else (
         f"{above} of {len(each)} plants that the recording allows have Ms above {MOST_MS} with these gains: "
         "take calmer ones, or record again.")

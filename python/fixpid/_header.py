@@ -114,16 +114,16 @@ def _guarded(name, loop, lines):
             f'#error "two headers of gains {differ}"', "#endif", ""]
 
 
-def header_of(s, results, margins, link, name="", said=()):
+def header_of(s, results, margins, link, name="", said=(), by="the tuner page of fixpid"):
     """A header with the integers that have run, as an initialiser that every compiler takes, and with
     what it is from: the plant, the margins and what else is said of them, and the link of the page
-    that has it. `name` is that of the loop, or none."""
+    that has it. `name` is that of the loop, or none, and `by` what writes it."""
     if not NAME.fullmatch(name):
         raise ValueError(f"name = {name!r} is refused: at most 31 letters, digits and _ are legal")
     unit, loop = _plain(s["unit"]) or "units", f"LOOP_{name.upper()}" if name else "LOOP"
     return "\n".join([
-        f"""// Gains of {f'the loop "{name}"' if name else 'a loop'}, by the tuner page of fixpid {__version__}""",
-        f"// {short(s['RATE'])} steps per second; sensor: {number(s['SENSOR_BITS'])} bits, {short(s['SENSOR_RANGE'])} {unit}",
+        f"""// Gains of {f'the loop "{name}"' if name else 'a loop'}, by {by} {__version__}""",
+        f"// {short(s['RATE'])} step{'s' * (s['RATE'] != 1)} per second; sensor: {number(s['SENSOR_BITS'])} bits, {short(s['SENSOR_RANGE'])} {unit}",
         f"// Plant: {_plant(s, unit)}", f"// Margins: {_margins(margins)}", *(f"// {_plain(text)}" for text in said),
         f"// The page has it with #{_plain(link)}",
         *_guarded(name, loop, ['#include "fixpid_pid.h"', "", *_scale(s, unit, loop), *_pid(s, results, loop), ""])])

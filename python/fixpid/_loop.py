@@ -90,7 +90,7 @@ class Loop:
         said = [self.verdict] if self.verdict else []
         said += [f"Warning: {self._warning}"] if self._warning else []
         link = _scene.fragment({**self.state, "loop": name})
-        return header_of(self.state, self._run["results"], self.margins, link, name, said)
+        return header_of(self.state, self._run["results"], self.margins, link, name, said, "the Python package fixpid")
 
     def link(self, page: str = "") -> str:
         """A link that opens this loop in the tuner page, whose address is `page`."""

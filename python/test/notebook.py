@@ -48,7 +48,7 @@ def what_it_comes_to_holds():
         assert loop.margins["stable"] and loop.margins["ms"] < 2 and loop.metrics["settled"], (rule, loop)
         assert abs(loop.true[-1] - 150) < 2, (rule, loop.true[-1])
     assert NAMES["held"] == 60 < NAMES["free"], (NAMES["held"], NAMES["free"])
-    assert NAMES["header"].startswith(f"// Gains of the loop \"oven\", by the tuner page of fixpid {fixpid.__version__}\n")
+    assert NAMES["header"].startswith(f"// Gains of the loop \"oven\", by the Python package fixpid {fixpid.__version__}\n")
     assert NAMES["link"].startswith("build/tuner/index.html#p=flow&gain=")
 
 
