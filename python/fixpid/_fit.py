@@ -11,6 +11,7 @@ from ._plant import Plant
 from ._units import number
 
 MOST_MS, UNSTABLE = 2.2, 1e9  # as identify.h has them
+APART = 100.0  # seconds between lines, from which the unit may be another
 UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 # What each kind has besides gain and dead time, in the order of enum identify_kind.
 KINDS = {"first": ("lag",), "second": ("lag", "lag2"), "integrating": ("lag2",), "ringing": ("lag", "damping")}
@@ -102,7 +103,7 @@ class Fit:
 
     def __init__(self, c: Any, c_plants: Any, curve: Tuple[List[float], List[float]], **shared: Any) -> None:
         self.curve, self._c_plants, self._c_plant = curve, bytes(ffi.buffer(c_plants)), bytes(ffi.buffer(ffi.addressof(c.plant)))
-        self.models, self.t, self.u, self.y = (shared[name] for name in ("models", "t", "u", "y"))
+        self.models, self.t, self.u, self.y, self._apart = (shared[name] for name in ("models", "t", "u", "y", "apart"))
         self.kind, self.start = list(KINDS)[c.plant.kind], STARTS[c.start]
         self.gain, self.dead = c.plant.gain, c.plant.dead
         self.lag, self.lag2, self.damping = (getattr(c.plant, name) if name in KINDS[self.kind] else None
@@ -114,7 +115,7 @@ class Fit:
         self.sd = {"gain": c.sd_gain * abs(self.gain), "dead": c.sd_dead, **{
             name: c.sd_lag * (self.lag or 1) if i == 0 else c.sd_lag2 for i, name in enumerate(KINDS[self.kind])}}
         self.verdict = _verdict_of_simc(c.plant, self.calm or 4.0, c_plants)
-        self.notes = [*shared["notes"], *self._notes()]
+        self.notes = [*self._apart, *shared["notes"], *self._notes()]
         # How it stood before the output moved: all plants begin there.
         self._driven = 0.0 if self.start == "cold" else shared["driven"]
         self._stood = self.rest + (0 if self.kind == "integrating" else self.gain * self._driven)
@@ -176,19 +177,45 @@ def axes_of(axes: Any) -> Any:
 # ---- Columns ----
 
 
-def _seconds(t: List[Any], unit: Optional[str]) -> List[float]:
-    """Times in seconds after the first one: numbers, or what a difference of dates is."""
-    first = t[0]
+def _value(one: Any) -> float:
+    """A number, also as text; what is none is nan."""
+    try:
+        return float(one)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def _is_missing(one: Any) -> bool:
+    """It is no time: None, a text, or what is not even equal to itself, as NaT."""
+    try:
+        return one is None or isinstance(one, str) or not one == one  # pylint: disable=comparison-with-itself
+    except TypeError:  # pandas.NA
+        return True
+
+
+def _seconds(t: List[Any], unit: Optional[str]) -> Tuple[List[float], Optional[str]]:
+    """Times in seconds after the first one: numbers, or what a difference of dates is. And the
+    unit, which dates have."""
+    first = next((one for one in t if not _is_missing(one)), 0.0)
     dates = hasattr(first - first, "total_seconds")
     stamps = type(first).__name__ == "datetime64"
     if unit is not None and (dates or stamps or unit not in UNITS):
         raise ValueError(f"unit = {unit!r} is refused: " + (
             "dates say it themselves" if dates or stamps else f"{', '.join(UNITS)} are legal"))
     if dates:
-        return [(one - first).total_seconds() for one in t]
+        return [math.nan if _is_missing(one) else (one - first).total_seconds() for one in t], "s"
     if stamps:
-        return [float((one - first) / type(first - first)(1, "s")) for one in t]
-    return [(float(one) - float(first)) * UNITS[unit or "s"] for one in t]
+        return [math.nan if _is_missing(one) else float((one - first) / type(first - first)(1, "s")) for one in t], "s"
+    numbers = [_value(one) for one in t]
+    first = next(filter(math.isfinite, numbers), 0.0)
+    return [(one - first) * UNITS[unit or "s"] for one in numbers], unit
+
+
+def _far_apart(t: List[float], unit: Optional[str]) -> List[str]:
+    """What is said of seconds that may be milliseconds."""
+    apart = sorted(after - before for before, after in zip(t, t[1:]))
+    often = apart[len(apart) // 2] if apart else 0.0
+    return [f'The lines are {often:.4g} s apart: if t is in milliseconds, pass unit="ms".'] * (unit is None and often >= APART)
 
 
 def _rising(rows: List[Tuple[int, float, float, float]]) -> None:
@@ -198,9 +225,10 @@ def _rising(rows: List[Tuple[int, float, float, float]]) -> None:
                              f"fit the lines before it, [:{line}], or those from it on, [{line}:]")
 
 
-def _lines(t: Any, u: Any, y: Any, at: Any, unit: Optional[str]) -> Tuple[List[List[float]], List[str]]:
+def _lines(t: Any, u: Any, y: Any, at: Any, unit: Optional[str]) -> Tuple[List[List[float]], List[str], List[str]]:
     """Columns of seconds after the first line, output and measurement, without lines that are no
-    numbers; and notes. A number as the output is a step of so much at the time `at`."""
+    numbers; notes; and what is said of lines far apart. A number as the output is a step of so
+    much at the time `at`."""
     t, y, one_step = list(t), list(y), not hasattr(u, "__iter__")
     u = [number("u", u)] * len(t) if one_step else list(u)
     if not len(t) == len(u) == len(y):
@@ -209,17 +237,20 @@ def _lines(t: Any, u: Any, y: Any, at: Any, unit: Optional[str]) -> Tuple[List[L
         raise ValueError("t, u and y are empty")
     if at is not None and not one_step:
         raise ValueError(f"at = {at!r} is refused: the outputs in u say when they change")
-    seconds = _seconds(t if at is None else [*t, at], unit)
+    seconds, unit = _seconds(t if at is None else [*t, at], unit)
     if at is not None:
         moment = seconds.pop()
         u = [value if s >= moment else 0.0 for s, value in zip(seconds, u)]
-    rows = [(line, s, float(a), float(b)) for line, (s, a, b) in enumerate(zip(seconds, u, y))]
+    rows = [(line, s, _value(a), _value(b)) for line, (s, a, b) in enumerate(zip(seconds, u, y))]
+    for name, column, numbers in zip("tuy", (t, u, y), list(zip(*rows))[1:]):
+        if not isinstance(column[0], float) and not any(map(math.isfinite, numbers)):
+            raise ValueError(f"{name} has no number: its first element is {column[0]!r}")
     good = [row for row in rows if all(map(math.isfinite, row))]
     _rising(good)
     notes = [f"Lines that are no numbers left out: {len(t) - len(good)}."] * (len(good) < len(t))
     begin = good[0][1] if good else 0.0
     columns = [[row[1] - begin for row in good], [row[2] for row in good], [row[3] for row in good]]
-    return columns, notes
+    return columns, notes, _far_apart(columns[0], unit)
 
 
 def _said_of(result: Any) -> List[str]:
@@ -246,7 +277,7 @@ def fit(t: Any, u: Any, y: Any, before: Optional[float] = None, unit: Optional[s
     are left out. A ValueError says why there is no plant that can be used; with refuse=False the
     best one comes all the same, with the reason in `refused`, to look at it.
     """
-    (t, drive, y), notes = _lines(t, u, y, at, unit)
+    (t, drive, y), notes, apart = _lines(t, u, y, at, unit)
     if before is None and at is None and not hasattr(u, "__iter__"):
         before = 0.0
     columns = [ffi.new("double[]", column) for column in (t, drive, y)]
@@ -270,6 +301,6 @@ def fit(t: Any, u: Any, y: Any, before: Optional[float] = None, unit: Optional[s
     if refused and (refuse or not fitted):
         raise ValueError(refused)
     for kind, model, curve in zip(KINDS, result.models, curves):
-        models[kind] = Fit(model, result.plants, curve, models=models, t=t, u=drive, y=y, notes=[*notes, *_said_of(result)],
+        models[kind] = Fit(model, result.plants, curve, models=models, t=t, u=drive, y=y, apart=apart, notes=[*notes, *_said_of(result)],
                            driven=drive[0] if before is None else before)
     return models[list(KINDS)[result.chosen]]

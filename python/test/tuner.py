@@ -94,6 +94,12 @@ def columns_of_all_kinds():
     broken = fixpid.fit(t + [901, 902, math.nan], u + [40, 40, 40], y + [math.nan, math.inf, 1])
     is_the_oven(broken)
     same(broken.notes, ["Lines that are no numbers left out: 3."])
+    words = ["", "n/a", None]
+    texts = [[*map(str, column), *words] for column in (t, u, y)]
+    for again in (fixpid.fit(*texts), fixpid.fit(t + [901, 902, 903], u + [40] * 3, y + words), fixpid.fit([*dates, *words], u + [40] * 3, y + [1] * 3),
+                  fixpid.fit([*stamps, *[numpy.datetime64("NaT")] * 3], u + [40] * 3, y + [1] * 3)):
+        near(again.lag, found.lag, "lag", 1e-4)
+        same(again.notes, broken.notes)
     is_the_oven(fixpid.fit(*recording(step=-8.0, noise=0.02)))  # falls
     for again in copy.deepcopy(found), pickle.loads(pickle.dumps(found)):
         same((repr(again), again.plant(), again.plants), (repr(found), found.plant(), found.plants))
@@ -108,7 +114,8 @@ def a_time_that_says_nothing_is_refused():
              f"t goes back in line 200, from {t[199]:g} to {t[50]:g} s after the first line: fit the lines before it, [:200]"),
             ((t[::-1], u, y), {}, "t goes back in line 1,"), (([3] * 9, u[:9], y[:9]), {}, "The time goes back or stands still"),
             ((t, u, y), {"unit": "seconds"}, "unit = 'seconds' is refused: us, ms, s, min, h are legal"),
-            ((dates, u, y), {"unit": "ms"}, "unit = 'ms' is refused: dates say it themselves")):
+            ((dates, u, y), {"unit": "ms"}, "unit = 'ms' is refused: dates say it themselves"),
+            ((["a", *map(str, dates)], u + [1], y + [1]), {}, "t has no number: its first element is 'a'")):
         said = message(ValueError, fixpid.fit, *arguments, **fields)
         assert said.startswith(start), said
 
