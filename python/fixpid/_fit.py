@@ -130,7 +130,8 @@ class Fit:
         return notes
 
     def plant(self, full: float = 1.0) -> Plant:
-        """The Plant for `simulate`; `full` is full drive in units of u."""
+        """The Plant for `simulate`, which also takes the Fit itself. `full` is full output in units of
+        u, such as 100 for percent: the Plant's gain is for that."""
         return _plant_of(ffi.from_buffer("struct identify_plant *", self._c_plant), full, self.rest)
 
     @property

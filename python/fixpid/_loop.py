@@ -16,6 +16,7 @@ from ._plant import Plant
 from ._units import Actuator, Sensor, number
 
 TUNERS = {"autotune": ("RELAY", AutotuneState), "reaction": ("HEAT_UP", ReactionState)}
+DRIVES = 100, 50, 25, 12.5  # of a heat-up, in percent, until it does not go too far
 OUT_OF_RANGE = "A gain is out of its range: take PI, a finer measurement or another rate."
 
 
@@ -119,7 +120,7 @@ class Loop:
         kp, ki, kd = self.gains
         found = self.metrics
         settled = "never" if found["settled"] is None else f"{found['settled']:.4g} s"
-        return (f"<Loop kp={kp:.4g} ki={ki:.4g} kd={kd:.4g}: overshoot {100 * found['overshoot']:.1f} %, "
+        return (f"<Loop kp={kp:.4g} ki={ki:.4g} kd={kd:.4g} rate={self.state['RATE']:g}: overshoot {100 * found['overshoot']:.1f} %, "
                 f"settled {settled}, {self.verdict or self._ms()}>")
 
 
@@ -136,6 +137,17 @@ def _events(events):
     if len(found) > _scene.lib.TUNER_EVENTS:
         raise ValueError(f"events are refused: {len(found)} of them, and at most {_scene.lib.TUNER_EVENTS} happen")
     return found
+
+
+def _out_of_reach(state: Dict[str, Any]) -> List[str]:
+    """What is said if no output holds the plant at the setpoint."""
+    drives = [state[name] / max(state["OUTPUT_MAX"], -state["OUTPUT_MIN"]) for name in ("OUTPUT_MIN", "OUTPUT_MAX")]
+    ends = [state["START"] + state["GAIN"] * drive for drive in drives]
+    by_hand = any(event["what"] == "MANUAL" for event in state["events"])
+    if by_hand or state["PLANT"] == _scene.PLANT["INTEGRATOR"] or min(ends) <= state["SETPOINT"] <= max(ends):
+        return []
+    return [f"The outputs hold this plant at {min(ends):.4g} to {max(ends):.4g}, and the setpoint is {state['SETPOINT']:.4g}. "
+            "Is the plant's gain that of full output? If it is from a Fit, pass the Fit itself."]
 
 
 def simulate(plant: Union[Plant, Fit], pid: Pid, duration: Optional[float] = None, setpoint: Optional[float] = None,
@@ -171,7 +183,9 @@ def simulate(plant: Union[Plant, Fit], pid: Pid, duration: Optional[float] = Non
         state["unit"] = sensor.unit
     usual = max(4 / pid.rate, min(10 * scale_seconds(state), _scene.lib.TUNER_STEPS / pid.rate))
     state["DURATION"] = usual if duration is None else number("duration", duration)
-    return Loop(_scene.within_reason(_scene.possible(state)), actuator, fit)
+    loop = Loop(_scene.within_reason(_scene.possible(state)), actuator, fit)
+    loop.advice += _out_of_reach(state)
+    return loop
 
 
 def _robustness(rule: str, given: Union[str, int, None], calm: Optional[float], fit: Fit) -> Tuple[int, float]:
@@ -209,10 +223,19 @@ def _tuned(state: Dict[str, Any], rule: str, robust: int, tuner: str) -> Dict[st
     """What a tuner's experiment finds, as the scene's gains."""
     kind, states = TUNERS[tuner]
     state["EXPERIMENT"] = _scene.EXPERIMENT[kind]
-    tried = _scene.experiment(state, [(rule, robust)])
-    status = states(int(tried["results"]["STATUS"]))
+    for state["DRIVE"] in DRIVES:
+        tried = _scene.experiment(state, [(rule, robust)])
+        status = states(int(tried["results"]["STATUS"]))
+        if status is states.DONE or state["DRIVE"] == DRIVES[0] and status is not ReactionState.LIMIT:
+            break
+    else:
+        raise ValueError("no gains: the heat-up goes too far or ends too early, with full output and down to an eighth of it: "
+                         'take a faster rate, tuner="autotune" or rule="SIMC"')
     if status is states.RUNNING:
-        steps = _scene.lib.TUNER_STEPS
+        steps, one_way = _scene.lib.TUNER_STEPS, state["OUTPUT_MIN"] * state["OUTPUT_MAX"] >= 0
+        if tuner == "autotune" and one_way and state["PLANT"] == _scene.PLANT["INTEGRATOR"]:
+            raise ValueError("no gains: the experiment does not end, because this integrating plant does not come down with the "
+                             'output off: record for longer, or take tuner="reaction" or rule="SIMC"')
         raise ValueError(f"no gains: the experiment is not over after the {steps} steps that a run has, which are "
                          f"{steps / state['RATE']:g} s at rate = {state['RATE']:g}: take a lower rate")
     if status is not states.DONE:
@@ -234,7 +257,9 @@ def tune(fit: Fit, rule: str = "PI", rate: Optional[float] = None, sensor: Optio
     the setpoint, or reaction, which heats it up from rest towards the setpoint. Or it is SIMC,
     Skogestad's, with a loop `calm` times as slow as by the rule; if that is not said, the fit's.
     `sensor`, `actuator` and `rate` are your hardware's; u of the fit is in the actuator's units, or
-    with no actuator a part of full drive. ValueError, with what to do, where the rule has no gains.
+    with no actuator a part of full drive. Without a rate it is a tidy one, 16 to 40 steps in the dead
+    time and the lags together, and the Loop shows it. The heat-up takes full output, or if that goes
+    too far a half, a quarter or an eighth. ValueError, with what to do, where the rule has no gains.
     """
     if not isinstance(fit, Fit):
         raise TypeError(f"fit = {fit!r} is refused: a fixpid.Fit is wanted")
@@ -252,6 +277,15 @@ def tune(fit: Fit, rule: str = "PI", rate: Optional[float] = None, sensor: Optio
     state = _scene_of(fit, rate, sensor, given)
     state.update(ROBUSTNESS=robust, rule="PI" if rule == "SIMC" else rule)
     state = _scene.within_reason(with_plant(state, calm))
-    if rule != "SIMC":
-        state.update(_tuned(state, rule, robust, tuner))
-    return Loop(state, given, fit)
+    try:
+        if rule != "SIMC":
+            state.update(_tuned(state, rule, robust, tuner))
+        loop = Loop(state, given, fit)
+    except ValueError as why:
+        if not fit._apart:
+            raise
+        raise ValueError(f"{str(why).rstrip('.')}. {fit._apart[0]}") from None
+    if loop.metrics["settled"] is None:
+        loop.advice.insert(0, f"Not settled within {state['events'][0]['at']:g} s at rate = {state['RATE']:g}: another rate or "
+                           "rule may be quicker.")
+    return loop

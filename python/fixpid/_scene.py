@@ -101,8 +101,10 @@ def run(s):
         found = {"n": n, "results": _results(), "series": _series(max(n, 0))}
         worth = lib.tuner_metrics()
         found["metrics"] = {name.lower(): None if worth[at] < 0 else worth[at] for name, at in METRIC.items() if name != "TRAVEL"}
-    if n > 0:
-        numbers("dead", s["DEAD"], 0, found["results"]["DEAD_S"] + 1 / s["RATE"])
+    most = found["results"]["DEAD_S"] + 1 / s["RATE"]
+    if n > 0 and s["DEAD"] > most:
+        raise ValueError(f"dead = {s['DEAD']:g} is refused: with these lags a run has at most {most:.4g} s of it at rate = {s['RATE']:g}: "
+                         "take a lower rate")
     return found
 
 

@@ -432,7 +432,7 @@ def what_a_run_would_cut_is_refused():
             ({"events": [(1, "setpoint", -1)]}, "setpoint = -1 is refused"), ({"events": [(1, "setpoint")]}, "event (1, 'setpoint') is refused"),
             ({"events": [(1, "auto", 1)]}, "event (1, 'auto', 1) is refused"), ({"events": [(1, "manual", 40000)]}, "manual = 40000 is refused"),
             ({"events": [(1, "limits", 9, 9)]}, "limits = (9, 9) is refused"),
-            ({"plant": fixpid.Plant(gain=100, lag=0.1, dead=3000), "duration": 3900}, "dead = 3000 is refused: 0 to ")):
+            ({"plant": fixpid.Plant(gain=100, lag=0.1, dead=3000), "duration": 3900}, "dead = 3000 is refused: with these lags a run has at most 13 s of it at rate = 5: take a lower rate")):
         found = message(ValueError, fixpid.simulate, **{"plant": plant, "pid": pid, **fields})
         assert found.startswith(said), found
 

@@ -120,6 +120,17 @@ def a_time_that_says_nothing_is_refused():
         assert said.startswith(start), said
 
 
+def milliseconds_without_a_unit_are_said():
+    _, u, y = recording()
+    t = [1000 * line for line in range(len(y))]
+    note = 'The lines are 1000 s apart: if t is in milliseconds, pass unit="ms".'
+    found = fixpid.fit(t, u, y)
+    same((found.notes, fixpid.fit(t, u, y, unit="ms").notes), ([note], []))
+    for rule in "PI", "SIMC":
+        said = message(ValueError, fixpid.tune, found, rule, 5, SENSOR, ACTUATOR)
+        assert said.endswith(f"rate = 5: take a lower rate. {note}"), said
+
+
 def a_number_is_a_step_at_the_first_time_or_where_it_is_said():
     t, u, y = recording()
     found = fixpid.fit(t, u, y)
@@ -343,6 +354,25 @@ def tuning_is_on_the_hardware_that_is_given():
     assert loop.state["OPTIONS"] == _scene.REVERSE and loop.margins["stable"] and loop.pid._said[1]["reverse"], loop
 
 
+def a_heat_up_that_goes_too_far_has_less_output():
+    heater = fixpid.Plant(gain=110, lag=85, dead=12, start=20)
+    hand = fixpid.Pid(kp=1, rate=1, sensor=fixpid.Sensor(0, 150), actuator=ACTUATOR)
+    log = fixpid.simulate(heater, hand, duration=600, noise=1, events=[(0, "manual", 0), (20, "manual", 153)])
+    assert not any("hold this plant" in one for one in log.advice), log.advice
+    found = fixpid.fit(log.t, log.output, log.measurement)
+    for rate in 0.2, 0.5, 1, 2, 5, 10:
+        for rule in "PI", "PID":
+            loop = fixpid.tune(found, rule, rate, fixpid.Sensor(0, 150), ACTUATOR, tuner="reaction")
+            assert 1.2 < loop.margins["ms"] < 1.8 and "&drive=50&" in loop.link(), loop
+            slow = [f"Not settled within {loop.state['events'][0]['at']:g} s at rate = {rate:g}: another rate or rule may be quicker."]
+            same(loop.advice[:1] if loop.metrics["settled"] is None else slow, slow)
+            assert f" rate={rate:g}: " in repr(loop) and f"\n// {rate:g} step{'s' * (rate != 1)} per" in loop.header(), loop
+            same(loop.header().split("\n")[0], f"// Gains of a loop, by the Python package fixpid {fixpid.__version__}")
+    said, = fixpid.simulate(found.plant(), loop.pid).advice
+    assert re.match(r"The outputs hold this plant at [\d.]+ to 21\.\d+, and the setpoint is [\d.]+\. Is the plant's gain", said), said
+    same(fixpid.simulate(found, loop.pid).advice, [])
+
+
 def without_hardware_it_is_the_pages():
     loop = fixpid.tune(fixpid.fit(recording()[0], [one / 100 for one in recording()[1]], recording()[2]), "SIMC")
     same([loop.state[name] for name in ("SENSOR_BITS", "SENSOR_LOW", "SENSOR_RANGE", "OUTPUT_MAX", "RATE")], [12, 0, 500, 1000, 0.2])
@@ -354,12 +384,17 @@ def what_has_no_gains_says_what_to_do():
     for fields, start in (({"rule": "ZN"}, "rule = 'ZN' is refused: PI, PID"), ({"robustness": 7}, "robustness = 7 is refused"),
                           ({"rule": "SIMC", "robustness": "calm"}, "robustness = 'calm' is refused: SIMC's loop is made calmer by calm=2"),
                           ({"calm": 2}, "calm = 2 is refused: it is SIMC's"), ({"rule": "SIMC", "calm": 0}, "calm = 0 is refused: 0.5 to 8"),
-                          ({"tuner": "relay"}, "tuner = 'relay' is refused: autotune and reaction"), ({"rate": 0.01, "tuner": "reaction"}, "no gains: The reading"),
+                          ({"tuner": "relay"}, "tuner = 'relay' is refused: autotune and reaction"), ({"rate": 0.01, "tuner": "reaction"}, "no gains: the heat-up goes"),
                           ({"rate": 0.01}, "no gains: "), ({"rate": math.nan}, "rate = nan is refused"),
                           ({"rate": 1000}, "no gains: the experiment is not over after the 20000 steps that a run has, which are 20 s"),
                           ({"actuator": None}, "actuator is missing: u of the fit goes to ")):
         said = message(ValueError, fixpid.tune, found, **{"actuator": ACTUATOR, **fields})
         assert said.startswith(start), said
+    *_, (_, _, _, integrating) = _fits_of_kinds()
+    said = message(ValueError, fixpid.tune, integrating, "PI", 1, actuator=ACTUATOR)
+    assert said.endswith('output off: record for longer, or take tuner="reaction" or rule="SIMC"'), said
+    for fields in {"tuner": "reaction"}, {"rule": "SIMC"}:
+        assert fixpid.tune(integrating, rate=1, actuator=ACTUATOR, **fields).margins["stable"], fields
 
 
 def a_simulated_loop_is_that_controllers():
