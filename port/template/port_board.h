@@ -23,6 +23,10 @@
 #define PORT_SETPOINT 0x00u
 #define PORT_TACHOMETER 0x01u
 #define PORT_TEMPERATURE 0x02u
+#define PORT_ANGLE 0x03u
+#define PORT_KP 0x04u
+#define PORT_KI 0x05u
+#define PORT_KD 0x06u
 
 // Of port_uart.h, if there is a port_uart.c: a rate that the clock divides
 // well.
