@@ -20,13 +20,15 @@ class Device
   def initialize(chip)
     @registers = {}
     @bits = {}
-    @options = {} # of the configuration words: WDT => { ON => 0xFF }
+    @options = {} # of the configuration words: WDT => { ON => 0xFF }; of a PIC18 true, by the comments for CONFIG
+    @constants = !chip.start_with?('18')
     heading = nil
     header = "#{Gputils.folder('header')}/p#{chip}.inc"
     abort "gputils has no pic#{chip}" unless File.exist?(header)
     File.foreach(header) do |line|
       heading = Regexp.last_match(1) if line =~ /^;-----\s*(\w.*?)\s*-*$/
       take(heading, Regexp.last_match(1), Regexp.last_match(2).hex) if line =~ /^(\w+)\s+EQU\s+H'(\h+)'/
+      (@options[Regexp.last_match(1)] ||= {})[Regexp.last_match(2)] = true if line =~ /^;     (\w+) = (\w+)\s/
     end
     abort "gputils has no registers of the #{chip}" if @registers.empty?
   end
@@ -43,14 +45,14 @@ class Device
     case heading
     when /^(?:Register Files|Bank\s*\w+)$/ then @registers[name] = value
     when /^(\w+) Bits$/ then (@bits[Regexp.last_match(1)] ||= {})[name] = value
-    when /^CONFIG\w* Options$/ then option(name, value)
+    when /^CONFIG\w* Options$/ then @constants && option(name, value)
     end
   end
 
-  # `_WDT_ON_2H` of a PIC18 and `_WDTE_ON` of a PIC16; a name of the setting may
-  # have a _ in it, so each way to part them counts.
+  # `_WDTE_ON` of a PIC16; a name of the setting may have a _ in it, so each way to part
+  # them counts.
   def option(name, value)
-    words = name.delete_prefix('_').sub(/_\d[LH]$/, '').split('_')
+    words = name.delete_prefix('_').split('_')
     (1...words.size).each do |n|
       (@options[words.take(n).join('_')] ||= {})[words.drop(n).join('_')] = value
     end
