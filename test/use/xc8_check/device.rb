@@ -4,7 +4,9 @@
 # device.rb PORT_FOLDER: what gputils' header and linker script of the chip say
 # against what a port's configuration.h, registers.h and port.c say, and the chip's
 # registers with their bits on standard output, as C for xc.h. Says what is wrong
-# and exits with 1. Without such a folder, the registers of the chip with its name.
+# and exits with 1.
+#
+# device.rb CHIP [-OPTION]... FILE...: the same against each `#pragma config` of these files.
 require_relative '../../../tools/lib/build/gputils'
 require_relative '../../../tools/lib/build/pic_port'
 
@@ -40,10 +42,8 @@ class Check
   end
 
   def known(name, value)
-    of_name = @device.options[name]
-    return (@wrong << "no setting #{name}") && nil unless of_name
-
-    of_name[value] or (@wrong << "no value #{value} of the setting #{name}") && nil
+    lack = @device.lack(name, value) and @wrong << lack
+    @device.options.dig(name, value)
   end
 
   # Their addresses, and the bits that have a mask: REGISTER_BIT.
@@ -69,5 +69,30 @@ class Check
   end
 end
 
-folder = ARGV.fetch(0)
-File.directory?(folder) ? Check.new(folder).check : puts(Device.new(PicPort.new(folder).chip).c_text)
+# Files of a user's.
+class Settings
+  # Words as numbers, which have no names.
+  NUMBERS = /\A(CONFIG|IDLOC)\d/.freeze
+
+  def initialize(chip, files)
+    @device = Device.new(chip)
+    @files = files
+  end
+
+  def check
+    wrong = @files.flat_map { |file| File.readlines(file).flat_map.with_index(1) { |line, at| lacks(line).map { |lack| "#{file}:#{at}: #{lack}" } } }
+    abort wrong.join("\n") unless wrong.empty?
+    puts @device.c_text
+  end
+
+  private
+
+  def lacks(line)
+    text = line[%r{^\s*#\s*pragma\s+config\s(.*?)(?://|/\*|$)}, 1].to_s
+    text.scan(/(\w+)\s*=\s*(\w+)/).reject { |name,| name =~ NUMBERS }
+        .map { |name, value| @device.lack(name, value) }.compact
+  end
+end
+
+place, *words = ARGV
+words.empty? ? Check.new(place).check : Settings.new(PicPort.new(place).chip, words.grep_v(/^-/)).check

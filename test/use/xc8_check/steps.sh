@@ -17,11 +17,11 @@ project() {
     done
 }
 
-# device FOLDER: what the port there says of its chip, and the chip's registers
-# for <xc.h>. Without such a folder, the registers of the chip with its name.
+# device FOLDER | CHIP WORD...: what the port there or a user's files say of the
+# chip, and its registers for <xc.h>.
 device() {
     mkdir -p "$registers/$(basename "$1")"
-    ruby "$root/test/use/xc8_check/device.rb" "$1" >"$registers/$(basename "$1")/xc_device.h"
+    ruby "$root/test/use/xc8_check/device.rb" "$@" >"$registers/$(basename "$1")/xc_device.h"
 }
 
 # front_end CHIP WORD...: the files among the words, and options.
@@ -76,6 +76,6 @@ own_files() {
         esac
     done
     [ $count -gt 0 ] || die "which files? test/use/xc8_check/run $1 FILE.c..."
-    device "$1" && front_end "$@" &&
+    device "$@" && front_end "$@" &&
         echo "ok $count of yours as for $class, as far as it can be told without XC8"
 }

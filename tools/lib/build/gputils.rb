@@ -33,6 +33,13 @@ class Device
     abort "gputils has no registers of the #{chip}" if @registers.empty?
   end
 
+  # What is wrong with a setting of the configuration words, or nil.
+  def lack(name, value)
+    return "no setting #{name}" unless options[name]
+
+    "no value #{value} of the setting #{name}" unless options[name][value]
+  end
+
   # For each register its byte, and its bits by name where it has any.
   def c_text
     registers.keys.map { |name| "extern volatile unsigned char #{name};\n" }.join +
