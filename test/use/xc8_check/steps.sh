@@ -65,17 +65,18 @@ port_of() {
 
 # own_files CHIP WORD...: a user's.
 own_files() {
-    count=0
+    chip=$1 count=0
+    shift
     for word; do
         case $word in
-        pic* | -*) ;;
+        -*) ;;
         *)
             [ -f "$word" ] || die "there is no file $word"
             count=$((count + 1))
             ;;
         esac
     done
-    [ $count -gt 0 ] || die "which files? test/use/xc8_check/run $1 FILE.c..."
-    device "$@" && front_end "$@" &&
-        echo "ok $count of yours as for $class, as far as it can be told without XC8"
+    [ $count -gt 0 ] || die "which files? test/use/xc8_check/run $chip FILE.c..."
+    device "$chip" "$@" && front_end "$chip" "$@" &&
+        echo "ok: $count of your files for $chip, as far as can be told without XC8"
 }
