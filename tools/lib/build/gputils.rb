@@ -40,10 +40,11 @@ class Device
     "no value #{value} of the setting #{name}" unless options[name][value]
   end
 
-  # For each register its byte, and its bits by name where it has any.
+  # For each register its byte, and its bits by name where it has any; for a pair both bytes.
   def c_text
-    registers.keys.map { |name| "extern volatile unsigned char #{name};\n" }.join +
-      bits.map { |name, fields| "extern volatile union {\n#{structs(fields)}} #{name}bits;\n" }.join
+    (registers.keys - pairs).map { |name| "extern volatile unsigned char #{name};\n" }.join +
+      pairs.map { |name| "extern volatile unsigned short #{name};\n" }.join +
+      bits.map { |name, of| "extern volatile union {\n#{structs(of)}#{fields(of)}} #{name}bits;\n" }.join
   end
 
   private
@@ -63,6 +64,25 @@ class Device
     (1...words.size).each do |n|
       (@options[words.take(n).join('_')] ||= {})[words.drop(n).join('_')] = value
     end
+  end
+
+  # XL and XH, side by side, as X.
+  def pairs
+    registers.keys.grep(/L\z/).map(&:chop).select do |name|
+      first = registers["#{name}L"]
+      registers["#{name}H"] == first + 1 && registers.fetch(name, first) == first
+    end
+  end
+
+  # Bits with numbers, side by side: X0 and X1 are also a field X.
+  def fields(bits)
+    bits.keys.grep(/\D0\z/).map do |first|
+      name = first.chop
+      size = (0..7).take_while { |n| bits["#{name}#{n}"] == bits[first] + n }.size
+      next if size == 1 || bits.key?(name)
+
+      "    struct { unsigned char : #{bits[first]}; unsigned char #{name} : #{size}; };\n"
+    end.join
   end
 
   # A bit may have several names: each struct has one of them for each bit.
