@@ -76,6 +76,7 @@ class Program
     @names = @own && files.flat_map { |file| @symbols.of(file).first }.join('|')
     done = pic? ? for_pic(library + port + files, main) : for_avr([*library, *port, *files, *main])
     say_how(library) if !done && $CHILD_STATUS.exitstatus == TOO_BIG
+    say_object if !done && @own
     done
   end
 
@@ -153,6 +154,12 @@ class Program
 
   def for_avr(files)
     system('tools/lib/build/build_avr', @chip, @output, *('-Wno-error' if @own), *@options, *files)
+  end
+
+  def say_object
+    "#{@options.join(' ')} #{@named}".scan(/(FIXPID_\w+_OBJECT)[= ](\w+)/) do |switch, name|
+      warn "program: #{switch}=#{name}: no file defines #{name}" unless @names.split('|').include?(name)
+    end
   end
 
   def say_how(library)
