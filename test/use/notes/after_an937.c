@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The motor of before_an937.asm with fixpid_an937, for SDCC and XC8. To build
-// it by hand with SDCC and look at it in gpsim, type in the folder of the
-// sources:
+// The motor of before_an937.asm with fixpid_an937, for SDCC and XC8. Another
+// PIC than the PIC18F4520 has other registers: start from a copy of
+// port/template, with `tools/firmware --chip CHIP --port COPY`. To build this
+// by hand with SDCC and look at it in gpsim, type in the folder of the sources:
 //
 //     here=test/use/notes
 //     paths="-Iinclude -Iport/pic/pic18f4520 -I$here"

@@ -30,7 +30,7 @@ module Commands
       case program
       when 'tools/test' then (names - parts).empty?
       when 'tools/prove' then options.any? || proofs.any? { |proof| proof.matches?(names) }
-      when %r{\Atest/use/(?:consumers|packages|firmware|notes|python)/} then (names.grep_v(PLACE) - %w[daily weekly] - tests(program)).empty?
+      when %r{\Atest/use/(?:consumers|packages|firmware|notes|python|xc8_check)/} then (names.grep_v(PLACE) - %w[daily weekly] - tests(program)).empty?
       else names.all? { |name| name.match?(PLACE) || named?(program, name.delete("'")) }
       end
     end
