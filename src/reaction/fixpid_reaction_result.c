@@ -8,7 +8,7 @@
 
 #define TOO_MUCH ((uint32_t)0xFFFFFFFFu)
 #define DELAY_MAX ((uint32_t)0x3FFFFFFu) // so that three of them have 28 bits
-#define HALF ((uint32_t)0x7FFFFFFFu)
+#define LOWER_BITS ((uint32_t)0x7FFFFFFFu)
 #define KD_DELAY_MAX 65535u
 #define KI_MIN 8u
 #define FILTERED 1023u // of a delay x 16: a quarter of Td, or two steps
@@ -30,8 +30,8 @@ static uint32_t ratio(uint32_t a, uint32_t b, uint8_t places)
     for (turn = (uint8_t)(32u + places); turn != 0u; turn--) {
         const bool carry = (bits >> 31) != 0u;
 
-        rest = (rest & HALF) << 1;
-        bits = (bits & HALF) << 1;
+        rest = (rest & LOWER_BITS) << 1;
+        bits = (bits & LOWER_BITS) << 1;
         if (carry) {
             if (turn <= places) {
                 return TOO_MUCH;
