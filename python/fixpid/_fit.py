@@ -3,6 +3,7 @@
 found becomes a Fit."""
 import math
 import threading
+from datetime import timedelta
 from typing import Any, Dict, List, Optional, Tuple
 
 from ._format import digits
@@ -203,10 +204,9 @@ def _seconds(t: List[Any], unit: Optional[str]) -> Tuple[List[float], Optional[s
     if unit is not None and (dates or stamps or unit not in UNITS):
         raise ValueError(f"unit = {unit!r} is refused: " + (
             "dates say it themselves" if dates or stamps else f"{', '.join(UNITS)} are legal"))
-    if dates:
-        return [math.nan if _is_missing(one) else (one - first).total_seconds() for one in t], "s"
-    if stamps:
-        return [math.nan if _is_missing(one) else float((one - first) / type(first - first)(1, "s")) for one in t], "s"
+    if dates or stamps:
+        second = type(first - first)(1, "s") if stamps else timedelta(seconds=1)
+        return [math.nan if _is_missing(one) else float((one - first) / second) for one in t], "s"
     numbers = [_value(one) for one in t]
     first = next(filter(math.isfinite, numbers), 0.0)
     return [(one - first) * UNITS[unit or "s"] for one in numbers], unit

@@ -156,15 +156,20 @@ class Program
     system('tools/lib/build/build_avr', @chip, @output, *('-Wno-error' if @own), *@options, *files)
   end
 
+  # The user's switches: options, and those of a fixpid_config.h.
+  def switches
+    "#{@options.join(' ')} #{@named}"
+  end
+
   def say_object
-    "#{@options.join(' ')} #{@named}".scan(/(FIXPID_\w+_OBJECT)[= ](\w+)/) do |switch, name|
+    switches.scan(/(FIXPID_\w+_OBJECT)[= ](\w+)/) do |switch, name|
       warn "program: #{switch}=#{name}: no file defines #{name}" unless @names.split('|').include?(name)
     end
   end
 
   def say_how(library)
     names = (library.map { |path| path.split('/')[1] }.uniq & Modules.with_object).map { |name| "FIXPID_#{name.upcase}_OBJECT" }
-    name = names.find { |one| !"#{@options.join(' ')} #{@named}".include?(one) }
+    name = names.find { |one| !switches.include?(one) }
     warn "program: a controller with a name takes far less of a PIC: -D#{name}=NAME" if name
   end
 end
